@@ -25,7 +25,7 @@ from p2sf.paraxial.pupils import (
     paraxial_rays,
     rim_radii,
 )
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask import CLEAR, PupilMask
 
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]
@@ -176,10 +176,11 @@ def set_up(lens: Lens, request: Request) -> Setup:
     return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)
 
 
-def mask_of(lens: Lens, request: Request) -> PupilMask:
-    """Return the lens's mask with what a request states of it; RequestError for what no mask can have."""
+def mask_of(lens: Lens | None, request: Request) -> PupilMask:
+    """Return the lens's mask, or a clear one, with what a request states; RequestError for what no mask can have."""
+    own = CLEAR if lens is None else lens.mask
     stated = {name: getattr(request, name) for name in MASK if getattr(request, name) is not None}
-    return replace(lens.mask, **stated) if stated else lens.mask
+    return replace(own, **stated) if stated else own
 
 
 def _of_the_request(error: GlassError, request: Request) -> GlassError:

@@ -21,7 +21,7 @@ from p2sf.measure.measurement import Measurement, measured, write_measurement
 from p2sf.measure.point_model import Optics
 from p2sf.measure.reading import read_frame
 from p2sf.messages import Message
-from p2sf.request import Request, set_up
+from p2sf.request import Request, mask_of, set_up
 
 Pictures = Annotated[list[Path], Parameter(help="Pictures of the same points, one for each focus position.")]
 LensOption = Annotated[str | None, Parameter(help="The lens as designed, from which the picture departs.")]
@@ -96,7 +96,8 @@ def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | Non
                 "{parameter} is not given; give it, or the lens by {lens}", parameter=name, lens="--lens"
             )
     assert request.f_number is not None and request.wavelength_nm is not None
-    return None, Optics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch)
+    mask = mask_of(None, request)
+    return None, Optics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask)
 
 
 def record(found: Measurement) -> dict[str, Any]:

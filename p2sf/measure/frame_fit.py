@@ -14,6 +14,7 @@ from p2sf.errors import Cancelled, RequestError
 from p2sf.measure.frame_start import suggested
 from p2sf.measure.frame_terms import FrameModel, FramePoint, PointPupil
 from p2sf.measure.point_model import PixelSum
+from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import seen
 from p2sf.threads import one_blas_thread
 
@@ -82,15 +83,15 @@ class PointSum:
         self.root = np.where(self.good, 1 / np.sqrt(np.broadcast_to(picture.variance, self.data.shape)), 0.0)
         half_um = max(self.data.shape) / 2 * model.optics.pixel_um
         self.pupil: PointPupil = model.pupil(point.x_mm, point.y_mm, half_um)
-        rows = self.pupil.rows
-        self.fy = np.broadcast_to(rows.fy[:, None], rows.fx.shape)
+        nodes = self.pupil.nodes
         self.phase = self.pupil.phase + point.focus_um * self.pupil.focus
-        self.columns = np.concatenate([self.pupil.terms, -rows.fx[None], -self.fy[None]]).astype(np.float32)
-        self.sum = PixelSum(rows, self.data.shape, model.optics)
+        self.columns = np.concatenate([self.pupil.terms, -nodes.fx[None], -nodes.fy[None]]).astype(np.float32)
+        self.sum = PixelSum(nodes, self.data.shape, model.optics)
 
     def light(self, values: np.ndarray, x: float, y: float) -> tuple[np.ndarray, np.ndarray]:
         """Return the share of all light on each pixel and its derivatives by the unknowns, x and y."""
-        phase = self.phase + np.tensordot(values, self.pupil.terms, 1) - (self.pupil.rows.fx * x + self.fy * y)
+        nodes = self.pupil.nodes
+        phase = self.phase + values @ self.pupil.terms - (nodes.fx * x + nodes.fy * y)
         return self.sum.light_and_slopes(phase, self.columns)
 
     def start(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> np.ndarray:
@@ -200,7 +201,7 @@ def _result(
     squares = np.array([rest @ rest for rest, _, _ in parts])
     r2 = np.array([_r2(one, light) for one, light in zip(sums, modelled, strict=True)])
     all_chi2 = float(squares.sum()) / max(1, sum(freedom) - values.size)
-    one_focus = model.lens is None and not any(point.focus_um for point in points)
+    one_focus = model.lens is None and not any(point.focus_um for point in points) and has_twin(model.optics.mask)
     odd = np.array([name == "w31" for name in model.unknowns])
     twin = np.where(odd, values, -values) if one_focus else None
     chi2s = squares / np.array(freedom)

@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.measure.frame_terms import UM_PER_DEGREE_MM, FrameModel, FramePoint
 from p2sf.measure.point_fit import fit_point
+from p2sf.measure.pupil_nodes import has_twin
 
 SUGGESTING = 8  # points
 
@@ -31,7 +32,8 @@ def suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
         wanted.append(fit_point(pictures, model.optics, azimuth_deg=float(np.rad2deg(np.arctan2(x, y)))).numbers)
     matrix = np.concatenate([six_of_unknowns(point.x_mm, point.y_mm, model) for point in chosen])
     least, best = np.inf, np.zeros(len(model.unknowns))
-    for signs in product((1.0,) if several else (1.0, -1.0), repeat=len(chosen)):
+    open_sign = not several and has_twin(model.optics.mask)
+    for signs in product((1.0, -1.0) if open_sign else (1.0,), repeat=len(chosen)):
         right = np.concatenate([numbers * [s, 1.0, s, s] for s, numbers in zip(signs, wanted, strict=True)])
         values, *_ = np.linalg.lstsq(matrix, right, rcond=1e-9)
         left = float(np.linalg.norm(matrix @ values - right))

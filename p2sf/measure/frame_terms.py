@@ -7,17 +7,21 @@ from math import pi
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
-from p2sf.lens.lens import Lens, with_sensor
-from p2sf.measure.lens_pupil import lens_rows
-from p2sf.measure.point_model import Optics, PupilRows, counts_for, paraxial_rows
+from p2sf.lens.lens import Lens, with_mask, with_sensor
+from p2sf.lens.source import Source
+from p2sf.measure.lens_pupil import lens_nodes
+from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import turned
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
+from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.seen_mask import mask_seen
 
 FOCUS = ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg")
 FIELD = ("w40", "w31", "w22", "w20")
@@ -43,12 +47,12 @@ class FramePoint:
 
 @dataclass(frozen=True, eq=False)
 class PointPupil:
-    """The pupil of one point of a frame: nodes, its wavefront in waves, (rows, columns), and what each unknown adds.
+    """The pupil of one point of a frame: nodes, its wavefront in waves, (nodes,), and what each unknown adds.
 
-    ``terms``: (unknowns, rows, columns), waves per unit. ``focus``: waves per µm by which the sensor recedes.
+    ``terms``: (unknowns, nodes), waves per unit. ``focus``: waves per µm by which the sensor recedes.
     """
 
-    rows: PupilRows
+    nodes: PupilNodes
     phase: np.ndarray
     terms: np.ndarray
     focus: np.ndarray
@@ -101,26 +105,25 @@ class FrameModel:
 
     def _paraxial(self, x: float, y: float, azimuth: float, height: float, half_um: float) -> PointPupil:
         counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
-        rows = paraxial_rows(counts, self.optics.cycles)
-        square = rows.xi**2 + rows.eta**2
+        nodes = paraxial_nodes(counts, self.optics.cycles, self.optics.mask, self.optics.wavelength_um)
+        square = nodes.xi**2 + nodes.eta**2
         focus = square * self.focus_waves_per_um
-        across, along = turned(rows.xi, rows.eta, azimuth)
-        return self._with_terms(rows, np.zeros_like(rows.xi), focus, (x, y, height), (across, along), {})
+        across, along = turned(nodes.xi, nodes.eta, azimuth)
+        return self._with_terms(nodes, np.zeros_like(nodes.xi), focus, (x, y, height), (across, along), {})
 
     def _of_lens(self, x: float, y: float, azimuth: float, height: float, half_um: float) -> PointPupil:
         assert self.lens is not None
         found, moved = self.fits(height)
         counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
-        rows = lens_rows(found, azimuth, counts)
+        nodes = lens_nodes(found, azimuth, counts)
         forms = np.stack([found.phase, *(change for change in moved.values())])
-        values = -(forms @ basis(found.level.wave_order, rows.xi.ravel(), rows.eta.ravel()))
-        phase, focus, *others = values.reshape(len(forms), *rows.xi.shape)
+        phase, focus, *others = -(forms @ basis(found.level.wave_order, nodes.xi, nodes.eta))
         spacings = dict(zip(tuple(moved)[1:], others, strict=True))
-        return self._with_terms(rows, phase, focus, (x, y, height), (rows.xi, rows.eta), spacings)
+        return self._with_terms(nodes, phase, focus, (x, y, height), (nodes.xi, nodes.eta), spacings)
 
     def _with_terms(
         self,
-        rows: PupilRows,
+        nodes: PupilNodes,
         phase: np.ndarray,
         focus: np.ndarray,
         place: tuple[float, float, float],
@@ -140,7 +143,7 @@ class FrameModel:
             "w20": h * h * square,
             **spacings,
         }
-        return PointPupil(rows, phase, np.stack([made[name] for name in self.unknowns]), focus)
+        return PointPupil(nodes, phase + nodes.waves, np.stack([made[name] for name in self.unknowns]), focus)
 
     def six_of_lens(self, height_mm: float) -> np.ndarray:
         """Return W40, W31, W22 and W20 + Wd of the lens where a chief ray lands at a height; 0 without a lens."""
@@ -182,10 +185,16 @@ class FrameModel:
 
     def _map(self) -> SensorMap:
         assert self.lens is not None
-        return sensor_map(self.lens, self.depth_mm, self.optics.wavelength_um, self.height_mm * 1.02)
+        return chief_rays(self.lens, self.depth_mm, self.optics.wavelength_um, self.height_mm * 1.02)
+
+
+def chief_rays(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
+    """Return where chief rays land up to a height; they pass the middle of the stop, whatever mask stands there."""
+    return sensor_map(with_mask(lens, CLEAR), depth_mm, wavelength_um, height_mm)
 
 
 def lens_optics(lens: Lens, depth_mm: float, wavelength_um: float, pixel_um: float, fill: float = 1.0) -> Optics:
     """Return the scale of a lens's PSFs. Raises GeometryError where the lens forms no image."""
     c = coefficients(lens, depth_mm, 0.0, wavelength_um)
-    return Optics(abs(float(c.reduced_slope)), wavelength_um, pixel_um, fill)
+    mask = mask_seen(lens, Source(depth_mm=depth_mm, wavelength_nm=wavelength_um * NM_PER_UM))
+    return Optics(abs(float(c.reduced_slope)), wavelength_um, pixel_um, fill, mask)

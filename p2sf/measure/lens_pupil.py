@@ -5,11 +5,14 @@ even in anything. Row j follows fy(u, v) = c_j between two points of the rim, c_
 Gauss–Chebyshev quadrature as in `separable_sum`, for any map that rises steadily.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from p2sf.errors import SamplingError
-from p2sf.measure.point_model import PupilRows
 from p2sf.measure.pupil_model import turned
+from p2sf.measure.pupil_nodes import PupilNodes, PupilRows, counts_of, open_nodes
+from p2sf.psf.disc_rows import scaled
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.zernike import basis, gradient
 from p2sf.raytrace.fit import FittedPencil
@@ -51,12 +54,28 @@ class TurnedMap:
         return x.reshape(shape), y.reshape(shape)
 
 
-def lens_rows(found: FittedPencil, azimuth: float, counts: tuple[int, int]) -> PupilRows:
-    """Return nodes of the whole pupil of a fit, turned by ``azimuth`` radians from +y towards +x.
+def lens_nodes(found: FittedPencil, azimuth: float, counts: tuple[int, int]) -> PupilNodes:
+    """Return nodes of the open pupil of a fit, turned by ``azimuth`` radians from +y towards +x.
 
-    ``fx`` and ``fy`` are relative to the chief ray. Raises SamplingError where fy does not rise across the pupil.
+    ``fx`` and ``fy`` are relative to the chief ray, ξ across the field's plane and η in it; the mask stays as it is.
+    Raises SamplingError where fy does not rise across the pupil.
     """
-    seen, (rows, columns) = TurnedMap(found, azimuth), counts
+    whole = TurnedMap(found, azimuth)
+
+    def disc(radius: float) -> PupilRows:
+        return _disc(TurnedMap(scaled(found, radius), azimuth), radius, counts_of(radius, counts))
+
+    def place(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return *whole.at(u, v), found.weight_at(*turned(u, v, azimuth))
+
+    nodes = open_nodes(found.mask, found.wavelength_um, counts, disc, place)
+    xi, eta = turned(nodes.xi, nodes.eta, azimuth)
+    return replace(nodes, xi=xi, eta=eta)
+
+
+def _disc(seen: TurnedMap, radius: float, counts: tuple[int, int]) -> PupilRows:
+    """Return the nodes of a disc of the pupil, along the sensor's axes, from its map over its own unit disc."""
+    rows, columns = counts
     low, high = (_extreme(seen, angle) for angle in (np.pi, 0.0))
     theta = np.arange(1, rows + 1) * (np.pi / (rows + 1))
     (bottom,), (top,) = (seen.at(np.sin(a), np.cos(a))[1] for a in (low, high))
@@ -75,11 +94,10 @@ def lens_rows(found: FittedPencil, azimuth: float, counts: tuple[int, int]) -> P
             break
     else:
         raise SamplingError("the pupil map of this lens folds over; stop the lens down or take a smaller field")
-    weight = (ends[1] - ends[0]) * share * np.sin(theta)[:, None] / np.abs(slope)
-    xi, eta = turned(u, v, azimuth)
-    weight = weight * found.weight_at(xi, eta)
-    fx, _ = seen.at(u, v)
-    return PupilRows(fy, fx, xi, eta, weight / weight.sum())
+    # (1/π)∫dfy∫du/|∂fy/∂v|, with dfy = (top − bottom)/2·sin θ dθ
+    area = abs(top - bottom) / (4 * (rows + 1)) * (ends[1] - ends[0]) * share * np.sin(theta)[:, None] / np.abs(slope)
+    light = seen.found.weight_at(*turned(u, v, seen.azimuth))
+    return PupilRows(fy, seen.at(u, v)[0], radius * u, radius * v, radius**2 * area * light)
 
 
 def _extreme(seen: TurnedMap, guess: float) -> np.ndarray:

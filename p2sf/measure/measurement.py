@@ -210,7 +210,8 @@ def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
         "r2": np.array([one.r2 for _, one in used]),
         "chi2": np.array([one.chi2 for _, one in used]),
     }
-    meta: dict[str, object] = {"optics": vars(found.optics), "points_found": len(found.points)}
+    scale = {name: value for name, value in vars(found.optics).items() if name != "mask"}
+    meta: dict[str, object] = {"optics": scale, "points_found": len(found.points)}
     if used:
         arrays["numbers"], arrays["errors"], arrays["bounds"] = (
             np.array([getattr(one, name) for _, one in used]) for name in ("numbers", "errors", "bounds")

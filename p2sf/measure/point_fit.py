@@ -10,6 +10,7 @@ from p2sf.errors import RequestError
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PER_FRAME, PointPicture, Problem
 from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model
+from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import Start, starts
 from p2sf.messages import Message
 from p2sf.threads import one_blas_thread
@@ -248,7 +249,7 @@ def _result(problem: Problem, minima: Sequence[_Minimum], near: np.ndarray | Non
     modelled = problem.modelled(unknowns)
     chi2 = float(rest @ rest) / problem.freedom
     others = [m.unknowns[:numbers] for m in minima[1:] if 2 * (m.cost - best.cost) < AS_GOOD * max(1.0, chi2)]
-    if len(problem.pictures) == 1:
+    if _open_sign(problem):
         twin = problem.model.twin(unknowns[:numbers], problem.pictures[0].defocus_waves)
         others = [twin, *(other for other in others if np.abs(other - twin).max() > SAME_WAVES)]
     fit = PointFit(
@@ -266,12 +267,17 @@ def _result(problem: Problem, minima: Sequence[_Minimum], near: np.ndarray | Non
     return replace(fit, warnings=_warnings(fit, problem))
 
 
+def _open_sign(problem: Problem) -> bool:
+    """Return whether the pictures leave the common sign of all even terms open."""
+    return len(problem.pictures) == 1 and has_twin(problem.optics.mask)
+
+
 def _nearest_first(problem: Problem, minima: Sequence[_Minimum], near: np.ndarray) -> list[_Minimum]:
     """Return minima, first the nearest of those that explain the pictures as well as the deepest, twins included."""
     least = minima[0].cost
     most = least + 0.5 * AS_GOOD * max(1.0, 2 * least / problem.freedom)
     as_good = [minimum for minimum in minima if minimum.cost < most]
-    if len(problem.pictures) == 1:
+    if _open_sign(problem):
         known = problem.pictures[0].defocus_waves
         for minimum in list(as_good):
             unknowns = minimum.unknowns.copy()
@@ -306,9 +312,10 @@ def chi2_warning(chi2: float, freedom: int) -> tuple[Message, ...]:
 def _warnings(fit: PointFit, problem: Problem) -> tuple[Message, ...]:
     """Return what a reader has to know before using the numbers."""
     out = list(chi2_warning(fit.chi2, problem.freedom))
-    if len(fit.modelled) == 1:
+    one_sign = _open_sign(problem)
+    if one_sign:
         out.append(Message("one focus leaves the common sign of all even terms open; a second, known focus decides"))
-    further = len(fit.others) - (len(fit.modelled) == 1)
+    further = len(fit.others) - one_sign
     if further:
         out.append(Message("other wavefronts explain the pictures as well: {count}; add a focus", count=further))
     waves = fit.errors[: len(fit.model.wave_names)]

@@ -5,19 +5,18 @@ b_k = ∂W/∂c_k, ∂|E|²/∂c_k = 2Re(E*·i2πΣ w·b_k·exp(…)): one more 
 term −f, a number m of the map the term x·∂f/∂m. The nodes lie in rows of equal fy, so that each sum is two products.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, pi
 
 import numpy as np
 
-from p2sf.measure.pupil_model import PupilModel
-from p2sf.psf.separable_sum import frequency_rows
-from p2sf.pupil.quadrature import chord_rows, chords_for, gauss_legendre
-from p2sf.raytrace.fit import FittedPencil, Level
-from p2sf.raytrace.ray_field import Steepness
+from p2sf.measure.pupil_nodes import PupilNodes
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import throughput
+from p2sf.pupil.quadrature import gauss_legendre
 
 DTYPE = np.complex64  # errors of 1e-6 of the peak, where noise is hardly below 1e-3
-NO_SLOPES = Steepness(0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -25,12 +24,14 @@ class Optics:
     """What is known of a picture's scale: numerical aperture in air or image space, wavelength in µm, pixel in µm.
 
     ``fill``: side of a pixel's sensitive square over the pitch; 0 takes the intensity at the pixel's centre.
+    ``mask``: what stands in the pupil, its ξ along +x and its η along +y of the sensor.
     """
 
     na: float
     wavelength_um: float
     pixel_um: float
     fill: float = 1.0
+    mask: PupilMask = CLEAR
 
     @property
     def cycles(self) -> float:
@@ -46,53 +47,6 @@ class Optics:
     def coarse_parts(self) -> int:
         """Return how many points across a pixel tell one minimum from another."""
         return min(self.parts, ceil(1.8 * self.cycles * self.pixel_um))
-
-
-@dataclass(frozen=True, eq=False)
-class PupilRows:
-    """Nodes of the whole pupil in rows of equal fy: ``fy`` (rows,), the rest (rows, columns); weights of unit sum."""
-
-    fy: np.ndarray
-    fx: np.ndarray
-    xi: np.ndarray
-    eta: np.ndarray
-    weight: np.ndarray
-
-
-def paraxial_rows(counts: tuple[int, int], cycles: float) -> PupilRows:
-    """Return nodes (Gauss–Chebyshev × Gauss–Legendre) whose frequencies are NA/λ·(ξ, η)."""
-    quarter = chord_rows(*counts)
-    half = np.concatenate([quarter.xi, quarter.xi[::-1]])
-    eta = np.concatenate([quarter.eta, -quarter.eta[::-1]])
-    weight = np.concatenate([quarter.weight, quarter.weight[::-1]]) / 4
-    xi = np.concatenate([-half[:, ::-1], half], axis=1)
-    weight = np.concatenate([weight[:, ::-1], weight], axis=1)
-    return PupilRows(cycles * eta, cycles * xi, xi, np.broadcast_to(eta[:, None], xi.shape), weight)
-
-
-def mapped_rows(model: PupilModel, numbers: np.ndarray, counts: tuple[int, int], cycles: float) -> PupilRows | None:
-    """Return nodes for the pupil map of these numbers, None where the map folds the pupil over."""
-    _, across, along = model.split(numbers)
-    level = Level(model.wave_order, model.map_order, 1, 2)
-    fx, fy = cycles * across, cycles * np.append(0.0, along)
-    found = FittedPencil(level, np.zeros(1), fx, fy, 0.0, NO_SLOPES, 0.0, 0)
-    rows = frequency_rows(found, *counts)
-    if rows is None:
-        return None
-    terms, _ = model.maps(rows.xi, rows.eta)
-    right = np.tensordot(fx, terms, 1)
-    return PupilRows(
-        rows.fy,
-        np.concatenate([-right[:, ::-1], right], axis=1),
-        np.concatenate([-rows.xi[:, ::-1], rows.xi], axis=1),
-        np.concatenate([rows.eta[:, ::-1], rows.eta], axis=1),
-        np.concatenate([rows.weight[:, ::-1], rows.weight], axis=1) / 2,
-    )
-
-
-def counts_for(slope: float, cycles: float, half_um: float) -> tuple[int, int]:
-    """Return (rows, columns) for a wavefront's steepest slope, waves per unit radius, over a window."""
-    return chords_for(slope, slope, cycles * half_um)
 
 
 def pixel_points(count: int, optics: Optics, parts: int) -> tuple[np.ndarray, np.ndarray]:
@@ -113,31 +67,51 @@ def wave(cycles: np.ndarray) -> np.ndarray:
 
 
 class PixelSum:
-    """Sums over the rows of one pupil on one window of (y, x) pixels; the kernels are computed once."""
+    """Sums over the nodes of one pupil on one window of (y, x) pixels; the kernels are computed once."""
 
-    def __init__(self, rows: PupilRows, shape: tuple[int, int], optics: Optics, parts: int | None = None):
-        self.rows, self.shape, self.optics = rows, shape, optics
+    def __init__(self, nodes: PupilNodes, shape: tuple[int, int], optics: Optics, parts: int | None = None):
+        self.nodes, self.shape, self.optics = nodes, shape, optics
         (self.y, share), (self.x, _) = (pixel_points(count, optics, parts or optics.parts) for count in shape)
         self.share = share.astype(np.float32)
-        self.up = wave(np.multiply.outer(self.y, rows.fy))
-        self.across = wave(np.multiply.outer(rows.fx, self.x))
-        # of all the light, a pixel's part: ∫|E|²dx = 1/(π·cycles²) for weights of unit sum (Parseval)
-        self.scale = pi * (optics.cycles * optics.pixel_um) ** 2
+        self.kernels = [
+            (
+                wave(np.multiply.outer(self.y, nodes.fy[some].reshape(size)[:, 0])),
+                wave(np.multiply.outer(nodes.fx[some].reshape(size), self.x)),
+            )
+            for size, some in self._blocks()
+        ]
+        # Of all the light, a pixel's part: ∫|E|²dx = ⟨A²⟩/⟨A⟩²/(π·cycles²) for weights of unit sum (Parseval).
+        self.scale = pi * (optics.cycles * optics.pixel_um) ** 2 / throughput(optics.mask).spreading
+
+    def _blocks(self) -> Iterator[tuple[tuple[int, int], slice]]:
+        """Yield rows and columns of each group of nodes in rows, and where they lie."""
+        start = 0
+        for rows, columns in self.nodes.blocks:
+            yield (rows, columns), slice(start, start + rows * columns)
+            start += rows * columns
 
     def fields(self, phase: np.ndarray, terms: np.ndarray) -> np.ndarray:
-        """Return Σ w·exp(i2π·phase)·(1, terms…)·wave, (y points, 1 + terms, x points)."""
-        amplitude = wave(phase) * self.rows.weight.astype(np.float32)
-        every = np.empty((len(phase), 1 + len(terms), phase.shape[1]), DTYPE)
-        every[:, 0] = amplitude
-        np.multiply(amplitude[:, None], terms.transpose(1, 0, 2), out=every[:, 1:])
-        along = every @ self.across
-        field: np.ndarray = self.up @ along.reshape(len(along), -1)
-        return field.reshape(self.y.size, len(terms) + 1, self.x.size)
+        """Return Σ w·exp(i2π·phase)·(1, terms…)·wave, (y points, 1 + terms, x points); ``terms`` (terms, nodes)."""
+        amplitude = wave(phase) * self.nodes.weight.astype(np.float32)
+        total: np.ndarray | None = None
+        for ((rows, columns), some), (up, across) in zip(self._blocks(), self.kernels, strict=True):
+            every = np.empty((rows, 1 + len(terms), columns), DTYPE)
+            every[:, 0] = here = amplitude[some].reshape(rows, columns)
+            parts = terms[:, some].reshape(-1, rows, columns)
+            np.multiply(here[:, None], parts.transpose(1, 0, 2), out=every[:, 1:])
+            field = up @ (every @ across).reshape(rows, -1)
+            total = field if total is None else total + field
+        assert total is not None
+        return total.reshape(self.y.size, len(terms) + 1, self.x.size)
 
     def many(self, pupils: np.ndarray) -> np.ndarray:
-        """Return the light of many fields exp(i2π·phase), (pupils, rows, columns), as (pupils, y, x)."""
-        along = (pupils * self.rows.weight.astype(np.float32)).transpose(1, 0, 2) @ self.across
-        field = (self.up @ along.reshape(len(along), -1)).reshape(self.y.size, len(pupils), self.x.size)
+        """Return the light of many fields exp(i2π·phase), (pupils, nodes), as (pupils, y, x)."""
+        weighted = pupils * self.nodes.weight.astype(np.float32)
+        field: np.ndarray | float = 0.0
+        for ((rows, columns), some), (up, across) in zip(self._blocks(), self.kernels, strict=True):
+            along = weighted[:, some].reshape(-1, rows, columns).transpose(1, 0, 2) @ across
+            field = field + up @ along.reshape(rows, -1)
+        field = np.asarray(field).reshape(self.y.size, len(pupils), self.x.size)
         light: np.ndarray = self.scale * self.binned(field.real**2 + field.imag**2)
         return light
 

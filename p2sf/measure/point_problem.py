@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.measure.point_model import Optics, PixelSum, PupilRows, counts_for, mapped_rows, paraxial_rows
+from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.pupil_model import PupilModel
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
+from p2sf.pupil.mask import mask_slopes
 
 PER_FRAME = 4  # x and y of the point, all of its light, background
 # A map that moves pupil points along the rim's inside, areas unchanged, leaves every PSF as it is; what is known of
@@ -107,7 +109,8 @@ class Problem:
         slope = max(self._slope(unknowns), 0.5 * self.optics.cycles * self.half_um)
         self.counts, self._at = counts_for(MARGIN * slope, self.optics.cycles, self.half_um), np.empty(0)
         if not self.model.mapped:
-            self._take(paraxial_rows(self.counts, self.optics.cycles))
+            optics = self.optics
+            self._take(paraxial_nodes(self.counts, optics.cycles, optics.mask, optics.wavelength_um))
 
     def needs_more(self, unknowns: np.ndarray) -> bool:
         """Return whether the wavefront has become too steep for its nodes."""
@@ -119,26 +122,32 @@ class Problem:
         eta, xi = np.meshgrid(line, line, indexing="ij")
         waves, _, _ = self.model.split(unknowns[: self.numbers])
         down, across = np.gradient(np.tensordot(waves, self.model.waves(xi, eta, self.azimuth), 1), line, line)
-        known = max(abs(p.defocus_waves) for p in self.pictures)
-        return float(np.hypot(down, across)[np.hypot(xi, eta) <= 1.0].max()) + 2 * known
+        known = 2 * max(abs(p.defocus_waves) for p in self.pictures) + self._filter_slope()
+        return float(np.hypot(down, across)[np.hypot(xi, eta) <= 1.0].max()) + known
 
-    def _take(self, rows: PupilRows) -> None:
+    def _filter_slope(self) -> float:
+        """Return about the steepest slope of the phase of a filter in the pupil, waves per unit radius."""
+        if not self.optics.mask.phased:
+            return 0.0
+        slopes = mask_slopes(self.optics.mask)
+        return float(np.hypot(slopes.path_radial_um, slopes.path_angular_um)) / self.optics.wavelength_um
+
+    def _take(self, nodes: PupilNodes) -> None:
         """Compute what does not change while the nodes stay."""
-        self.rows = rows
-        self.sums = [PixelSum(rows, p.values.shape, self.optics, self.parts) for p in self.pictures]
-        self.terms = self.model.waves(rows.xi, rows.eta, self.azimuth)
-        self.square = rows.xi**2 + rows.eta**2
-        self.fy = np.broadcast_to(rows.fy[:, None], rows.fx.shape)
-        maps = self.model.maps(rows.xi, rows.eta) if self.model.mapped else ()
+        self.nodes = nodes
+        self.sums = [PixelSum(nodes, p.values.shape, self.optics, self.parts) for p in self.pictures]
+        self.terms = self.model.waves(nodes.xi, nodes.eta, self.azimuth)
+        self.square = nodes.xi**2 + nodes.eta**2
+        maps = self.model.maps(nodes.xi, nodes.eta) if self.model.mapped else ()
         scaled = [self.optics.cycles * part for part in maps]
-        self.columns = np.concatenate([-rows.fx[None], -self.fy[None], self.terms, *scaled]).astype(np.float32)
+        self.columns = np.concatenate([-nodes.fx[None], -nodes.fy[None], self.terms, *scaled]).astype(np.float32)
 
     def light(self, unknowns: np.ndarray, number: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the share of all light on each pixel of a picture, (y, x), and its derivatives by x, y and numbers."""
         waves, across, along = self.model.split(unknowns[: self.numbers])
         x, y = self.frame(unknowns, number)[:2]
-        phase = np.tensordot(waves, self.terms, 1) + self.pictures[number].defocus_waves * self.square
-        phase -= self.rows.fx * x + self.fy * y
+        phase = waves @ self.terms + self.pictures[number].defocus_waves * self.square + self.nodes.waves
+        phase -= self.nodes.fx * x + self.nodes.fy * y
         return self.sums[number].light_and_slopes(phase, self.columns, (len(across), len(along)), (x, y))
 
     def evaluate(self, unknowns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -146,10 +155,11 @@ class Problem:
         if np.array_equal(unknowns, self._at):
             return self._found
         if self.model.mapped:
-            rows = mapped_rows(self.model, unknowns[: self.numbers], self.counts, self.optics.cycles)
-            if rows is None:  # a step that no pupil follows: refused, as it makes all worse
+            mask, wave = self.optics.mask, self.optics.wavelength_um
+            nodes = mapped_nodes(self.model, unknowns[: self.numbers], self.counts, self.optics.cycles, mask, wave)
+            if nodes is None:  # a step that no pupil follows: refused, as it makes all worse
                 return np.full_like(self._found[0], FOLDED), self._found[1]
-            self._take(rows)
+            self._take(nodes)
         rest, slopes = [], []
         for number, (data, root) in enumerate(zip(self.data, self.root, strict=True)):
             _, _, flux, background = self.frame(unknowns, number)

@@ -12,9 +12,10 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.measure.lens_pupil import lens_rows
-from p2sf.measure.point_model import Optics, PixelSum, counts_for
-from p2sf.pixel_kernels.sensor_points import sensor_map
+from p2sf.measure.frame_terms import chief_rays
+from p2sf.measure.lens_pupil import lens_nodes
+from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.pupil_nodes import counts_for
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
 
@@ -66,7 +67,7 @@ def simulated_frame(
     wave = wavelength_um or lens.reference_wavelength_um
     values = np.zeros((geometry.rows, geometry.columns))
     places = np.asarray(places_mm, float)
-    seen = sensor_map(lens, depth_mm, wave, max(float(np.hypot(*places.T).max()), 1e-3) * 1.01)
+    seen = chief_rays(lens, depth_mm, wave, max(float(np.hypot(*places.T).max()), 1e-3) * 1.01)
     for x, y in places.tolist():
         row, column = geometry.pixel_at(x, y)
         if not (0 <= row < geometry.rows and 0 <= column < geometry.columns):
@@ -110,11 +111,11 @@ def lens_light(
     spread = found.steepness.spread
     optics = Optics(spread, 1.0, pixel_um)
     counts = counts_for(found.steepness.radial, spread, 1.1 * half * pixel_um)
-    rows = lens_rows(found, float(np.arctan2(*place)), counts)
-    waves = found.phase @ basis(found.level.wave_order, rows.xi.ravel(), rows.eta.ravel())[: found.phase.size]
+    nodes = lens_nodes(found, float(np.arctan2(*place)), counts)
+    waves = found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
     x, y = ((a - b) * UM_PER_MM for a, b in zip(place, centre, strict=True))
-    phase = -waves.reshape(rows.xi.shape) - rows.fx * x - rows.fy[:, None] * y
-    return PixelSum(rows, (2 * half + 1,) * 2, optics, optics.parts + FINER).light(phase)
+    phase = nodes.waves - waves - nodes.fx * x - nodes.fy * y
+    return PixelSum(nodes, (2 * half + 1,) * 2, optics, optics.parts + FINER).light(phase)
 
 
 def _exposed(light: np.ndarray, exposure: Exposure) -> np.ndarray:

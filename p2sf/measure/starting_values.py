@@ -14,10 +14,12 @@ import numpy as np
 
 from p2sf.conventions import protected
 from p2sf.errors import RequestError
-from p2sf.measure.point_model import Optics, PixelSum, PupilRows, counts_for, paraxial_rows, wave
+from p2sf.measure.point_model import Optics, PixelSum, wave
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import SIX, pupil_model
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import mask_nodes
 
 CANDIDATES = 1024
 GENERAL_GOLDEN = 1.1673039782614187
@@ -98,8 +100,8 @@ def blurring(count: int, width: float) -> np.ndarray:
 def starts(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, keep: int) -> list[Start]:
     """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError."""
     found = [seen(picture, optics) for picture in pictures]
-    waves = candidates(found, pictures, optics.cycles, azimuth)
-    mean, _ = slope_moments(azimuth)
+    waves = candidates(found, pictures, optics, azimuth)
+    mean, _ = slope_moments(azimuth, optics.mask)
     offset = waves @ mean.T / optics.cycles  # the centroid of light is −⟨∇W⟩·λ/NA
     places = [np.stack([one.x + offset[:, 0], one.y + offset[:, 1]], 1) for one in found]
     unlike = _unlikeness(pictures, found, optics, azimuth, waves, places)
@@ -113,11 +115,11 @@ def starts(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, kee
     return [Start(waves[k], frames[k]) for k in np.argsort(unlike)[:keep]]
 
 
-def candidates(found: Sequence[Seen], pictures: Sequence[PointPicture], cycles: float, azimuth: float) -> np.ndarray:
+def candidates(found: Sequence[Seen], pictures: Sequence[PointPicture], optics: Optics, azimuth: float) -> np.ndarray:
     """Return wavefronts of the six model, (candidates, 4), as wide as all pictures together were seen to be."""
     from scipy.special import ndtri
 
-    _, square = slope_moments(azimuth)
+    _, square = slope_moments(azimuth, optics.mask)
     known = np.array([picture.defocus_waves for picture in pictures])
     # Directions from an additive recurrence of low discrepancy: powers of the root of x⁵ = x + 1 (Roberts 2018).
     step = GENERAL_GOLDEN ** -np.arange(1.0, 5.0)
@@ -125,17 +127,21 @@ def candidates(found: Sequence[Seen], pictures: Sequence[PointPicture], cycles: 
     direction /= np.sqrt(np.einsum("ck,kl,cl->c", direction, square, direction))[:, None]
     # Σ over pictures of the mean square slope of t·direction + known·ρ² is that seen: a quadratic equation in t.
     linear = known.sum() * direction @ square[:, 3]
-    constant = square[3, 3] * float(known @ known) - cycles**2 * sum(one.square_um2 for one in found)
+    constant = square[3, 3] * float(known @ known) - optics.cycles**2 * sum(one.square_um2 for one in found)
     root = np.sqrt(np.maximum(linear**2 - known.size * constant, 0.0))
     waves: np.ndarray = direction * np.maximum((root - linear) / known.size, NARROWEST)[:, None]
     return waves
 
 
 @lru_cache(maxsize=64)
-def slope_moments(azimuth: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return ⟨∇b⟩ of the six model's terms, (2, terms) across and up, and ⟨∇b·∇b⟩ without them, (terms, terms)."""
-    nodes = disc_nodes(8, 24)
-    xi, eta, weight = np.append(nodes.xi, -nodes.xi), np.append(nodes.eta, nodes.eta), np.tile(nodes.weight / 2, 2)
+def slope_moments(azimuth: float, mask: PupilMask = CLEAR) -> tuple[np.ndarray, np.ndarray]:
+    """Return ⟨∇b⟩ of the six model's terms, (2, terms) across and up, and ⟨∇b·∇b⟩ without them, (terms, terms).
+
+    Means are over the light behind the mask.
+    """
+    nodes = mask_nodes(mask, 8, 24).unfolded()
+    xi, eta, weight = nodes.xi, nodes.eta, nodes.weight * np.square(nodes.amplitude)
+    weight = weight / weight.sum()
     model, step = pupil_model(SIX), 1e-4
     slopes = np.stack(
         [
@@ -157,14 +163,13 @@ def _unlikeness(
     places: Sequence[np.ndarray],
 ) -> np.ndarray:
     """Return what each candidate leaves of the blurred pictures' squares, summed over pictures, (candidates,)."""
-    rows = _coarse_rows(pictures, optics)
-    basis = pupil_model(SIX).waves(rows.xi, rows.eta, azimuth)
-    fy = np.broadcast_to(rows.fy[:, None], rows.fx.shape)
-    every = np.stack([*basis, -rows.fx, -fy]).astype(np.float32)
+    nodes = _coarse_nodes(pictures, optics)
+    basis = pupil_model(SIX).waves(nodes.xi, nodes.eta, azimuth)
+    every = np.stack([*basis, -nodes.fx, -nodes.fy]).astype(np.float32)
     out = np.zeros(len(waves))
     for picture, one, place in zip(pictures, found, places, strict=True):
-        total = PixelSum(rows, picture.values.shape, optics, optics.coarse_parts)
-        known = picture.defocus_waves * (rows.xi**2 + rows.eta**2)
+        total = PixelSum(nodes, picture.values.shape, optics, optics.coarse_parts)
+        known = picture.defocus_waves * (nodes.xi**2 + nodes.eta**2) + nodes.waves
         down, across = (blurring(count, BLUR_PIXELS) for count in picture.values.shape)
         good = without_spikes(picture)
         data = down @ np.where(good, picture.values - one.background, 0.0).astype(np.float32) @ across.T
@@ -172,14 +177,15 @@ def _unlikeness(
         numbers = np.concatenate([waves, place], 1).astype(np.float32)
         for start in range(0, len(waves), TOGETHER):
             some = slice(start, start + TOGETHER)
-            light = total.many(wave(np.tensordot(numbers[some], every, 1) + known.astype(np.float32)))
+            light = total.many(wave(numbers[some] @ every + known.astype(np.float32)))
             blurred = down @ (light * good) @ across.T
             overlap = np.einsum("cyx,yx->c", blurred, data)
             out[some] += 1 - overlap**2 / (np.einsum("cyx,cyx->c", blurred, blurred) * square)
     return out
 
 
-def _coarse_rows(pictures: Sequence[PointPicture], optics: Optics) -> PupilRows:
+def _coarse_nodes(pictures: Sequence[PointPicture], optics: Optics) -> PupilNodes:
     """Return nodes that carry what lands in the windows, to some per cent."""
     half = max(max(picture.values.shape) for picture in pictures) / 2 * optics.pixel_um
-    return paraxial_rows(counts_for(0.8 * optics.cycles * half, optics.cycles, half / 2), optics.cycles)
+    counts = counts_for(0.8 * optics.cycles * half, optics.cycles, half / 2)
+    return paraxial_nodes(counts, optics.cycles, optics.mask, optics.wavelength_um)

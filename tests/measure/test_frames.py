@@ -13,7 +13,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
 from p2sf.measure.frame_fit import PointSum, fit_frame
 from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
-from p2sf.measure.lens_pupil import lens_rows
+from p2sf.measure.lens_pupil import lens_nodes
 from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import measured, read_measurement, write_measurement
 from p2sf.measure.point_model import Optics, PixelSum
@@ -49,11 +49,10 @@ def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimut
     """The kernels' transform repeats beyond their window, where the rim's rings go on: 1 % of the sharpest peak."""
     source, shift = Source(field_deg=14.0), (0.7, -0.4)
     found = fit(triplet, source)
-    rows = lens_rows(found, azimuth, (64, 64))
-    waves = -found.phase @ basis(found.level.wave_order, rows.xi.ravel(), rows.eta.ravel())[: found.phase.size]
+    nodes = lens_nodes(found, azimuth, (64, 64))
+    waves = -found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
     optics = lens_optics(triplet, np.inf, source.wavelength_um, PITCH)
-    phase = waves.reshape(rows.xi.shape) - rows.fx * shift[0] - rows.fy[:, None] * shift[1]
-    light = PixelSum(rows, (25, 25), optics).light(phase)
+    light = PixelSum(nodes, (25, 25), optics).light(waves - nodes.fx * shift[0] - nodes.fy * shift[1])
     pupil = pupil_map(triplet, source, "fitted", None)
     window = PixelWindow(half_width(pupil, PITCH), PITCH, samples_across(pupil, PITCH, 2.0))
     cut = slice(window.half - 12, window.half + 13)

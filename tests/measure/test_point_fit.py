@@ -10,9 +10,10 @@ from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.point_fit import fit_point
-from p2sf.measure.point_model import Optics, PixelSum, paraxial_rows
+from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
 from p2sf.measure.pupil_model import pupil_model
+from p2sf.measure.pupil_nodes import paraxial_nodes
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fit, summed
 from p2sf.psf.pixel_integrals import render_integrated
@@ -120,10 +121,10 @@ def test_a_field_along_x_turns_the_picture():
 
 def test_pixels_average_what_points_sample():
     """Against 15 × 15 points in every pixel, whose midpoint sum errs by 1e-3 of the curvature."""
-    rows = paraxial_rows((64, 64), OPTICS.cycles)
-    phase = np.tensordot(SIX, pupil_model("seidel").waves(rows.xi, rows.eta), 1)
-    light = PixelSum(rows, (9, 9), OPTICS).light(phase)
-    fine = PixelSum(rows, (135, 135), Optics(0.125, 0.55, 2.2 / 15, fill=0.0)).light(phase)
+    nodes = paraxial_nodes((64, 64), OPTICS.cycles)
+    phase = SIX @ pupil_model("seidel").waves(nodes.xi, nodes.eta)
+    light = PixelSum(nodes, (9, 9), OPTICS).light(phase)
+    fine = PixelSum(nodes, (135, 135), Optics(0.125, 0.55, 2.2 / 15, fill=0.0)).light(phase)
     assert light == pytest.approx(fine.reshape(9, 15, 9, 15).sum((1, 3)), abs=2e-3 * light.max())
 
 
