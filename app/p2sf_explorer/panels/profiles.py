@@ -50,7 +50,8 @@ class ProfilesPanel(CurvesPanel):
         self._say(said(self._paint(view, view)))
 
     def _say(self, text: str) -> None:
-        self.widget.set_readout(f"{self._legend} &nbsp; {text}")
+        whose = "A: " if self._live and self._live.difference else ""
+        self.widget.set_readout(f"{self._legend} &nbsp; {whose}{text}")
 
     def _show_sections(self, live: Live, view: ProfileCurves) -> None:
         curves = {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y}
