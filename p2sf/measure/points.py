@@ -18,6 +18,7 @@ from p2sf.messages import Message
 SMOOTH_PIXELS = 1.0
 SIGNIFICANT = 5.0  # standard deviations of the smoothed noise
 LEAST_PIXELS = 4  # of a point: fewer are hot pixels and cosmic rays
+LONE = 0.85  # of the light in one pixel: the sharpest point centred on a large pixel leaves a tenth in its rings
 BRIDGE = 3  # pixels between parts of one point, such as the rings of its diffraction
 WIDE = 1.7  # times the median extent: two points in one
 FAINT = 0.05  # of the median light
@@ -98,7 +99,7 @@ def _measured(frame: Frame, box: tuple[slice, slice], pixels: np.ndarray) -> Fou
     """Return one point from its pixels in a box of the frame; None for too few of them."""
     rows, columns = (part.start + inside for part, inside in zip(box, np.nonzero(pixels), strict=True))
     light = np.nan_to_num(frame.values[rows, columns] - frame.background)
-    if rows.size < LEAST_PIXELS or not light.sum() > 0 or np.sum(light > 0.5 * light.max()) < 2:
+    if rows.size < LEAST_PIXELS or not light.sum() > 0 or light.max() > LONE * light.sum():
         return None
     row, column = (float(axis @ light / light.sum()) for axis in (rows, columns))
     x, y = frame.geometry.place_of(row, column)

@@ -26,7 +26,8 @@ GENERAL_GOLDEN = 1.1673039782614187
 TOGETHER = 128  # candidates summed at a time
 BLUR_PIXELS = 1.0
 SIGNIFICANT = 3.0  # standard deviations of noise that light exceeds
-SPIKE, SPIKE_SIGMA = 4.0, 10.0  # times its highest neighbour, and standard deviations of noise
+SPIKE, SPIKE_SIGMA = 2.0, 10.0  # times what the sharpest point is above its neighbours, and deviations of noise
+LEAST_SPIKE = 4.0
 NARROWEST = 0.2  # least scale of a candidate, waves of RMS slope: a point without aberration has no direction
 
 
@@ -51,7 +52,7 @@ class Start:
 
 def seen(picture: PointPicture, optics: Optics) -> Seen:
     """Return where a picture's light is. Raises RequestError where nothing exceeds the noise."""
-    good = without_spikes(picture)
+    good = without_spikes(picture, optics)
     border = np.zeros(good.shape, bool)
     border[[0, -1]] = border[:, [0, -1]] = True
     edge = picture.values[border & good]
@@ -74,8 +75,9 @@ def seen(picture: PointPicture, optics: Optics) -> Seen:
     return Seen(float(at_x), float(at_y), float(flux), background, float(max(square, 0.0)))
 
 
-def without_spikes(picture: PointPicture) -> np.ndarray:
+def without_spikes(picture: PointPicture, optics: Optics) -> np.ndarray:
     """Return the usable pixels but those that stand alone, far above all their neighbours: no point is so narrow."""
+    most = SPIKE * max(_sharpest(optics), LEAST_SPIKE / SPIKE)
     good = picture.usable
     values = np.where(good, picture.values, -np.inf)
     around = np.pad(values, 1, constant_values=-np.inf)
@@ -84,9 +86,17 @@ def without_spikes(picture: PointPicture) -> np.ndarray:
     neighbours = np.max([around[i : i + rows, j : j + columns] for i, j in moves], axis=0)
     base = float(np.median(values[good]))
     noise = np.sqrt(np.broadcast_to(picture.variance, values.shape))
-    lone: np.ndarray = values - base > SPIKE * np.maximum(neighbours - base, 0.0) + SPIKE_SIGMA * noise
+    lone: np.ndarray = values - base > most * np.maximum(neighbours - base, 0.0) + SPIKE_SIGMA * noise
     kept: np.ndarray = good & ~lone
     return kept
+
+
+@lru_cache(maxsize=16)
+def _sharpest(optics: Optics) -> float:
+    """Return how many times brighter than its neighbours the pixel is on which an unaberrated point is centred."""
+    nodes = paraxial_nodes(counts_for(0.0, optics.cycles, 2 * optics.pixel_um), optics.cycles, optics.mask)
+    light = PixelSum(nodes, (3, 3), optics).light(np.zeros_like(nodes.xi))
+    return float(light[1, 1] / light[1, 0])
 
 
 def blurring(count: int, width: float) -> np.ndarray:
@@ -171,7 +181,7 @@ def _unlikeness(
         total = PixelSum(nodes, picture.values.shape, optics, optics.coarse_parts)
         known = picture.defocus_waves * (nodes.xi**2 + nodes.eta**2) + nodes.waves
         down, across = (blurring(count, BLUR_PIXELS) for count in picture.values.shape)
-        good = without_spikes(picture)
+        good = without_spikes(picture, optics)
         data = down @ np.where(good, picture.values - one.background, 0.0).astype(np.float32) @ across.T
         square = float(np.sum(data * data))
         numbers = np.concatenate([waves, place], 1).astype(np.float32)

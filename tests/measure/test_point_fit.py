@@ -9,9 +9,11 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.point_fit import fit_point
 from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
+from p2sf.measure.points import find_points
 from p2sf.measure.pupil_model import pupil_model
 from p2sf.measure.pupil_nodes import paraxial_nodes
 from p2sf.paraxial.seidel import coefficients
@@ -177,6 +179,20 @@ def test_a_hot_pixel_counts_little_with_a_robust_loss_and_not_at_all_masked():
     ):
         found = fit_point([picture, pictures[1]], OPTICS, loss=loss)
         assert np.abs((found.numbers - SIX) / found.bounds).max() < 5
+
+
+def test_a_sharp_point_in_the_middle_of_a_pixel_is_no_hot_pixel():
+    """Its neighbours lie in the first dark ring, 30 times darker. Five standard deviations."""
+    rng, optics = np.random.default_rng(1), replace(OPTICS, pixel_um=3.45)
+    made, at = problem("seidel", np.zeros(4), 32, optics, (0.0, 1.5))
+    pictures = [picture_of(made.light(at, k)[0], rng, waves) for k, waves in enumerate((0.0, 1.5))]
+    values = pictures[0].values
+    assert values[16, 16] - 100 > 15 * (values[16, 17] - 100)
+    (point,) = find_points(Frame(values, FrameGeometry(32, 32, 3.45)))
+    assert point.good and (round(point.row), round(point.column)) == (16, 16)
+    found = fit_point(pictures, optics)
+    assert np.abs(found.numbers / found.bounds).max() < 5
+    assert found.chi2 == pytest.approx(1.0, abs=5 * (2 / 2048) ** 0.5)
 
 
 def test_what_cannot_be_fitted_is_refused():
