@@ -69,4 +69,4 @@ def sag(surface: Surface, r: np.ndarray) -> np.ndarray:
         depth: np.ndarray = c * square / (1 + np.sqrt(1 - (1 + surface.conic) * c * c * square))
         for power, term in enumerate(surface.aspheric, 2):
             depth = depth + term * square**power
-        return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c)[0]
+        return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c, surface.conic)[0]

@@ -14,7 +14,7 @@ from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.placement import Motion, Placement, along_z
-from p2sf.lens.shapes import Diffraction, Qbfs, Shape
+from p2sf.lens.shapes import Diffraction, Shape
 from p2sf.messages import Message
 from p2sf.notebook import html_table
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -429,13 +429,6 @@ def _check_shape(surface: Surface, number: int) -> None:
             "diffract, and its focal length not 0",
             surface=number,
             focal=surface.ideal_focal_length,
-        )
-    if isinstance(surface.shape, Qbfs) and surface.conic:
-        raise GeometryError(
-            "surface {surface}: Qbfs departs from a sphere, and the conic constant is {conic:g}; set it to 0 or use "
-            "Qcon",
-            surface=number,
-            conic=surface.conic,
         )
 
 

@@ -38,7 +38,7 @@ class RadialPolynomial:
         """Return whether all terms are even."""
         return not any(self.coefficients[::2])
 
-    def sag_and_slope(self, square: FloatOrArray, curvature: float) -> SagAndSlope:
+    def sag_and_slope(self, square: FloatOrArray, curvature: float, conic: float = 0.0) -> SagAndSlope:
         """Return the sag and dz/d(r²); at the vertex itself a term in ρ has the slope of its mean, 0."""
         scale = self.normalisation_mm**-2
         u = square * scale
@@ -77,7 +77,7 @@ class Qcon:
         """Return every number of the shape."""
         return (*self.coefficients, self.normalisation_mm)
 
-    def sag_and_slope(self, square: FloatOrArray, curvature: float) -> SagAndSlope:
+    def sag_and_slope(self, square: FloatOrArray, curvature: float, conic: float = 0.0) -> SagAndSlope:
         """Return the sag and dz/d(r²)."""
         x = square / self.normalisation_mm**2
         value, derivative = _clenshaw(self.coefficients, _jacobi_steps(len(self.coefficients)), x)
@@ -103,11 +103,12 @@ class Qcon:
 
 @dataclass(frozen=True)
 class Qbfs:
-    """Forbes's u²(1 − u²)/√(1 − c²r²)·Σ aₘQₘ(u²) over the best-fit sphere, u = r/``normalisation_mm`` (Forbes 2007).
+    """Forbes's u²(1 − u²)/cos·Σ aₘQₘ(u²) over the best-fit sphere or conic, u = r/``normalisation_mm`` (Forbes 2007).
 
-    ``coefficients``: a₀, a₁, …, mm: their squares add to the mean square slope of the departure along the normal, which
-    is none at the vertex and at r = ``normalisation_mm``. a₀ and the others have an r² term, so that the curvature at
-    the vertex is not the sphere's.
+    cos is that of the angle between the base's normal and the axis, √(1 − c²r²) for a sphere, so that the departure is
+    along the normal; OpticStudio has it for a conic too. ``coefficients``: a₀, a₁, …, mm: their squares add to the mean
+    square slope of that departure, which is none at the vertex and at r = ``normalisation_mm``. a₀ and the others have
+    an r² term, so that the curvature at the vertex is not the base's.
     """
 
     coefficients: tuple[float, ...]
@@ -118,18 +119,20 @@ class Qbfs:
         """Return every number of the shape."""
         return (*self.coefficients, self.normalisation_mm)
 
-    def sag_and_slope(self, square: FloatOrArray, curvature: float) -> SagAndSlope:
-        """Return the sag and dz/d(r²) over a sphere of this curvature, per mm; NaN beyond its edge."""
+    def sag_and_slope(self, square: FloatOrArray, curvature: float, conic: float = 0.0) -> SagAndSlope:
+        """Return the sag and dz/d(r²) over a conic of this curvature, per mm; NaN beyond its edge."""
         scale, bend = self.normalisation_mm**-2, curvature * curvature
         x = square * scale
         value, derivative = _slope_orthogonal(self.coefficients, x)
-        cosine_square = 1 - bend * square
+        # cos² = above/below: the slope of a conic is cr/√below.
+        below, above = 1 - (1 + conic) * bend * square, 1 - conic * bend * square
         departure, change = x * (1 - x) * value, (1 - 2 * x) * value + x * (1 - x) * derivative
-        cosine = np.sqrt(cosine_square)
-        return departure / cosine, (change * scale + departure * bend / (2 * cosine_square)) / cosine
+        secant = np.sqrt(above / below)
+        steeper = bend / 2 * ((1 + conic) / below - conic / above)
+        return departure * secant, (change * scale + departure * steeper) * secant
 
     def series(self, curvature: float) -> Series:
-        """Return the coefficients of r … r⁴ over a sphere of this curvature, per mm."""
+        """Return the coefficients of r … r⁴ over a sphere or any other conic of this curvature, per mm."""
         value, derivative = (float(v) for v in _slope_orthogonal(self.coefficients, 0.0))
         square = self.normalisation_mm**2
         fourth = (derivative - value) / square + value * curvature * curvature / 2

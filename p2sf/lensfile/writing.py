@@ -213,10 +213,12 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     The first type that holds it is taken: even and odd aspheres in powers of r, extended ones in powers of r over the
     normalisation radius, to which Qcon is converted exactly.
     """
-    radius, terms = _power_terms(surface, number)
+    radius, terms = _power_terms(surface)
     odd, top = any(power % 2 for power in terms), max(terms, default=0)
     step = 1 if odd else 2
     parameters = [f"  PARM {power // step} {value!r}" for power, value in sorted(terms.items())]
+    if isinstance(surface.shape, Qbfs):
+        return "QED_TYPE", _forbes_data(surface, surface.shape, number)
     if surface.ideal:
         return "PARAXIAL", [f"  PARM 1 {surface.ideal_focal_length!r}"]
     if surface.diffraction is not None:
@@ -236,15 +238,20 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     return "XOSPHERE" if odd else "XASPHERE", _extra_data(radius, listed)
 
 
-def _power_terms(surface: Surface, number: int) -> tuple[float, dict[int, float]]:
-    """Return a normalisation radius, and coefficients by the powers of r over it, mm; LensFileError for Qbfs."""
-    shape = surface.shape
-    if isinstance(shape, Qbfs):
+def _forbes_data(surface: Surface, shape: Qbfs, number: int) -> list[str]:
+    """Return the extra data of Qbfs: type 0, then as those of other shapes."""
+    if any(surface.aspheric) or surface.diffraction is not None:
         raise LensFileError(
-            "surface {surface} is a Qbfs asphere, for which no line of Zemax is known here; save as TOML, or convert "
-            "it to even terms",
+            "surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no "
+            "line; save as TOML",
             surface=number,
         )
+    return _extra_lines((0, len(shape.coefficients), shape.normalisation_mm, *shape.coefficients))
+
+
+def _power_terms(surface: Surface) -> tuple[float, dict[int, float]]:
+    """Return a normalisation radius, and coefficients by the powers of r over it, mm; none for Qbfs."""
+    shape = None if isinstance(surface.shape, Qbfs) else surface.shape
     radius = shape.normalisation_mm if shape else 1.0
     terms = {power: a * radius**power for power, a in zip(range(4, 99, 2), surface.aspheric, strict=False)}
     if isinstance(shape, RadialPolynomial):
@@ -256,7 +263,11 @@ def _power_terms(surface: Surface, number: int) -> tuple[float, dict[int, float]
 
 def _extra_data(radius: float, numbers: tuple[float, ...]) -> list[str]:
     """Return the lines of extra data: how many numbers, the normalisation radius, and the numbers."""
-    return [f"  XDAT {place} {float(x)!r} 0 0 1 0 0" for place, x in enumerate((len(numbers), radius, *numbers), 1)]
+    return _extra_lines((len(numbers), radius, *numbers))
+
+
+def _extra_lines(values: tuple[float, ...]) -> list[str]:
+    return [f"  XDAT {place} {float(x)!r} 0 0 1 0 0" for place, x in enumerate(values, 1)]
 
 
 def _zemax_glass(medium: Medium) -> str:

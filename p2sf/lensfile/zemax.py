@@ -12,7 +12,7 @@ from typing import NoReturn
 
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
-from p2sf.lens.shapes import Diffraction, RadialPolynomial
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.tilts import coordinate_break
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
@@ -34,12 +34,11 @@ REFUSED_TYPES = {
     "NONSEQCO": Message("a non-sequential part"),
     "BLACKBOX": Message("a black box that hides its surfaces"),
     "BLCKBOX1": Message("a black box that hides its surfaces"),
-    "QED_TYPE": Message("an asphere in Forbes's polynomials"),
     "FRESNELS": Message("a Fresnel surface"),
     "GRINSUR1": Message("a gradient index"),
     "ALTERNAT": Message("the root of the sphere on its other side"),
 }
-READ_TYPES = ("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "PARAXIAL")
+READ_TYPES = ("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "QED_TYPE", "PARAXIAL")
 MOST_TERMS = 60  # of an extended asphere or a phase
 UNKNOWN_TYPE = Message("which P2SF does not trace")
 HARMLESS = (
@@ -632,6 +631,8 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
     step = 1 if kind in ("ODDASPHE", "XOSPHERE") else 2
     if kind in ("EVENASPH", "ODDASPHE", "BINARY_2"):
         surface.aspheric = {step * place: value for place, value in parameters.items() if place and value}
+    if kind == "QED_TYPE":
+        _forbes(reading, surface)
     if kind not in ("XASPHERE", "XOSPHERE", "BINARY_2"):
         return
     terms, radius = _extra_terms(reading, surface)
@@ -645,10 +646,25 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
         surface.shape = RadialPolynomial(every, radius)
 
 
-def _extra_terms(reading: ZemaxReading, surface: RawSurface) -> tuple[tuple[float, ...], float]:
-    """Return coefficients and normalisation radius of the extra data: their number, the radius, then one each."""
+def _forbes(reading: ZemaxReading, surface: RawSurface) -> None:
+    """Give a surface Forbes's polynomials: the first of the extra data tells Qbfs, 0, from Qcon, 1."""
+    kind = reading.extra.get(surface.number, {}).get(1, 0.0)
+    if kind not in (0, 1):
+        raise reading.source.error(
+            "{surface} has Forbes's polynomials of type {kind:g}, which is neither Qbfs (0) nor Qcon (1); correct it",
+            surface.line,
+            surface=surface.name,
+            kind=kind,
+        )
+    terms, radius = _extra_terms(reading, surface, 2)
+    if any(terms):
+        surface.shape = Qcon(terms, radius) if kind else Qbfs(terms, radius)
+
+
+def _extra_terms(reading: ZemaxReading, surface: RawSurface, first: int = 1) -> tuple[tuple[float, ...], float]:
+    """Return coefficients and normalisation radius of the extra data: from ``first`` their number, the radius, each."""
     extra = reading.extra.get(surface.number, {})
-    count, radius = extra.get(1, 0.0), extra.get(2, 1.0)
+    count, radius = extra.get(first, 0.0), extra.get(first + 1, 1.0)
     if not (0 <= count <= MOST_TERMS and count == int(count) and radius > 0):
         raise reading.source.error(
             "{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up "
@@ -659,4 +675,4 @@ def _extra_terms(reading: ZemaxReading, surface: RawSurface) -> tuple[tuple[floa
             radius=radius,
             most=MOST_TERMS,
         )
-    return tuple(extra.get(place, 0.0) for place in range(3, 3 + int(count))), radius
+    return tuple(extra.get(place, 0.0) for place in range(first + 2, first + 2 + int(count))), radius

@@ -163,7 +163,7 @@ def sag_and_slope(surface: Surface, square: FloatOrArray) -> tuple[np.ndarray, n
         sag = sag + coefficient * power
     if surface.shape is None:
         return sag, slope
-    more, steeper = surface.shape.sag_and_slope(square, c)
+    more, steeper = surface.shape.sag_and_slope(square, c, k)
     return sag + more, slope + steeper
 
 

@@ -126,7 +126,7 @@ def test_a_table_in_inches_is_in_millimetres_afterwards():
     ("ending", "change", "words"),
     [
         ("json", {"object_medium": ConstantIndex(1.33)}, "which an ISET file cannot say; save as TOML"),
-        ("zmx", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "is a Qbfs asphere, .*; save as TOML"),
+        ("zmx", {"aspheric": (1e-6,), "shape": Qbfs((1e-3,), 5.0)}, "is a Qbfs asphere with .* save as TOML"),
         ("zmx", {"shape": RadialPolynomial((1e-3,)), "diffraction": PHASE}, "surface 1 diffracts and .* save as TOML"),
         ("json", {"shape": RadialPolynomial((1e-3,))}, "which a file for ISET cannot say; save as TOML"),
         ("json", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "which a file for ISET cannot say; save as TOML"),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lens import Diffraction, RadialPolynomial
+from p2sf.lens import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import with_sensor
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points
@@ -209,6 +209,9 @@ def test_odd_and_extended_aspheres_and_phases(unit, mm):
     assert phase.diffraction == Diffraction((-300.0, 20.0), 5.0 * mm, 2.0)
     assert phase.aspheric == pytest.approx((1e-7 / mm**3, -2e-10 / mm**5), rel=1e-14)
     assert surface("BINARY_2", "  PARM 0 0\n" + extra(1, 5.0, -300.0)).diffraction is None, "order 0"
+    for number, kind in enumerate((Qbfs, Qcon)):
+        forbes = surface("QED_TYPE", extra(number, 2, 4.0, 0.01, -0.02))
+        assert forbes.shape == kind((0.01 * mm, -0.02 * mm), 4.0 * mm) and forbes.conic == -0.5
 
 
 REFUSED = {
@@ -223,7 +226,7 @@ REFUSED = {
     "non-sequential": (("MODE SEQ", "MODE NSC"), "mode NSC is not sequential"),
     "a decentred rim": (("  MAZH 0 0", "  OBDC 0 3.5"), "surface 3 has a rim decentred"),
     "a power too high": (("PARM 1 0", "PARM 21 1e-3"), r"surface 3: aspheric term r\^42; powers from 1 to 40"),
-    "Forbes's polynomials": (("TYPE EVENASPH", "TYPE QED_TYPE"), "surface 3 has type QED_TYPE, an asphere in Forbes"),
+    "Forbes's polynomials": (("TYPE EVENASPH", "TYPE QED_TYPE\n  XDAT 1 2"), "surface 3 has Forbes's .* of type 2"),
     "half a term": (("TYPE EVENASPH", "TYPE XASPHERE\n  XDAT 1 1.5"), "surface 3 has 1.5 terms"),
     "no radius": (
         ("TYPE EVENASPH", "TYPE BINARY_2\n  XDAT 1 1\n  XDAT 2 0"),

@@ -284,7 +284,7 @@ def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
     square = height_mm**2
     sag = sag_mm - sum(term * square**power for power, term in enumerate(surface.aspheric, 2))
     if surface.shape is not None:  # that of Qbfs follows the radius a little, which a second drag makes up for
-        sag -= float(surface.shape.sag_and_slope(square, surface.curvature)[0])
+        sag -= float(surface.shape.sag_and_slope(square, surface.curvature, surface.conic)[0])
     bulge = 1 + surface.conic
     if bulge > 0:
         steepest = STEEPEST * abs(height_mm) / sqrt(bulge)

@@ -199,7 +199,7 @@ def sag(surface: Surface, y: np.ndarray) -> np.ndarray:
     depth = c * square / (1 + root)
     for power, term in enumerate(surface.aspheric, 2):
         depth = depth + term * square**power
-    return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c)[0]
+    return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c, surface.conic)[0]
 
 
 def element_outline(front: Profile, back: Profile, index: float, surfaces: tuple[int, int]) -> Outline:
