@@ -9,14 +9,31 @@ from cyclopts import Parameter
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Whole, check_whole
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
-from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.request import Setup, set_up
-from p2sf.tolerance import Builds, Differentials, differentials, sensitivities, simulate, usual_tolerances
+from p2sf.tolerance import (
+    Builds,
+    Criterion,
+    Differentials,
+    differentials,
+    harms,
+    of_worst_field,
+    sensitivities,
+    share_within,
+    simulate,
+    usual_sources,
+    usual_tolerances,
+)
+from p2sf.tolerance.criteria import CRITERIA, LARGE_IS_GOOD
 from p2sf.tolerance.errors_of_build import UNITS, Tolerance
 from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
 
-FIELDS = 0.0, 0.7, 1.0  # of the lens's largest field
+COLUMNS: dict[Criterion, str] = {
+    "rms_waves": "adds to the worst RMS, waves",
+    "strehl": "takes from the least Strehl ratio",
+    "mtf": "takes from the least contrast",
+    "boresight_um": "moves the image by, µm",
+}
 MOST_BUILDS, SHOWN = 1_000_000, 12
 PERCENTILES = 10, 50, 90
 
@@ -24,6 +41,8 @@ GradeOption = Annotated[Literal["commercial", "precision", "high"], Parameter(he
 SetFile = Annotated[Path | None, Parameter("--set", negative="", help="Tolerances of one's own, a file in TOML.")]
 BuildsOption = Annotated[Whole, Parameter(help="How many lenses are built at random.")]
 Limit = Annotated[float | None, Parameter(help="What every field of a good lens keeps.", negative="")]
+By = Annotated[Criterion, Parameter(help="What errors are sorted by.")]
+Frequency = Annotated[float, Parameter(help="Of the contrast, cycles per mm on the sensor.", negative="")]
 Seed = Annotated[Whole, Parameter(help="Another number draws other lenses.")]
 
 
@@ -37,14 +56,21 @@ def tolerance(
     builds: BuildsOption = 10_000,
     rms_waves: Limit = None,
     strehl: Limit = None,
+    mtf: Limit = None,
+    boresight_um: Limit = None,
+    criterion: By = "rms_waves",
+    frequency_per_mm: Frequency = 10.0,
     seed: Seed = 0,
     as_json: Json = False,
 ) -> None:
     """Show which errors hurt most, and the yield of lenses built at random with the back focus set; fields in turn."""
     check_whole("builds", builds, 1, MOST_BUILDS)
-    for name, value in (("rms_waves", rms_waves), ("strehl", strehl)):
+    given: dict[Criterion, float | None] = {"rms_waves": rms_waves, "strehl": strehl, "mtf": mtf}
+    given["boresight_um"] = boresight_um
+    for name, value in (*given.items(), ("frequency_per_mm", frequency_per_mm)):
         if value is not None and not 0 <= value < np.inf:
             raise RequestError("{parameter} is {value}; give a number, 0 or more", parameter=name, value=value)
+    limits = {name: value for name, value in given.items() if value is not None}
     setup = set_up(find_lens(lens), request)
     if own is None:
         listed: tuple[Tolerance, ...] = usual_tolerances(setup.lens, grade)
@@ -52,23 +78,16 @@ def tolerance(
     else:
         listed, compensators = read_tolerances(own, setup.lens, grade)
     tolerances, places = with_compensators(listed, compensators)
-    given = request.field_deg is not None or request.field_x_deg is not None
-    known = differentials(setup.lens, sources_of(setup, given), tolerances)
-    alone, found = sensitivities(known, places), simulate(known, builds, places, seed)
-    record = record_of(known, places, alone, found, (rms_waves, strehl))
+    one_field = request.field_deg is not None or request.field_x_deg is not None
+    sources = (setup.source,) if one_field else usual_sources(setup.lens, setup.source)
+    known = differentials(setup.lens, sources, tolerances)
+    wanted = frequency_per_mm if criterion == "mtf" or "mtf" in limits else None
+    alone, found = sensitivities(known, places, wanted), simulate(known, builds, places, seed, wanted)
+    record = record_of(known, places, alone, found, limits, criterion)
     if as_json:
         return print_json(record)
     warn(setup.stop.warning)
     return show(setup, record)
-
-
-def sources_of(setup: Setup, given: bool) -> tuple[Source, ...]:
-    """Return the field asked for, or else axis, seven tenths and edge of the lens's."""
-    source, top = setup.source, max(setup.lens.fields_deg, key=abs)
-    if given or not top:
-        return (source,)
-    shares = [Source(source.depth_mm, field_deg=share * top, wavelength_um=source.wavelength_um) for share in FIELDS]
-    return tuple(shares)
 
 
 def record_of(
@@ -76,31 +95,28 @@ def record_of(
     places: tuple[int, ...],
     alone: Builds,
     found: Builds,
-    limits: tuple[float | None, float | None],
+    limits: dict[Criterion, float],
+    criterion: Criterion = "rms_waves",
 ) -> dict[str, Any]:
-    """Return all that is known, as JSON has it; errors by how much they add to the RMS of the worst field."""
-    worst, nominal = alone.rms_waves.max(1), float(alone.rms_waves[-1].max())
+    """Return all that is known, as JSON has it; errors by how much worse they make the worst field."""
+    worst, adds = alone.rms_waves.max(1), harms(alone, "rms_waves", places)
+    harm = harms(alone, criterion, places)
     rows = []
     for number, one in enumerate(known.tolerances):
         if number in places:
             continue
-        both = worst[2 * number : 2 * number + 2]
-        rows.append(
-            {
-                "kind": one.kind,
-                "first": one.piece[0],
-                "last": one.piece[1],
-                "amount": one.amount,
-                "unit": UNITS[one.kind],
-            }
-            | {"rms_waves": both.tolist(), "adds_waves": float(both.max()) - nominal}
-        )
-    rows.sort(key=lambda row: -row["adds_waves"])
+        where = {"kind": one.kind, "first": one.piece[0], "last": one.piece[1]}
+        size = {"amount": one.amount, "unit": UNITS[one.kind]}
+        both = {"rms_waves": worst[2 * number : 2 * number + 2].tolist(), "adds_waves": float(adds[number])}
+        rows.append({**where, **size, **both, "harm": float(harm[number])})
+    rows.sort(key=lambda row: -row["harm"])
+    values = of_worst_field(found, criterion)
     rms, strehl = found.rms_waves.max(1), found.strehl.min(1)
-    share, error = found.share_within(*limits)
+    share, error = share_within(found, limits)
     return {
         "fields_deg": [source.field_deg for source in known.sources],
         "nominal": {"rms_waves": alone.rms_waves[-1].tolist(), "strehl": alone.strehl[-1].tolist()},
+        "criterion": criterion,
         "errors": rows,
         "compensators": [
             {
@@ -113,9 +129,10 @@ def record_of(
         "builds": len(found.errors),
         "percentiles": {
             str(p): {"rms_waves": float(np.percentile(rms, p)), "strehl": float(np.percentile(strehl, 100 - p))}
+            | {criterion: float(np.percentile(values, 100 - p if criterion in LARGE_IS_GOOD else p))}
             for p in PERCENTILES
         },
-        "within": {"rms_waves": limits[0], "strehl": limits[1], "share": share, "standard_error": error},
+        "within": {**{name: limits.get(name) for name in CRITERIA}, "share": share, "standard_error": error},
     }
 
 
@@ -124,8 +141,8 @@ def show(setup: Setup, record: dict[str, Any]) -> None:
     fields = ", ".join(f"{field:.4g}°" for field in record["fields_deg"])
     lens = setup.prescription
     title = f"{lens.title or lens.name}: fields {fields}, {setup.source.wavelength_um * 1000:.7g} nm"
-    columns = ("error", "±", "", "adds to the worst RMS, waves")
-    rows = [(_name(row), row["amount"], row["unit"], row["adds_waves"]) for row in record["errors"][:SHOWN]]
+    columns = ("error", "±", "", COLUMNS[record["criterion"]])
+    rows = [(_name(row), row["amount"], row["unit"], row["harm"]) for row in record["errors"][:SHOWN]]
     print_table(title, columns, rows)
     more = len(record["errors"]) - SHOWN
     if more > 0:
@@ -139,10 +156,11 @@ def show(setup: Setup, record: dict[str, Any]) -> None:
         figures,
     )
     within = record["within"]
-    asked = {"RMS ≤": within["rms_waves"], "Strehl ratio ≥": within["strehl"]}
-    limits = " and ".join(f"{name} {value:g}" for name, value in asked.items() if value is not None)
-    if limits:
-        print(f"{100 * within['share']:.2f} % ± {100 * within['standard_error']:.2f} % keep {limits} in all fields")
+    asked = {"RMS ≤": within["rms_waves"], "Strehl ratio ≥": within["strehl"], "contrast ≥": within["mtf"]}
+    asked["µm of the image's shift ≤"] = within["boresight_um"]
+    words = " and ".join(f"{name} {value:g}" for name, value in asked.items() if value is not None)
+    if words:
+        print(f"{100 * within['share']:.2f} % ± {100 * within['standard_error']:.2f} % keep {words} in all fields")
 
 
 def _name(row: dict[str, Any]) -> str:

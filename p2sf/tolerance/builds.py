@@ -1,17 +1,17 @@
 """Thousands of builds with random errors, by quadratic forms: their wavefront error, Strehl ratio and yield."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from math import sqrt
 
 import numpy as np
 
 from p2sf.conventions import protected
-from p2sf.errors import RequestError
+from p2sf.errors import Cancelled, RequestError
 from p2sf.pupil import zernike
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.threads import one_blas_thread
+from p2sf.tolerance.contrast import Pairs, pairs_of
 from p2sf.tolerance.differentials import FINE, NODES, Differentials
 
 TOGETHER = 500  # builds at a time
@@ -27,36 +27,31 @@ class Builds:
 
     ``rms_waves`` (builds, fields): of the wavefront without piston and tilt. ``strehl``: |mean of exp(2πiW)|² without
     these, and beyond `SUMMED_RMS` exp(−(2π·RMS)²), nothing (Mahajan 1983). ``boresight_um``
-    (builds, fields, 2): how far the image has moved.
+    (builds, fields, 2): how far the image has moved. ``mtf`` (builds, fields, 2): the contrast at one frequency of
+    patterns along x (sagittal) and y (tangential), NaN where none was asked for.
     """
 
     errors: np.ndarray
     rms_waves: np.ndarray
     strehl: np.ndarray
     boresight_um: np.ndarray
-
-    def share_within(self, rms_waves: float | None = None, strehl: float | None = None) -> tuple[float, float]:
-        """Return the share of builds that keep a limit in all fields, and its standard error.
-
-        That is √(y(1 − y)/n), for a share of 0 or 1 the one at half a build from there.
-        """
-        kept = np.ones(len(self.errors), bool)
-        if rms_waves is not None:
-            kept &= (self.rms_waves <= rms_waves).all(1)
-        if strehl is not None:
-            kept &= (self.strehl >= strehl).all(1)
-        count = kept.size
-        share = float(kept.mean())
-        inner = min(max(share, 0.5 / count), 1 - 0.5 / count)
-        return share, sqrt(inner * (1 - inner) / count)
+    mtf: np.ndarray
 
 
 @one_blas_thread
-def simulate(known: Differentials, builds: int = 10_000, compensators: Sequence[int] = (), seed: int = 0) -> Builds:
+def simulate(
+    known: Differentials,
+    builds: int = 10_000,
+    compensators: Sequence[int] = (),
+    seed: int = 0,
+    frequency_per_mm: float | None = None,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Builds:
     """Return ``builds`` with every error anywhere within its tolerance, all alike likely.
 
     ``compensators``: places of the tolerances that are set, whatever their amount, so that the mean square of the
-    wavefronts of all fields is least. Raises RequestError for a place that there is not.
+    wavefronts of all fields is least. Raises RequestError for a place that there is not, and Cancelled.
     """
     count = len(known.tolerances)
     if not all(0 <= place < count for place in compensators):
@@ -66,25 +61,40 @@ def simulate(known: Differentials, builds: int = 10_000, compensators: Sequence[
     rng = np.random.default_rng(seed)
     errors = rng.uniform(-1, 1, (builds, count)) * known.amounts
     errors[:, list(compensators)] = 0.0
-    return evaluate(known, errors, compensators)
+    return evaluate(known, errors, compensators, frequency_per_mm, progress, cancelled)
 
 
-def evaluate(known: Differentials, errors: np.ndarray, compensators: Sequence[int] = ()) -> Builds:
+def evaluate(
+    known: Differentials,
+    errors: np.ndarray,
+    compensators: Sequence[int] = (),
+    frequency_per_mm: float | None = None,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Builds:
     """Return the builds with these errors, (builds, errors), and with the compensators set."""
-    form, errors = _Form(known), np.array(errors, dtype=float)
+    form, errors = _Form(known, frequency_per_mm), np.array(errors, dtype=float)
     rms, strehl = (np.empty((len(errors), len(known.sources))) for _ in range(2))
+    mtf = np.full((*rms.shape, 2), np.nan)
     for begin in range(0, len(errors), TOGETHER):
+        if cancelled and cancelled():
+            raise Cancelled("the builds were stopped before they were done")
         some = slice(begin, begin + TOGETHER)
         waves = form.waves(errors[some])
         for _ in range(ROUNDS if compensators else 0):
             waves, change = form.compensated(waves, errors[some], tuple(compensators))
             errors[some][:, list(compensators)] += change
         rms[some], strehl[some] = form.quality(waves)
+        form.contrast(waves, mtf[some])
+        if progress:
+            progress(min(1.0, (begin + TOGETHER) / len(errors)))
     boresight = np.einsum("be,efx->bfx", errors, known.chief_um)
-    return Builds(errors, rms, strehl, boresight)
+    return Builds(errors, rms, strehl, boresight, mtf)
 
 
-def sensitivities(known: Differentials, compensators: Sequence[int] = ()) -> Builds:
+def sensitivities(
+    known: Differentials, compensators: Sequence[int] = (), frequency_per_mm: float | None = None
+) -> Builds:
     """Return builds with one error each, at plus and then at minus its tolerance: (2·errors) builds, and the lens last.
 
     That of a compensator is 0.
@@ -92,14 +102,15 @@ def sensitivities(known: Differentials, compensators: Sequence[int] = ()) -> Bui
     amounts = known.amounts
     amounts[list(compensators)] = 0.0
     alone = np.stack([np.diag(amounts), -np.diag(amounts)], axis=1).reshape(-1, amounts.size)
-    return evaluate(known, np.concatenate([alone, np.zeros((1, amounts.size))]), compensators)
+    return evaluate(known, np.concatenate([alone, np.zeros((1, amounts.size))]), compensators, frequency_per_mm)
 
 
 class _Form:
     """The quadratic form of all fields' waves, with what piston and tilt take out of them."""
 
-    def __init__(self, known: Differentials):
+    def __init__(self, known: Differentials, frequency_per_mm: float | None = None):
         self.shape = known.phase.shape
+        self.frequency_per_mm = frequency_per_mm
         count = len(known.tolerances)
         self.pairs = np.triu_indices(count)
         factor = np.where(self.pairs[0] == self.pairs[1], 0.5, 1.0)
@@ -111,9 +122,15 @@ class _Form:
         self.first = self._projected(known.first)
         self.second = self._projected(known.second[self.pairs] * factor[:, None, None])
         self.by_one = known.second
-        self.finer = _finer()
+        self.finer = _continued(*whole_disc(*FINE)[:2])
         self.fine_light, phase, fx, fy = known.fine
         self.fine_still = np.stack([self._fine(known, k, phase[k], fx[k], fy[k]) for k in range(self.shape[0])])
+
+        self.pairs_of_field = [
+            (None, None) if frequency_per_mm is None else pairs_of(known, k, frequency_per_mm)
+            for k in range(self.shape[0])
+        ]
+        self.to_pairs = [[pairs and _differences(pairs) for pairs in both] for both in self.pairs_of_field]
 
     @staticmethod
     def _fine(known: Differentials, field: int, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
@@ -129,7 +146,7 @@ class _Form:
         scaled = waves * self.root.reshape(self.shape)
         for field, out in enumerate(self.out):
             scaled[:, field] -= (scaled[:, field] @ out) @ out.T
-        flat: np.ndarray = scaled.reshape(len(waves), -1)
+        flat: np.ndarray = scaled.reshape(len(waves), self.root.size)
         return flat
 
     def waves(self, errors: np.ndarray) -> np.ndarray:
@@ -157,14 +174,28 @@ class _Form:
         by_field = waves.reshape(-1, *self.shape)
         rms = np.sqrt((by_field * by_field).sum(-1))
         root, strehl = self.root.reshape(self.shape), np.exp(-((2 * np.pi * rms) ** 2))
-        still = self.still.reshape(self.shape)
         for field, light in enumerate(root * root):
             near = rms[:, field] <= FEW_RAYS_RMS
             strehl[near, field] = _strehl(by_field[near, field] / root[field], light)
             far = ~near & (rms[:, field] <= SUMMED_RMS)
-            change = (by_field[far, field] - still[field]) / root[field]
+            change = self._change(waves[far], field)
             strehl[far, field] = _strehl(self.fine_still[field] + change @ self.finer, self.fine_light[field])
         return rms, strehl
+
+    def _change(self, waves: np.ndarray, field: int) -> np.ndarray:
+        """Return what scaled waves of builds add to a field's, (builds, rays)."""
+        added = (waves - self.still).reshape(-1, *self.shape)[:, field]
+        change: np.ndarray = added / self.root.reshape(self.shape)[field]
+        return change
+
+    def contrast(self, waves: np.ndarray, found: np.ndarray) -> None:
+        """Write the contrast of builds, (builds, fields, 2), where a frequency is asked for; 0 beyond the cut-off."""
+        if self.frequency_per_mm is None:
+            return
+        for field, both in enumerate(self.pairs_of_field):
+            terms = (self._change(waves, field) @ _to_terms()).astype(np.float32)
+            for axis, pairs in enumerate(both):
+                found[:, field, axis] = pairs.contrast(terms @ self.to_pairs[field][axis]) if pairs else 0.0
 
 
 def _strehl(waves: np.ndarray, light: np.ndarray) -> np.ndarray:
@@ -175,14 +206,27 @@ def _strehl(waves: np.ndarray, light: np.ndarray) -> np.ndarray:
 
 
 @lru_cache(maxsize=1)
-def _finer() -> np.ndarray:
-    """Return the matrix (rays, many rays) that continues a smooth change from the few rays to the many."""
+def _to_terms() -> np.ndarray:
+    """Return the matrix (rays, terms) from a smooth change at the few rays to its polynomials."""
+    return protected(np.linalg.pinv(_terms(*whole_disc(*NODES)[:2])))
+
+
+def _terms(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     kept = np.array([m <= HARMONICS for odd in (False, True) for _, m in zernike.terms(ORDER, odd)])
-    few, many = (
-        np.concatenate([zernike.basis(ORDER, xi, eta, odd) for odd in (False, True)])[kept]
-        for xi, eta, _ in (whole_disc(*NODES), whole_disc(*FINE))
-    )
-    return protected(np.linalg.pinv(few) @ many)
+    rows: np.ndarray = np.concatenate([zernike.basis(ORDER, xi, eta, odd) for odd in (False, True)])[kept]
+    return rows
+
+
+def _continued(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return the matrix (rays, points) that continues a smooth change from the few rays to any points."""
+    matrix: np.ndarray = _to_terms() @ _terms(xi, eta)
+    return matrix
+
+
+def _differences(pairs: Pairs) -> np.ndarray:
+    """Return the difference of every polynomial at pairs of points, (terms, pairs)."""
+    found: np.ndarray = (_terms(*pairs.ends[0]) - _terms(*pairs.ends[1])).astype(np.float32)
+    return found
 
 
 def _orthonormal(root: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:

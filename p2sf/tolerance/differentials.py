@@ -12,13 +12,13 @@ gᵢ by Fermat; of its derivative by another error only −n′∂ᵢⱼK·(I �
 direction, is left out.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import GeometryError
+from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.source import Source
@@ -31,6 +31,7 @@ from p2sf.tolerance.errors_of_build import MOVES, Tolerance, build, placed
 
 NODES = 6, 12  # radii and directions of the rays
 FINE = 16, 40  # those of the lens without errors, which carry exp(2πiW) where the lens itself has waves of aberration
+FIELDS = 0.0, 0.7, 1.0  # of the largest field of a lens
 STEP = 0.6  # of a tolerance: the root mean square of an error that is anywhere within it
 LEAST_STEP = 1e-5
 
@@ -64,24 +65,49 @@ class Differentials:
 
 
 @one_blas_thread
-def differentials(lens: Lens, sources: Sequence[Source], tolerances: Sequence[Tolerance]) -> Differentials:
+def differentials(
+    lens: Lens,
+    sources: Sequence[Source],
+    tolerances: Sequence[Tolerance],
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Differentials:
     """Return the wavefront differentials of a lens for some sources, all of one wavelength.
 
-    Raises GeometryError where a ray does not reach the sensor, also of a lens with one of the errors.
+    Raises GeometryError where a ray does not reach the sensor, also of a lens with one of the errors, and Cancelled.
     """
     if len({source.wavelength_um for source in sources}) != 1:
         raise GeometryError("the fields of tolerances have several wavelengths; give them one")
     known = tuple(tolerances)
     steps = np.array([max(STEP * tolerance.amount, LEAST_STEP) for tolerance in known])
-    parts = [_of_source(lens, source, known, steps) for source in sources]
+    total, done = max(len(sources) * len(known), 1), 0
+
+    def one_more() -> None:
+        nonlocal done
+        done += 1
+        if cancelled and cancelled():
+            raise Cancelled("the sensitivities were stopped before they were known")
+        if progress:
+            progress(done / total)
+
+    parts = [_of_source(lens, source, known, steps, one_more) for source in sources]
     weight, phase, fx, fy, first, second, chief = (np.stack(column, axis) for column, axis in _columns(parts))
     fine = np.stack([_fine(lens, source) for source in sources], 1)
     return Differentials(lens, tuple(sources), known, weight, phase, fx, fy, first, second, chief, fine)
 
 
+def usual_sources(lens: Lens, source: Source) -> tuple[Source, ...]:
+    """Return the axis, seven tenths and the edge of the lens's field, else as ``source``; that one without a field."""
+    top = max(lens.fields_deg, key=abs)
+    if not top:
+        return (source,)
+    depth, wavelength = source.depth_mm, source.wavelength_um
+    return tuple(Source(depth, field_deg=part * top, wavelength_um=wavelength) for part in FIELDS)
+
+
 def _fine(lens: Lens, source: Source) -> np.ndarray:
     """Return light, phase, fx and fy of many rays through the lens without errors, (4, rays)."""
-    found = _fly(lens, source, FINE)
+    found = fly(lens, source, *whole_disc(*FINE)[:2])
     weight = whole_disc(*FINE)[2] * found.weight
     return np.stack([weight / weight.sum(), found.phase, found.fx, found.fy])
 
@@ -92,7 +118,7 @@ def _columns(parts: list[tuple[np.ndarray, ...]]) -> list[tuple[list[np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
-class _Flight:
+class Flight:
     """Rays of one source through one lens, the chief ray last, in the axes of the lens.
 
     ``points``: (surfaces + 1, 3, ray) on every surface and the sensor, mm. ``rays``: optical cosines as they arrive
@@ -112,9 +138,9 @@ class _Flight:
     landing: np.ndarray
 
 
-def _fly(lens: Lens, source: Source, counts: tuple[int, int] = NODES) -> _Flight:
+def fly(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> Flight:
+    """Return the rays through points of the stop; GeometryError where one does not reach the sensor."""
     lens = seen_from(lens, source.azimuth_deg)
-    xi, eta, _ = whole_disc(*counts)
     rays = pupil_rays(lens, source, np.append(xi, 0.0), np.append(eta, 0.0))
     beam, points, along = start(rays), [], []
 
@@ -139,21 +165,22 @@ def _fly(lens: Lens, source: Source, counts: tuple[int, int] = NODES) -> _Flight
     chief = UM_PER_MM * beam.place[:2, -1]
     scale = 1 / source.wavelength_um
     made = lens, np.stack(points), np.stack(along), phase * waves, p * scale, q * scale, light, chief
-    return _Flight(*made, beam.ray[:2].copy(), np.stack([dx, dy]))
+    return Flight(*made, beam.ray[:2].copy(), np.stack([dx, dy]))
 
 
 def _of_source(
-    lens: Lens, source: Source, tolerances: tuple[Tolerance, ...], steps: np.ndarray
+    lens: Lens, source: Source, tolerances: tuple[Tolerance, ...], steps: np.ndarray, after_each: Callable[[], None]
 ) -> tuple[np.ndarray, ...]:
     """Return weight, phase, fx, fy, first and second derivatives, and the chief ray's, of one source."""
-    wavelength, still = source.wavelength_um, _fly(lens, source)
+    nodes, wavelength = whole_disc(*NODES)[:2], source.wavelength_um
+    still = fly(lens, source, *nodes)
     count, rays = len(tolerances), still.phase.size
     first, second, chief = np.empty((count, rays)), np.empty((count, count, rays)), np.empty((count, 2))
     pure = np.empty((count, rays))
     turn, shift = np.empty((count, 2, rays + 1)), np.empty((count, 2, rays))
     for place, step in enumerate(steps):
         one = tolerances[place : place + 1]
-        more, less = (_fly(build(lens, one, [error], wavelength), source) for error in (step, -step))
+        more, less = (fly(build(lens, one, [error], wavelength), source, *nodes) for error in (step, -step))
         first[place] = (more.phase - less.phase) / (2 * step)
         chief[place] = (more.chief_um - less.chief_um) / (2 * step)
         turn[place] = (more.cosines - less.cosines) / (2 * step)
@@ -161,6 +188,7 @@ def _of_source(
         there = _gradient(more, tolerances, wavelength, place, step)
         second[place] = (there - _gradient(less, tolerances, wavelength, place, -step)) / (2 * step)
         pure[place] = (more.phase - 2 * still.phase + less.phase) / step**2
+        after_each()
     # second[j, i] = ∂ⱼgᵢ so far
     waves = UM_PER_MM / wavelength
     second -= waves * np.einsum("ixr,jxr->jir", turn[:, :, :-1], shift)
@@ -172,7 +200,7 @@ def _of_source(
 
 
 def _gradient(
-    found: _Flight, tolerances: tuple[Tolerance, ...], wavelength_um: float, moved: int, error: float
+    found: Flight, tolerances: tuple[Tolerance, ...], wavelength_um: float, moved: int, error: float
 ) -> np.ndarray:
     """Return ∂(path)/∂(error) of every tolerance less the chief ray's, (errors, rays) waves, by Fermat's principle.
 
@@ -184,9 +212,7 @@ def _gradient(
     return out
 
 
-def _path_change(
-    found: _Flight, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float
-) -> np.ndarray:
+def _path_change(found: Flight, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float) -> np.ndarray:
     """Return how the optical path of every ray changes with one error, mm per unit, (rays,)."""
     tolerance, lens = tolerances[number], found.lens
     place = tolerance.first - 1
@@ -209,13 +235,13 @@ def _path_change(
     return change
 
 
-def _push(found: _Flight, place: int, shift: np.ndarray) -> np.ndarray:
+def _push(found: Flight, place: int, shift: np.ndarray) -> np.ndarray:
     """Return −(n′K′ − nK)·δ of every ray at a surface that moves by δ, (3, rays)."""
     push: np.ndarray = -((found.rays[place + 1] - found.rays[place]) * shift).sum(0)
     return push
 
 
-def _radius_shift(found: _Flight, place: int) -> np.ndarray:
+def _radius_shift(found: Flight, place: int) -> np.ndarray:
     """Return by how much the surface moves along its axis where rays meet it, per percent of its radius.
 
     From c·r² − 2z + c(1 + K)z² = 0: ∂z/∂c = (r² + (1 + K)z²)/(2(1 − c(1 + K)z)).
@@ -231,7 +257,7 @@ def _radius_shift(found: _Flight, place: int) -> np.ndarray:
     return shift
 
 
-def _rigid(found: _Flight, place: int, tolerance: Tolerance, mount: Motion, own: Placement) -> np.ndarray:
+def _rigid(found: Flight, place: int, tolerance: Tolerance, mount: Motion, own: Placement) -> np.ndarray:
     """Return the motion of a piece's points for a unit of decentre or tilt, in the axes that it is mounted in."""
     axis = 0 if tolerance.kind.endswith("x") else 1
     if tolerance.kind.startswith("decentre"):

@@ -16,6 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.tolerance.builds import Builds, simulate
+from p2sf.tolerance.criteria import share_within
 from p2sf.tolerance.differentials import Differentials, differentials
 from p2sf.tolerance.errors_of_build import Grade, Tolerance, build, usual_tolerances
 from tests.support.tolerances import exact_quality
@@ -78,7 +79,7 @@ def main() -> int:
     for f_number, grade in ((None, "precision"), (8.0, "commercial"), (8.0, "high")):
         one = agreement(gauss(f_number), grade, (0.0, 7.0, 10.0), checked)
         worst = min(worst, one.agree)
-        share, error = one.found.share_within(strehl=0.4)
+        share, error = share_within(one.found, {"strehl": 0.4})
         print(
             f"f/{f_number or 3:g}, {grade}: {one.agree:.1%} of {checked} builds agree; {one.preparation:.2f} s of "
             f"preparation, {one.builds:.2f} s for 10 000 builds; Strehl ≥ 0.4 in {share:.1%} ± {error:.1%}",

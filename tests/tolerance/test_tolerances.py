@@ -6,9 +6,25 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, RequestError
+from p2sf.lens.lens import with_sensor
 from p2sf.lens.source import Source
-from p2sf.tolerance import GRADES, Builds, Tolerance, build, differentials, sensitivities, simulate, usual_tolerances
+from p2sf.metrics.frequency_pupil import pupil_of_rays
+from p2sf.metrics.measures import PupilPart, mtf_of
+from p2sf.raytrace.pencil import pencil
+from p2sf.tolerance import (
+    GRADES,
+    Builds,
+    Tolerance,
+    build,
+    differentials,
+    harms,
+    sensitivities,
+    share_within,
+    simulate,
+    usual_tolerances,
+)
 from p2sf.tolerance.builds import evaluate
+from p2sf.tolerance.errors_of_build import MOVES
 from tests.long.tolerances import agreement, gauss
 from tests.support.tolerances import exact_quality
 
@@ -125,16 +141,16 @@ def test_a_decentre_either_way_is_alike_on_the_axis(known):
 
 def test_a_yield_has_the_error_of_a_binomial_share():
     strehl = np.r_[np.full(90, 0.9), np.full(10, 0.5)][:, None]
-    found = Builds(np.zeros((100, 0)), 1 - strehl, strehl, np.zeros((100, 1, 2)))
-    assert found.share_within(strehl=0.8) == (0.9, pytest.approx(0.03))
-    assert found.share_within(rms_waves=0.2, strehl=0.4)[0] == 0.9
-    assert found.share_within(strehl=0.1) == (1.0, pytest.approx(np.sqrt(0.005 * 0.995 / 100)))
+    found = Builds(np.zeros((100, 0)), 1 - strehl, strehl, *np.zeros((2, 100, 1, 2)))
+    assert share_within(found, {"strehl": 0.8}) == (0.9, pytest.approx(0.03))
+    assert share_within(found, {"rms_waves": 0.2, "strehl": 0.4})[0] == 0.9
+    assert share_within(found, {"strehl": 0.1}) == (1.0, pytest.approx(np.sqrt(0.005 * 0.995 / 100)))
 
 
 def test_two_draws_agree_to_their_statistical_error(known):
     one, two = (simulate(known, 3000, seed=seed) for seed in (1, 2))
     limit = float(np.median(one.rms_waves.max(1)))
-    (a, da), (b, db) = (found.share_within(rms_waves=limit) for found in (one, two))
+    (a, da), (b, db) = (share_within(found, {"rms_waves": limit}) for found in (one, two))
     assert a == pytest.approx(0.5, abs=0.01) and abs(a - b) < 4 * np.hypot(da, db)
     assert (np.abs(one.errors) <= known.amounts).all()
 
@@ -176,3 +192,63 @@ def test_what_cannot_be_is_refused(lens, make, said):
 def test_a_compensator_that_there_is_not_is_refused(known):
     with pytest.raises(RequestError, match="compensators 99 are not among the 9"):
         simulate(known, 10, (99,))
+
+
+@pytest.fixture(scope="module")
+def round_errors(lens):
+    """Return differentials by errors that leave a lens symmetric, whose contrast other code knows."""
+    return differentials(lens, (Source(), Source(field_deg=10)), [one for one in FEW if one.kind not in MOVES])
+
+
+@pytest.mark.parametrize("frequency", [10.0, 40.0])
+def test_contrast_of_builds_is_that_of_their_own_pupils(round_errors, frequency):
+    """By the autocorrelation on a grid of every build's own pupil; that of builds leaves out how the pupil changes."""
+    known = round_errors
+    errors = np.random.default_rng(5).uniform(-2, 2, (4, len(known.tolerances))) * known.amounts
+    found = evaluate(known, errors, frequency_per_mm=frequency)
+    for number, one in enumerate(errors):
+        built = build(known.lens, known.tolerances, one, UM)
+        for field, source in enumerate(known.sources):
+            exact = mtf_of([PupilPart(pupil_of_rays(built, source))], "", [frequency])
+            both = [exact.sagittal[0], exact.tangential[0]]
+            assert found.mtf[number, field] == pytest.approx(both, abs=1.5e-3)
+    assert np.ptp(found.mtf[:, 0]) > 0.05, "errors that matter"
+
+
+def test_contrast_turns_with_a_decentre(known):
+    """On the axis, a decentre along y blurs patterns along y as one along x blurs those along x."""
+    lens = known.lens
+    both = tuple(Tolerance(kind, 3, 0.4) for kind in ("decentre_x", "decentre_y"))
+    found = evaluate(differentials(lens, FIELDS[:1], both), np.diag([0.4, 0.4]), frequency_per_mm=60.0)
+    assert found.mtf[0, 0] == pytest.approx(found.mtf[1, 0, ::-1], abs=1e-5)
+    assert abs(found.mtf[0, 0, 0] - found.mtf[0, 0, 1]) > 0.01
+
+
+def test_contrast_beyond_the_cut_off_is_nothing(known):
+    assert (evaluate(known, np.zeros((1, len(FEW))), frequency_per_mm=2000.0).mtf == 0).all()
+
+
+def test_contrast_that_no_sum_resolves_is_refused():
+    wide = differentials(with_sensor(gauss(), gauss().sensor_mm + 8), FIELDS[:1], FEW[:1])
+    with pytest.raises(RequestError, match="the contrast at 100 cycles per mm is too small to be summed"):
+        evaluate(wide, np.zeros((1, 1)), frequency_per_mm=100.0)
+
+
+def test_boresight_is_where_the_chief_ray_of_a_build_lands(lens, known):
+    """To first order: what is left is of second order in the errors."""
+    errors = 0.5 * known.amounts[None]
+    landed = [chief_um(build(lens, FEW, one, UM)) for one in (errors[0], 0 * errors[0])]
+    assert evaluate(known, errors).boresight_um[0] == pytest.approx(landed[0] - landed[1], rel=5e-3, abs=0.05)
+
+
+def chief_um(lens) -> np.ndarray:
+    """Return where chief rays land on the sensor, (fields, 2) µm."""
+    found = [pencil(lens, source, np.zeros(1), np.zeros(1)) for source in FIELDS]
+    return 1000 * np.array([[np.ravel(x)[0] for x in (one.chief_x, one.chief_y)] for one in found])
+
+
+def test_what_an_error_harms_is_by_the_worse_of_its_signs():
+    strehl = np.array([0.5, 0.9, 0.7, 0.6, 0.8])[:, None]  # +, − of two errors, and none
+    alone = Builds(np.zeros((5, 2)), strehl, strehl, *np.zeros((2, 5, 1, 2)))
+    assert harms(alone, "strehl") == pytest.approx([0.3, 0.2]) and harms(alone, "strehl", (0,))[0] == 0
+    assert harms(alone, "rms_waves") == pytest.approx([0.1, -0.1])

@@ -1515,6 +1515,7 @@
 <message><source>the aspheres have odd powers (AsphericalOddCount); only even ones are read</source><translation>die Asphären haben ungerade Potenzen (AsphericalOddCount); nur gerade werden gelesen</translation></message>
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
+<message><source>the builds were stopped before they were done</source><translation>die Exemplare wurden angehalten, bevor sie fertig waren</translation></message>
 <message><source>the chief ray {outcome}; choose a smaller field</source><translation>der Hauptstrahl {outcome}; ein kleineres Feld wählen</translation></message>
 <message><source>the chief ray {outcome}; surface {placed} is decentred by ({decentre:g}) mm and tilted by ({tilt:g})°: make that or the field smaller</source><translation>der Hauptstrahl {outcome}; Fläche {placed} ist um ({decentre:g}) mm dezentriert und um ({tilt:g})° gekippt: das oder das Feld verkleinern</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
@@ -1523,6 +1524,7 @@
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
 <message><source>the columns of the lens have different {what}, {stated}; a file holds one, so give all the same</source><translation>die Spalten des Objektivs haben verschiedene {what}, {stated}; eine Datei hat nur eine, allen dieselbe geben</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
+<message><source>the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer</source><translation>der Kontrast bei {frequency:g} Perioden je mm ist zu klein, um summiert zu werden, bei {field:.4g}°; weniger wählen</translation></message>
 <message><source>the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor</source><translation>das Dunkel- oder Hellbild hat die Form {shape} und das Bild {wanted}; beide mit demselben Sensor aufnehmen</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
 <message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
@@ -1641,6 +1643,7 @@
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
 <message><source>the search for rims in the pupil</source><translation>die Suche nach Rändern in der Pupille</translation></message>
+<message><source>the sensitivities were stopped before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
 <message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
 <message><source>the source has values of shape {shape}, which are many sources; give one after the other</source><translation>die Quelle hat Werte der Form {shape}, das sind viele Quellen; eine nach der anderen angeben</translation></message>

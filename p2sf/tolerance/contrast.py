@@ -1,0 +1,178 @@
+"""The contrast (MTF) of many builds at one frequency: the autocorrelation of their pupils at a fixed set of points.
+
+With D(f) the density of rays over frequencies f = n'K/λ and w their phase (see `p2sf.metrics.frequency_pupil`),
+
+    OTF(ν) = ∫ D(f)·D(f − ν)·exp(2πi(w(f) − w(f − ν))) df / ∫ D² df
+
+(Goodman 2005, eq. 6-28). Pairs of points of the stop whose frequencies differ by ν are found once in the lens without
+errors; a build changes their phases only. That its pupil changes too is left out: it moves the cut-off, by some 1e-3.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebder, chebval2d, chebvander2d
+
+from p2sf.conventions import UM_PER_MM
+from p2sf.errors import RequestError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.pupil.phasors import cosine_sine
+from p2sf.pupil.quadrature import whole_disc
+from p2sf.tolerance.differentials import FINE, Differentials, fly
+
+ORDER = 10  # of the polynomials that follow the pupil
+SIZES = (12, 16), (18, 24), (26, 34), (38, 50), (56, 72)  # rows and columns of pairs
+DISTORTION = 1.1  # by which the edge of a pupil is farther from its middle than the middle's scale says, at most
+SETTLED = 1e-3  # by which the lens's contrast may differ between one size and the next, which is taken
+ROUNDS = 7  # that find them: each reduces the error by the pupil's distortion, some per cent
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Pairs of points in the stop, ``ends`` (2, 2, points), of frequencies that differ by that of the contrast.
+
+    ``light``: (points,), D·D′·df over ∫D²df. ``still``: the difference of the lens's own waves.
+    """
+
+    ends: np.ndarray
+    light: np.ndarray
+    still: np.ndarray
+
+    def contrast(self, waves: np.ndarray) -> np.ndarray:
+        """Return the contrast of builds that add differences of waves, (builds, points), at the pairs."""
+        cosine, sine = cosine_sine(waves + self.still.astype(np.float32), np.float32)
+        light = self.light.astype(np.float32)
+        contrast: np.ndarray = np.hypot(cosine @ light, sine @ light)
+        return contrast
+
+
+class _PupilMap:
+    """Frequencies and weight over the stop, as polynomials T_i(ξ)·T_j(η) through many rays."""
+
+    def __init__(self, known: Differentials, field: int):
+        xi, eta, area = whole_disc(*FINE)
+        light, _, fx, fy = known.fine[:, field]
+        places = np.indices((ORDER + 1, ORDER + 1))
+        kept = places.sum(0) <= ORDER
+        rows = chebvander2d(xi, eta, (ORDER, ORDER)).reshape(xi.size, *kept.shape)[:, kept]
+        self._tables = np.zeros((3, *kept.shape))
+        self._tables[:, kept] = np.linalg.lstsq(rows, np.stack([fx, fy, light / area], axis=1))[0].T
+        self._slopes = [[chebder(table, axis=axis) for axis in (0, 1)] for table in self._tables[:2]]
+        density = light / area / np.abs(np.linalg.det(self.jacobian(xi, eta)))
+        self.square = float((light * density).sum()) * np.pi
+
+    def at(self, place: np.ndarray) -> np.ndarray:
+        """Return the frequencies (2, points) at places (2, points) of the stop."""
+        return np.stack([chebval2d(place[0], place[1], table) for table in self._tables[:2]])
+
+    def weight(self, place: np.ndarray) -> np.ndarray:
+        """Return the weight of the field at places."""
+        weight: np.ndarray = chebval2d(place[0], place[1], self._tables[2])
+        return weight
+
+    def jacobian(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return ∂(fx, fy)/∂(ξ, η), (points, 2, 2)."""
+        rows = [np.stack([chebval2d(xi, eta, slope) for slope in both]) for both in self._slopes]
+        return np.stack(rows).transpose(2, 0, 1)
+
+    def reaches(self, frequency: np.ndarray) -> bool:
+        """Return whether two points of the stop may differ by a frequency, the pupil's distortion allowed for."""
+        across = np.linalg.inv(self.jacobian(np.zeros(1), np.zeros(1))[0]) @ frequency
+        return bool(np.hypot(*across) < 2 * DISTORTION)
+
+    def apart(self, middle: np.ndarray, frequency: np.ndarray) -> np.ndarray:
+        """Return by how much two points about each middle differ, (2, points), whose frequencies differ by one."""
+        inverse = np.linalg.inv(self.jacobian(np.zeros(1), np.zeros(1))[0])
+        found = np.broadcast_to((inverse @ frequency)[:, None], middle.shape)
+        for _ in range(ROUNDS):
+            difference = self.at(middle + found / 2) - self.at(middle - found / 2)
+            found = found + inverse @ (frequency[:, None] - difference)
+        return found
+
+
+def pairs_of(known: Differentials, field: int, frequency_per_mm: float) -> tuple[Pairs | None, Pairs | None]:
+    """Return the pairs for patterns along x (sagittal) and along y (tangential); None beyond the cut-off."""
+    pupil, shift = _PupilMap(known, field), frequency_per_mm / UM_PER_MM
+    source, lens = known.sources[field], known.lens
+    sagittal, tangential = (_settled(pupil, lens, source, shift * np.array(axis)) for axis in ((1.0, 0.0), (0.0, 1.0)))
+    return sagittal, tangential
+
+
+def _settled(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray) -> Pairs | None:
+    """Return as many pairs as the waves of the lens need."""
+    corners = _corners(pupil, frequency)
+    if corners is None:
+        return None
+    last, none = np.inf, np.zeros((1, 1))
+    for size in SIZES:
+        found = _pairs(pupil, lens, source, frequency, _overlap(pupil, frequency, corners, size))
+        contrast = float(found.contrast(none)[0])
+        if abs(contrast - last) <= SETTLED:
+            return found
+        last = contrast
+    raise RequestError(
+        "the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer",
+        frequency=UM_PER_MM * float(np.hypot(*frequency)),
+        field=source.field_deg,
+    )
+
+
+def _pairs(
+    pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray, middles: tuple[np.ndarray, np.ndarray]
+) -> Pairs:
+    middle, area = middles
+    apart = pupil.apart(middle, frequency)
+    ends = np.stack([middle + apart / 2, middle - apart / 2])
+    first, second = (pupil.jacobian(*end) for end in ends)
+    # From F(m + δ/2) − F(m − δ/2) = ν: ∂δ/∂m = 2(J + J′)⁻¹(J′ − J), and df = |J(1 + ½∂δ/∂m)| dm.
+    turned = np.eye(2) + np.linalg.solve(first + second, second - first)
+    area = area * np.abs(np.linalg.det(first @ turned))
+    density = [pupil.weight(end) / np.abs(np.linalg.det(by)) for end, by in zip(ends, (first, second), strict=True)]
+    light = density[0] * density[1] * area / pupil.square
+    phase = fly(lens, source, *ends.swapaxes(0, 1).reshape(2, -1)).phase.reshape(2, -1)
+    return Pairs(ends, light, phase[0] - phase[1])
+
+
+def _corners(pupil: _PupilMap, frequency: np.ndarray) -> np.ndarray | None:
+    """Return the two middles, (2, 2), whose points are both on the rim; None where the frequency is beyond cut-off."""
+    if not pupil.reaches(frequency):
+        return None
+    sign, middle = np.array([1.0, -1.0]), np.zeros((2, 2))
+    for _ in range(ROUNDS):
+        apart = pupil.apart(middle, frequency)
+        long = np.hypot(*apart)
+        if (long >= 2).any():
+            return None
+        middle = sign * np.sqrt(1 - long**2 / 4) * np.stack([-apart[1], apart[0]]) / long
+    return middle
+
+
+def _overlap(
+    pupil: _PupilMap, frequency: np.ndarray, corners: np.ndarray, size: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return Gauss-Legendre nodes (2, points) in rows between the corners, and the area of each.
+
+    Rows end where one point of the pair is on the rim. Even steps of an angle φ, sin φ along the corners' line, follow
+    both a full circle and the corners of its overlap with another.
+    """
+    angle, share = np.polynomial.legendre.leggauss(size[0])
+    angle, share = angle * np.pi / 2, share * np.pi / 2
+    centre, half = corners.mean(1), (corners[:, 0] - corners[:, 1]) / 2
+    along = np.array([half[1], -half[0]]) / np.hypot(*half)
+    along = along * np.sign(along @ pupil.apart(centre[:, None], frequency)[:, 0])
+    base = centre[:, None] + half[:, None] * np.sin(angle)
+    ends = [np.zeros(size[0]), np.zeros(size[0])]
+    for _ in range(ROUNDS):
+        for which, sign in enumerate((1.0, -1.0)):
+            point = base + along[:, None] * ends[which]
+            start = base + sign * pupil.apart(point, frequency) / 2
+            across = along @ start
+            root = np.sqrt(np.maximum(across**2 - (start * start).sum(0) + 1, 0.0))
+            ends[which] = -across + sign * root
+    node, part = np.polynomial.legendre.leggauss(size[1])
+    middle, reach = (ends[0] + ends[1]) / 2, (ends[0] - ends[1]) / 2
+    place = middle[:, None] + reach[:, None] * node
+    area = (share * np.cos(angle) * np.hypot(*half) * reach)[:, None] * part
+    points = base[:, :, None] + along[:, None, None] * place
+    return points.reshape(2, -1), area.ravel()
