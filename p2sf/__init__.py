@@ -10,6 +10,8 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from p2sf.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from p2sf.api import (
         build_database,
@@ -38,7 +40,6 @@ if TYPE_CHECKING:
     from p2sf.scene.scene import Scene
     from p2sf.scene.sensor import Sensor
 
-__version__ = "0.1.0"
 __all__ = [
     "Lens",
     "P2SFError",

@@ -6,7 +6,6 @@ from p2sf.errors import P2SFError
 from p2sf.threads import one_blas_thread
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.files.opening import is_file, opened
-from p2sf_explorer.files.session import last_session
 from p2sf_explorer.shell.display import display_problem
 from p2sf_explorer.state.link import is_link, state_of_link
 from p2sf_explorer.state.state import State
@@ -29,9 +28,9 @@ def main(argv: list[str]) -> int:
     problem = display_problem()
     if problem:
         raise P2SFError(problem)
-    state, geometry = (starting_state(argv), {}) if argv else last_session()
+    state = starting_state(argv) if argv else None
     with one_blas_thread:  # for as long as the window is there, so that a drag's many calls need not set it
-        return _open(state, geometry)
+        return _open(state)
 
 
 def run(argv: list[str]) -> int:
@@ -43,11 +42,13 @@ def run(argv: list[str]) -> int:
         return 2
 
 
-def _open(state: State, geometry: dict[str, str]) -> int:
+def _open(asked: State | None) -> int:
     from PySide6.QtWidgets import QApplication
 
     from p2sf_explorer.charts.theme import configure_plots
-    from p2sf_explorer.files.session_keeper import SessionKeeper
+    from p2sf_explorer.crash.dialog import UnexpectedErrors
+    from p2sf_explorer.crash.recovery import offer_rescued, session_to_open
+    from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
     from p2sf_explorer.shell.language_switch import LanguageSwitch
     from p2sf_explorer.shell.window import MainWindow
 
@@ -55,17 +56,27 @@ def _open(state: State, geometry: dict[str, str]) -> int:
     application.setApplicationName("P2SF Explorer")
     QApplication.setStyle("Fusion")
     configure_plots()
+    mark = RunMark()
+    state, geometry = session_to_open(asked, crashed=mark.begin())
+    keepers: list[SessionKeeper] = []
 
     def made(state: State) -> MainWindow:
         window = MainWindow(state)
         window.fit_screen()
-        SessionKeeper(window, window.store, lambda: window.floating.open, geometry)
+        keepers[:] = [SessionKeeper(window, window.store, lambda: window.floating.open, geometry)]
+        offer_rescued(window.store, window.column, window)
         window.teaching.offer_once()
         return window
 
     switch = LanguageSwitch(state, made, application)
     switch.window.show()
-    return application.exec()
+    errors = UnexpectedErrors(
+        lambda: switch.window, lambda: switch.window.store.state, lambda: keepers[0].keep(), application
+    )
+    errors.install()
+    code = application.exec()
+    mark.end()
+    return code
 
 
 if __name__ == "__main__":

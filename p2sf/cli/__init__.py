@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
-from p2sf import __version__
 from p2sf.errors import P2SFError
 from p2sf.messages import Style
 from p2sf.parameters import flag
+from p2sf.version import version_text
 
 if TYPE_CHECKING:
     from cyclopts import App, CycloptsError
@@ -81,7 +81,8 @@ def _app() -> "App":
     app = App(
         name="p2sf",
         help="From a lens prescription to its point spread functions, with their accuracy.",
-        version=__version__,
+        version=version_text,
+        version_format="plaintext",
         result_action="return_value",
         suppress_keyboard_interrupt=False,
     )

@@ -165,7 +165,9 @@ def test_every_command_explains_itself(said, command):
 
 
 def test_version(said):
-    assert said("--version").strip() == __version__
+    told = dict(line.split(" ", 1) for line in said("--version").splitlines())
+    assert told["p2sf"] == __version__ and told["numpy"] == np.__version__
+    assert {"commit", "python", "system", "machine", "scipy"} <= set(told)
 
 
 def test_info_loads_nothing_heavy():

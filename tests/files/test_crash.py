@@ -7,8 +7,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 
 
-def crashed(kind: str, folder: Path) -> str:
-    command = [sys.executable, "-m", "tests.long.crash", kind, str(folder)]
+def crashed(kind: str, folder: Path, *more: str) -> str:
+    command = [sys.executable, "-m", "tests.long.crash", kind, str(folder), *more]
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     return run.stdout
@@ -23,3 +23,8 @@ def test_a_disk_that_is_full_is_a_sentence_and_keeps_the_old_file(tmp_path):
     told = crashed("full", tmp_path).splitlines()
     assert len(told) == 5  # the list of recent files is not worth a sentence: only the memory is lost
     assert all("cannot be written" in line and "; choose " in line for line in told)
+
+
+def test_kill_9_of_a_window_in_use_costs_a_second_at_most(tmp_path):
+    """Twice; ``python -m tests.long.crash window`` kills fifty. It has to open the windows it kills."""
+    assert "2 windows killed" in crashed("window", tmp_path, "2")

@@ -4,7 +4,7 @@ import time
 import tomllib
 import zipfile
 from pathlib import Path
-from shutil import copytree
+from shutil import copy, copytree, ignore_patterns
 
 import numpy as np
 import pytest
@@ -188,10 +188,16 @@ def test_lenses_are_found_in_a_checkout_and_in_an_installed_package(tmp_path):
 
 
 def test_the_wheel_carries_the_lenses_and_lessons(tmp_path):
-    """Build the wheel with the project's own backend and look inside."""
+    """Build the wheel with the project's own backend, from a copy without git, and look inside."""
     from hatchling.builders.wheel import WheelBuilder
 
-    wheel = next(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))
+    source = tmp_path / "source"
+    source.mkdir()
+    for name in ("p2sf", "app", "lenses"):
+        copytree(ROOT / name, source / name, ignore=ignore_patterns("__pycache__", "_version.py"))
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        copy(ROOT / name, source / name)
+    wheel = next(WheelBuilder(str(source)).build(directory=str(tmp_path), versions=["standard"]))
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {f"p2sf/lenses/{name}.toml" for name in shipped_lenses()} <= names
     assert {str(path.relative_to(ROOT / "app")) for path in (ROOT / "app/p2sf_explorer/lessons").rglob("*.*")} <= names

@@ -1,8 +1,10 @@
-"""Writers that are killed or run out of disk: ``python -m tests.long.crash kill|full FOLDER``.
+"""Writers and windows that are killed, or run out of disk: ``python -m tests.long.crash kill|full|window FOLDER [N]``.
 
 ``kill``: children write every kind of file without end and are ended by SIGKILL at random moments; after each death
 every file must be readable and one of the versions ever written, and nothing else may lie about. ``full``: no file may
-grow beyond 2 kB; every writer must refuse in a sentence and leave the old file as it was. Prints what was tried.
+grow beyond 2 kB; every writer must refuse in a sentence and leave the old file as it was. ``window``: a window under
+random hands is killed N times (50 unless told); what the next start finds must be whole, have an answer, and be as the
+window stood a second before its end or later. Prints what was tried.
 """
 
 import os
@@ -28,16 +30,20 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.psf.result import Psf
+from p2sf_explorer.compute.live import live
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import remember
+from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.snapshot import write_state
-from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.link import link
+from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.state.state_files import read_state
 
 LENS = find_lens("tessar")
 NOISE = np.random.default_rng(1).random((64, 64))
 DATABASE = build_database(LENS, Space((500.0, np.inf), (0.0, 0.1), (0.5, 0.6)), "exact")
 LIMIT = 2000
+MOST_LOST = 1.0  # s, of what was done before a kill
 OLD = b"what was here before"
 
 
@@ -131,7 +137,77 @@ def full(folder: Path) -> str:
     return "\n".join(told)
 
 
+def window(folder: Path, deaths: int = 50) -> str:
+    """Kill a window in use again and again; return how much the next start has lost each time."""
+    chance, lost, steps = random.Random(1), [], 0
+    for number in range(deaths):
+        log = folder / f"states-{number}"
+        log.unlink(missing_ok=True)
+        child = os.fork()
+        if child == 0:
+            use_for_ever(folder, log, number)
+        while len(read_log(log)) < 2:  # it is open and has been touched
+            time.sleep(0.02)
+        time.sleep(chance.uniform(0.2, 4.0))
+        end = time.monotonic()
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        told = read_log(log)
+        state, _ = last_session()
+        live(state)  # P2SFError where a reopened state had no answer
+        lost.append(seconds_lost(told, link(state), end))
+        steps += len(told)
+        assert lost[-1] <= MOST_LOST, f"window {number} lost {lost[-1]:.2f} s"
+    return (
+        f"{deaths} windows killed after {steps} changes: every state whole and with an answer; lost "
+        f"{max(lost):.2f} s at most, {np.median(lost):.2f} s in the middle, nothing in {lost.count(0.0)}"
+    )
+
+
+def read_log(path: Path) -> list[tuple[float, str]]:
+    """Return when the window's states came, s, and what they were; a line cut off by the kill is no state."""
+    lines = path.read_text().splitlines(keepends=True) if path.exists() else []
+    return [(float(line.split()[0]), line.split()[1]) for line in lines if line.endswith("\n")]
+
+
+def seconds_lost(told: list[tuple[float, str]], found: str, end: float) -> float:
+    """Return how long before the end the state that was found had been left for another; 0 if it was the last."""
+    assert found in [text for _, text in told], "a state that the window never had"
+    last = max(k for k, (_, text) in enumerate(told) if text == found)
+    return end - told[last + 1][0] if last + 1 < len(told) else 0.0
+
+
+def use_for_ever(folder: Path, log: Path, seed: int) -> None:
+    """Use a window at random and write down when it comes to which state."""
+    from PySide6.QtWidgets import QApplication
+
+    from p2sf_explorer.charts.theme import configure_plots
+    from p2sf_explorer.files.session_keeper import SessionKeeper
+    from p2sf_explorer.shell.window import MainWindow
+    from tests.long.stress import overheard, own_files
+    from tests.support.monkey import Person
+
+    application = QApplication([])
+    application.setStyle("Fusion")
+    configure_plots()
+    descriptor = os.open(log, os.O_CREAT | os.O_APPEND | os.O_WRONLY)
+    with own_files(folder, seed), overheard(lambda words: None):
+        made = MainWindow(new_state(method="seidel", theme="light", field_deg=0.1 * (seed + 1)), measured=False)
+
+        def note(state: State) -> None:
+            os.write(descriptor, f"{time.monotonic()} {link(state)}\n".encode())
+
+        made.store.changed.connect(note)
+        made.show()
+        note(made.store.state)
+        keeper = SessionKeeper(made, made.store, lambda: made.floating.open, {})
+        person = Person(made, random.Random(seed))
+        keeper.keep()
+        while True:
+            person.act()
+
+
 if __name__ == "__main__":
     place = Path(sys.argv[2])
-    recent.recent_path = lambda: place / "recent.json"
-    print({"kill": kill, "full": full}[sys.argv[1]](place))
+    recent.recent_path = lambda: place / "memory" / "recent.json" if sys.argv[1] == "window" else place / "recent.json"
+    print({"kill": kill, "full": full, "window": window}[sys.argv[1]](place, *map(int, sys.argv[3:])))

@@ -1,11 +1,11 @@
 """Lessons in the window: begin, go on, reveal, leave; the first start offers the first one."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
 from PySide6.QtCore import QEvent, QObject, QTimer
-from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QSplitter, QWidget
+from PySide6.QtWidgets import QBoxLayout, QLabel, QSplitter, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
@@ -14,7 +14,8 @@ from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
-from p2sf_explorer.lessons.lesson_panel import LessonPanel, tool
+from p2sf_explorer.lessons.lesson_panel import LessonPanel
+from p2sf_explorer.lessons.offer import Offer
 from p2sf_explorer.state.state import State, changed, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
@@ -23,6 +24,7 @@ from p2sf_explorer.widgets.command import Command
 SLIDER_SHARE = 0.38  # of the column's height for the sliders below the page of a lesson, at least
 PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to all that they need
 OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
+
 
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to put back: its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated and stands here as it was written")
@@ -211,23 +213,9 @@ class LessonController(QObject):
             path.touch()
         except OSError:
             return
-        self.offer = Offer(self.toggle, self._window)
+        self.offer = Offer(
+            tr(OFFER), "Start", "Begin the first lesson (F3)", "No, thanks", "Do not ask again", self._window
+        )
+        self.offer.accept.clicked.connect(self.toggle)
         self._room.offers.insertWidget(1, self.offer)
         self.offer.show()
-
-
-class Offer(QFrame):
-    """One line with Start and No, thanks."""
-
-    def __init__(self, start: Callable[[], None], parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setObjectName("bar")
-        words = QLabel(tr(OFFER))
-        self.start, self.dismiss = tool("Start", "Begin the first lesson (F3)"), tool("No, thanks", "Do not ask again")
-        self.start.clicked.connect(start)
-        self.dismiss.clicked.connect(self.hide)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 4, 8, 4)
-        row.addWidget(words, 1)
-        row.addWidget(self.start)
-        row.addWidget(self.dismiss)

@@ -2,11 +2,12 @@
 
 from PySide6.QtCore import QEvent, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QTextDocument
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.lesson import Lesson
+from p2sf_explorer.lessons.offer import tool
 from p2sf_explorer.widgets.card import chooser, select
 
 LINE_PX = 15.0  # height of a line of text at scale 1
@@ -174,14 +175,4 @@ def wrapped(name: str, form: Qt.TextFormat = Qt.TextFormat.PlainText) -> QLabel:
     made.setWordWrap(True)
     made.setTextFormat(form)
     made.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    return made
-
-
-def tool(text: str, tip: str) -> QToolButton:
-    """Return a small button that takes the keyboard focus."""
-    made = QToolButton()
-    made.setObjectName("small")
-    made.setText(tr(text))
-    made.setToolTip(tr(tip))
-    made.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     return made

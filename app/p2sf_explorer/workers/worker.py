@@ -1,6 +1,7 @@
 """Work too slow for a frame: one job running, one waiting, every finished result shown."""
 
 from collections.abc import Callable
+from functools import partial
 from threading import Event
 
 from PySide6.QtCore import QObject, QThread, Signal, Slot
@@ -20,14 +21,14 @@ class _Runner(QObject):
 
     @Slot(object, object, object)
     def run(self, key: object, job: Job, cancelled: Event) -> None:
+        end: Callable[[], object] = self.gave_up.emit  # after an unexpected error too: the next job is to run
         try:
-            result = job(cancelled, lambda part: self.progressed.emit(key, part))
-        except Cancelled:
-            self.gave_up.emit()
+            end = partial(self.finished.emit, key, job(cancelled, lambda part: self.progressed.emit(key, part)))
         except P2SFError as error:
-            self.failed.emit(key, error.message)
-        else:
-            self.finished.emit(key, result)
+            if not isinstance(error, Cancelled):
+                end = partial(self.failed.emit, key, error.message)
+        finally:
+            end()
 
 
 class LatestWins(QObject):

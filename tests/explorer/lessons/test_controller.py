@@ -153,7 +153,7 @@ def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, 
     teaching.offer_once()
     offer = teaching.offer
     assert offer.isVisible()
-    qtbot.mouseClick(offer.start, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(offer.accept, Qt.MouseButton.LeftButton)
     assert window.store.state.lesson.name == FIRST.name and not offer.isVisible()
     teaching.leave()
     again = LessonController(window.store, window, window.lesson_room)

@@ -123,6 +123,7 @@
 <message><source>Clip at rims</source><translation>Randbeschnitt</translation></message>
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
+<message><source>Close the explorer</source><translation>Explorer schließen</translation></message>
 <message><source>Close the window</source><translation>Fenster schließen</translation></message>
 <message><source>Coarse</source><translation>Grob</translation></message>
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
@@ -139,6 +140,7 @@
 <message><source>Contents</source><translation>Inhalt</translation></message>
 <message><source>Controls</source><translation>Regler</translation></message>
 <message><source>Cooke triplet, f/5, 50 mm, 40 degree field</source><translation>Cooke-Triplet, f/5, 50 mm, 40 Grad Feld</translation></message>
+<message><source>Copied</source><translation>Kopiert</translation></message>
 <message><source>Copied a link of {count} letters; paste it into a window of the explorer</source><translation>Link aus {count} Zeichen kopiert; in ein Fenster des Explorers einfügen</translation></message>
 <message><source>Copy a link to what is on screen</source><translation>Link auf das Gezeigte kopieren</translation></message>
 <message><source>Copy data as CSV</source><translation>Daten als CSV kopieren</translation></message>
@@ -146,6 +148,7 @@
 <message><source>Copy picture</source><translation>Bild kopieren</translation></message>
 <message><source>Copy the panel's data as CSV</source><translation>Daten der Ansicht als CSV kopieren</translation></message>
 <message><source>Copy the panel's picture</source><translation>Bild der Ansicht kopieren</translation></message>
+<message><source>Copy the report</source><translation>Bericht kopieren</translation></message>
 <message><source>Crown and flint cemented: colour and spherical aberration corrected, field curvature not</source><translation>Kron und Flint verkittet: Farbe und sphärische Aberration korrigiert, Bildfeldwölbung nicht</translation></message>
 <message><source>Cubic phase</source><translation>Kubische Phase</translation></message>
 <message><source>Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, which one deconvolution takes away.</source><translation>Kubische Phasenplatte: α des optischen Weges α(ξ³ + η³), den sie hinzufügt. Sie verwischt alle Abstände fast gleich, was eine einzige Entfaltung behebt.</translation></message>
@@ -231,6 +234,7 @@
 <message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
 <message><source>Focus: where the ring stands that moves groups inside the lens; a focus distance turns it, too. ▾ are the columns of the lens file.</source><translation>Fokus: wo der Ring steht, der Gruppen im Objektiv bewegt; auch ein Fokusabstand dreht ihn. ▾ sind die Spalten der Objektivdatei.</translation></message>
 <message><source>Fold or unfold the pupil shape</source><translation>Pupillenform ein- oder ausklappen</translation></message>
+<message><source>Forget what was on screen when the explorer ended</source><translation>Vergessen, was beim Ende des Explorers auf dem Bildschirm war</translation></message>
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
@@ -244,6 +248,7 @@
 <message><source>Gaussian, Moffat</source><translation>Gauß, Moffat</translation></message>
 <message><source>Glass</source><translation>Glas</translation></message>
 <message><source>Glass or index</source><translation>Glas oder Index</translation></message>
+<message><source>Go on</source><translation>Weiter</translation></message>
 <message><source>Gram–Schmidt over {percent:.0f} % of the pupil</source><translation>Gram–Schmidt über {percent:.0f} % der Pupille</translation></message>
 <message><source>Grey</source><translation>Grau</translation></message>
 <message><source>Group of panels</source><translation>Gruppe von Ansichten</translation></message>
@@ -342,6 +347,7 @@
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Noll, RMS waves</source><translation>Noll, RMS-Wellen</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
+<message><source>Nothing is lost: the window is saved as it is now, and the next start shows it again.</source><translation>Nichts ist verloren: Das Fenster ist gespeichert, wie es jetzt ist, und der nächste Start zeigt es wieder.</translation></message>
 <message><source>NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)</source><translation>NumPy (*.npz);;TIFF-Stapel für ImageJ (*.tif);;FITS (*.fits);;MATLAB und Octave (*.mat);;Tabelle der Werte (*.csv)</translation></message>
 <message><source>Numerical accuracy</source><translation>Numerische Genauigkeit</translation></message>
 <message><source>Numerical aperture</source><translation>Numerische Apertur</translation></message>
@@ -486,6 +492,7 @@
 <message><source>Redo: take the step again (Ctrl+Shift+Z)</source><translation>Wiederholen: den Schritt noch einmal tun (Strg+Umschalt+Z)</translation></message>
 <message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
+<message><source>Report</source><translation>Bericht</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
@@ -553,6 +560,7 @@
 <message><source>Show or hide what stands beside the stage</source><translation>Zeigen oder verbergen, was neben der Bühne steht</translation></message>
 <message><source>Show the answer</source><translation>Antwort zeigen</translation></message>
 <message><source>Show the answer (Alt+Down)</source><translation>Antwort zeigen (Alt+Abwärts)</translation></message>
+<message><source>Show the window as it was; Ctrl+Z comes back to this one</source><translation>Das Fenster zeigen, wie es war; Strg+Z kehrt zu diesem zurück</translation></message>
 <message><source>Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back</source><translation>Die angepasste Pupille dieses Punktes im Fenster zeigen, als freie Pupille; Rückgängig holt das Objektiv zurück</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
@@ -588,6 +596,7 @@
 <message><source>Tab, Shift+Tab</source><translation>Tab, Umschalt+Tab</translation></message>
 <message><source>Table</source><translation>Tabelle</translation></message>
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
+<message><source>Take it up again</source><translation>Wieder aufnehmen</translation></message>
 <message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Teach</source><translation>Lehren</translation></message>
 <message><source>Telecentric relay 1:1, NA 0.05 (finite objects only)</source><translation>Telezentrisches Übertragungsobjektiv 1:1, NA 0,05 (nur für nahe Objekte)</translation></message>
@@ -602,6 +611,8 @@
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
 <message><source>The complete trade is measured of shipped lenses; of others by p2sf tradeoff LENS --complete</source><translation>Der vollständige Vergleich ist für die mitgelieferten Objektive gemessen; für andere mit p2sf tradeoff LENS --complete</translation></message>
 <message><source>The distance between pixels, µm</source><translation>Der Abstand der Pixel, µm</translation></message>
+<message><source>The explorer did not end as it should. What was on screen has been kept.</source><translation>Der Explorer ist nicht ordentlich zu Ende gegangen. Was auf dem Bildschirm war, ist aufgehoben.</translation></message>
+<message><source>The explorer has made a mistake.</source><translation>Der Explorer hat einen Fehler gemacht.</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The first picture is being made …</source><translation>Das erste Bild entsteht …</translation></message>
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
@@ -636,6 +647,7 @@
 <message><source>The whole plot (Home, double-click)</source><translation>Das ganze Diagramm (Pos1, Doppelklick)</translation></message>
 <message><source>The window</source><translation>Das Fenster</translation></message>
 <message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
+<message><source>The window could not be saved, since its folder cannot be written; save what you need with Ctrl+E.</source><translation>Das Fenster konnte nicht gespeichert werden, da sein Ordner nicht beschreibbar ist; was gebraucht wird, mit Strg+E speichern.</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Theory</source><translation>Theorie</translation></message>
 <message><source>Theory of this panel</source><translation>Theorie zu dieser Ansicht</translation></message>
@@ -671,6 +683,7 @@
 <message><source>Through focus</source><translation>Fokusreihe</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Fokusreihe: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
 <message><source>To pupil</source><translation>Als Pupille</translation></message>
+<message><source>To report it, copy the text below and send it to the authors: it names versions and places in the program, no folder or file of yours.</source><translation>Um den Fehler zu melden, den Text unten kopieren und den Autoren schicken: Er nennt Versionen und Stellen im Programm, keinen Ordner und keine Datei von Ihnen.</translation></message>
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
 <message><source>To the previous part of the window</source><translation>Zum vorigen Teil des Fensters</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
@@ -690,6 +703,7 @@
 <message><source>Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point.</source><translation>Getippte Zahlen dürfen Dezimalpunkt oder Dezimalkomma haben; Dateien und die Kommandozeile nehmen den Dezimalpunkt.</translation></message>
 <message><source>Undo</source><translation>Rückgängig</translation></message>
 <message><source>Undo: take back one step (Ctrl+Z)</source><translation>Rückgängig: einen Schritt zurücknehmen (Strg+Z)</translation></message>
+<message><source>Unexpected error</source><translation>Unerwarteter Fehler</translation></message>
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
 <message><source>Unmeasured. No plan is made for PSFs as wide as these: it would take minutes.</source><translation>Ungemessen. Für so breite PSFs wird kein Plan gemacht: er würde Minuten brauchen.</translation></message>
 <message><source>Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.</source><translation>Ungemessen. Für so große Pixel wird kein Plan gemacht, denn sie verbergen, worum es ihm geht: kleinere wählen.</translation></message>
@@ -765,6 +779,7 @@
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
 <message><source>Workspace</source><translation>Arbeitsbereich</translation></message>
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
+<message><source>You can go on. If something looks wrong, undo the last step (Ctrl+Z), or close the explorer and start it again.</source><translation>Es kann weitergehen. Sieht etwas falsch aus, den letzten Schritt zurücknehmen (Strg+Z) oder den Explorer schließen und neu starten.</translation></message>
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>

@@ -1,0 +1,42 @@
+"""After a crash the next start begins anew, since what was on screen may be what ended it, and offers that back."""
+
+from PySide6.QtWidgets import QBoxLayout, QWidget
+
+from p2sf_explorer.files.session import Session, forget_rescued, last_session, rescue_session, rescued_session
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.lessons.lesson import PERSONAL
+from p2sf_explorer.lessons.offer import Offer
+from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.store.store import Store
+
+OFFER = "The explorer did not end as it should. What was on screen has been kept."
+TAKE_UP, TAKE_UP_TIP = "Take it up again", "Show the window as it was; Ctrl+Z comes back to this one"
+GIVE_UP, GIVE_UP_TIP = "No, thanks", "Forget what was on screen when the explorer ended"
+
+
+def session_to_open(asked: State | None, crashed: bool) -> Session:
+    """Return the state and geometry to open: as ``asked``, else the last ones; after a crash, those of a first start.
+
+    Theme, language, colours and the size of type stay.
+    """
+    if crashed:
+        rescue_session()
+    rescued = rescued_session()
+    if asked is not None or not (crashed and rescued):
+        return (asked, {}) if asked is not None else last_session()
+    kept, geometry = rescued
+    return changed(State(), **{name: entry(kept, name) for name in PERSONAL}), geometry
+
+
+def offer_rescued(store: Store, offers: QBoxLayout, window: QWidget) -> Offer | None:
+    """Offer the window of a run that crashed in a line under the top bar, at each start until that is decided."""
+    found = rescued_session()
+    if found is None:
+        return None
+    offer = Offer(tr(OFFER), TAKE_UP, TAKE_UP_TIP, GIVE_UP, GIVE_UP_TIP, window)
+    offer.accept.clicked.connect(lambda: store.replace(found[0]))
+    for button in (offer.accept, offer.dismiss):
+        button.clicked.connect(forget_rescued)
+    offers.insertWidget(1, offer)
+    offer.show()
+    return offer
