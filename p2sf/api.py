@@ -18,7 +18,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.notebook import html_table
-from p2sf.parameters import check_angle
+from p2sf.parameters import check_angle, check_finite
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.request import AimChoice, Request, StopChoice, aimed, check_aim, check_lens, set_up, set_up_source
 from p2sf.threads import using_threads
@@ -313,6 +313,7 @@ def mtf(
     *,
     frequency_per_mm: ArrayLike | None = None,
     spectrum: str | None = None,
+    turn_deg: float = 0.0,
     clip: bool = False,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
@@ -334,6 +335,8 @@ def mtf(
     spectrum : str, optional
         Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
         lateral colour; of the source's own wavelength when not given.
+    turn_deg : float
+        By how much the axis of the tangential patterns is turned from the field's direction, degrees from +y to +x.
 
     Returns
     -------
@@ -358,8 +361,9 @@ def mtf(
     from p2sf.metrics.measures import mtf_of
 
     camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
-    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera)
-    return mtf_of(parts, used, frequency_per_mm)
+    check_finite("turn_deg", turn_deg)
+    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera, turn_deg)
+    return mtf_of(parts, used, frequency_per_mm, turn_deg=turn_deg)
 
 
 def encircled_energy(
@@ -475,14 +479,21 @@ def line_spread(
 
 
 def _pupil_parts(
-    lens: Lens, source: Source, method: str, clip: bool, spectrum: str | None, camera: dict[str, Any]
+    lens: Lens,
+    source: Source,
+    method: str,
+    clip: bool,
+    spectrum: str | None,
+    camera: dict[str, Any],
+    turn_deg: float = 0.0,
 ) -> "tuple[list[PupilPart], str]":
     """Return the pupils of a source, one per wavelength, and the method that described them."""
     from p2sf.colour.spectrum import spectrum_of
     from p2sf.metrics.measures import parts_of
 
     setup = set_up_source(lens, source, **camera)
-    return parts_of(setup.lens, setup.source, method, clip, None if spectrum is None else spectrum_of(spectrum))
+    wanted = None if spectrum is None else spectrum_of(spectrum)
+    return parts_of(setup.lens, setup.source, method, clip, wanted, turn_deg)
 
 
 class TradeoffTable(list["MethodCost"]):

@@ -205,7 +205,7 @@ def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
             "share_of": "all light",
             "geometric_limit_departs_by": energy.departure or None,
         }
-        return {"centroid_um": [0.0, energy.centroid_um], **radii, **light}
+        return {"centroid_um": [energy.centroid_x_um, energy.centroid_um], **radii, **light}
     x, y = centroid(result)
     half, most = (float(radius_of_energy(result, share)) for share in (0.5, 0.8))
     radii = {"radius_50_um": half, "radius_80_um": most}
@@ -236,6 +236,7 @@ def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = 
         ("pixel", result.pixel_um, "µm"),
         ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else ""),
         ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),
+        *([("centroid, from the chief ray, along x", x, "µm")] if (x := measured["centroid_um"][0]) else []),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         (f"radius of 50 % of {light}", measured["radius_50_um"], "µm"),
         (f"radius of 80 % of {light}", measured["radius_80_um"], "µm"),

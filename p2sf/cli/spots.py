@@ -54,6 +54,7 @@ def spot(
 ROWS = (
     ("rms_um", "RMS radius about the centroid", "µm"),
     ("largest_um", "farthest ray from the centroid", "µm"),
+    ("centroid_x_um", "centroid from the chief ray, along x", "µm"),
     ("centroid_y_um", "centroid from the chief ray, along y", "µm"),
     ("airy_radius_um", "Airy radius 0.61 λ/NA, for comparison", "µm"),
     ("rays", "rays traced", ""),
@@ -75,7 +76,8 @@ def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[s
     na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))
     return points, {
         "rms_um": float(found.rms_um),
-        "largest_um": float(np.hypot(points[:, 0], points[:, 1] - found.centroid_y_um).max()),
+        "largest_um": float(np.hypot(points[:, 0] - found.centroid_x_um, points[:, 1] - found.centroid_y_um).max()),
+        "centroid_x_um": float(found.centroid_x_um),
         "centroid_y_um": float(found.centroid_y_um),
         "airy_radius_um": float(airy_radius_um(setup.source.wavelength_um, na)) if na else inf,
         "rays": len(all_points),

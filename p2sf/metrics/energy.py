@@ -90,48 +90,59 @@ class LandingPoints:
         return radius, self.within(radius)
 
 
-def energy_of(pupil: FrequencyPupil, centre_um: float | None = None) -> "RingSums | LandingPoints":
-    """Return the energy of a pupil about (0, ``centre_um``), its centroid if not given."""
+def energy_of(
+    pupil: FrequencyPupil, centre_um: float | None = None, aside_um: float | None = None
+) -> "RingSums | LandingPoints":
+    """Return the energy of a pupil about (``aside_um``, ``centre_um``), its centroid if not given."""
     centre = pupil.centroid_um if centre_um is None else centre_um
-    across = samples_across(pupil, centre)
+    aside = pupil.centroid_x_um if aside_um is None else aside_um
+    across = samples_across(pupil, centre, aside)
     if across <= MOST_ACROSS:
-        return ring_sums(pupil, centre, across)
+        return ring_sums(pupil, centre, across, aside)
     if not pupil.mask.clear:
         raise SamplingError(
             "a blur that takes {across} pupil samples a side behind a mask; bring the sensor nearer to the image or "
             "stop down",
             across=across,
         )
-    return replace(landing_points(pupil, centre), departure=departure_of_rays(pupil, centre))
+    return replace(landing_points(pupil, centre, aside), departure=departure_of_rays(pupil, centre, aside))
 
 
-def departure_of_rays(pupil: FrequencyPupil, centre_um: float) -> float:
+def departure_of_rays(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> float:
     """Return the largest difference between energy by waves and by landing points, of a pupil with a JUDGED slope.
 
     With the phase all distances scale, but diffraction does not: in the pupil itself it matters less than there.
     """
     reach = reach_of(pupil)
     scale = JUDGED / max(reach.x, reach.y)
-    smaller = replace(pupil, phase=scale * pupil.phase, centroid_um=scale * pupil.centroid_um)
-    waves = ring_sums(smaller, scale * centre_um, samples_across(smaller, scale * centre_um))
-    rays = landing_points(smaller, scale * centre_um)
+    centroid = scale * pupil.centroid_um, scale * pupil.centroid_x_um
+    smaller = replace(pupil, phase=scale * pupil.phase, centroid_um=centroid[0], centroid_x_um=centroid[1])
+    centre, aside = scale * centre_um, scale * aside_um
+    waves = ring_sums(smaller, centre, samples_across(smaller, centre, aside), aside)
+    rays = landing_points(smaller, centre, aside)
     radius = np.linspace(0, float(rays.radius_um[-1]), COMPARED)
     return float(np.abs(waves.within(radius) - rays.within(radius)).max())
 
 
-def samples_across(pupil: FrequencyPupil, centre_um: float) -> int:
+def samples_across(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> int:
     """Return how many samples across the pupil its blur about a point takes."""
     reach = reach_of(pupil)
-    aside = abs(centre_um - pupil.centroid_um) * pupil.half_y
-    return even_count(FEWEST + PER_WAVE * max(reach.x, reach.y + aside))
+    beside = abs(aside_um - pupil.centroid_x_um) * pupil.half_x
+    above = abs(centre_um - pupil.centroid_um) * pupil.half_y
+    return even_count(FEWEST + PER_WAVE * max(reach.x + beside, reach.y + above))
 
 
-def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int) -> RingSums:
+def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int, aside_um: float = 0.0) -> RingSums:
     """Return the transfer function about a point on a grid of ``across`` samples, summed over rings."""
     step = 2 * max(pupil.half_x, pupil.half_y) / across
-    wave, kept = _cells(pupil, centre_um, step, across)
+    wave, kept = (
+        _cells(pupil, centre_um, step, across)
+        if pupil.even
+        else _skew_cells(pupil, (aside_um, centre_um), step, across)
+    )
     length = fft.next_fast_len(2 * across + 4)
-    both = np.concatenate([wave[:, ::-1], wave], axis=1) if pupil.mask.clear else wave
+    half = pupil.mask.clear and pupil.even
+    both = np.concatenate([wave[:, ::-1], wave], axis=1) if half else wave
     field = fft.fft2(both, (length, length))
     transfer = fft.rfft2(field.real**2 + field.imag**2).real
     light = float(transfer[0, 0])
@@ -159,6 +170,28 @@ def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) ->
     phase, density = pupil.on_grid(x, y)
     density *= area > 0
     phase += centre_um * pupil.half_y * y[:, None]
+    amplitude = area * density
+    wave = np.empty(phase.shape, np.complex64)
+    wave.real, wave.imag = cosine_sine(phase, np.float32)
+    wave *= amplitude.astype(np.float32)
+    return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
+
+
+def _skew_cells(
+    pupil: FrequencyPupil, centre_um: tuple[float, float], step: float, across: int
+) -> tuple[np.ndarray, float]:
+    """Return `_cells` of a pupil that is not even, about a point (x, y), of the whole pupil, (y, x)."""
+    wide, high = step / pupil.half_x, step / pupil.half_y
+    x, y = ((np.arange(across + 2) - (across + 1) / 2) * size for size in (wide, high))
+    area = np.zeros((y.size, x.size))
+    for strip in (np.arange(STRIPS) + 0.5) / STRIPS - 0.5:
+        low, high_end = pupil.columns(x + strip * wide)
+        top, bottom = (np.clip((end - y[:, None]) / high, -0.5, 0.5) for end in (high_end, low))
+        area += top - bottom
+    area /= STRIPS
+    phase, density = pupil.on_grid(x, y)
+    density *= area > 0
+    phase += centre_um[0] * pupil.half_x * x + centre_um[1] * pupil.half_y * y[:, None]
     amplitude = area * density
     wave = np.empty(phase.shape, np.complex64)
     wave.real, wave.imag = cosine_sine(phase, np.float32)
@@ -220,10 +253,10 @@ def _missing(across: int, scaled: np.ndarray) -> np.ndarray:
     return missing
 
 
-def landing_points(pupil: FrequencyPupil, centre_um: float) -> LandingPoints:
+def landing_points(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> LandingPoints:
     """Return where the pupil's rays land about a point."""
     x, y, light = landing_um(pupil, GEOMETRIC)
-    radius = np.hypot(x, y - centre_um).ravel()
+    radius = np.hypot(x - aside_um, y - centre_um).ravel()
     order = np.argsort(radius)
     share = np.cumsum(light.ravel()[order])
     return LandingPoints(np.append(0.0, radius[order]), np.append(0.0, share / share[-1]))

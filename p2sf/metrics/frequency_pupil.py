@@ -18,7 +18,7 @@ from math import inf, nan
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
-from scipy.fft import dct, dst
+from scipy.fft import dct, dst, irfft, rfft
 from scipy.linalg import qr, solve_triangular
 
 from p2sf.conventions import protected
@@ -30,12 +30,11 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.huygens import all_reach
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.vignetting import clear_nodes, clear_outline
+from p2sf.raytrace.vignetting import clear_nodes, clear_outline, whole_nodes
 
 # RMS error of the phase up to which a higher order is tried: the transfer function's error is at most 2π√2 times it.
 RESIDUAL_WAVES = 5e-5
@@ -89,7 +88,7 @@ class PupilNodes:
 
 @dataclass(frozen=True, eq=False)
 class FrequencyPupil:
-    """The pupil over spatial frequencies (fx, fy), even in fx.
+    """The pupil over spatial frequencies (fx, fy), even in fx unless ``even`` is False.
 
     Attributes
     ----------
@@ -99,7 +98,8 @@ class FrequencyPupil:
         Coefficients of T_b(y)·T_a(x), (order + 1, order + 1), in the box's own coordinates; phase in waves, the density
         positive and up to a factor.
     outline_x, outline_y : numpy.ndarray
-        The edge's right half from the largest to the smallest fy, in the box's coordinates.
+        The edge's right half from the largest to the smallest fy, in the box's coordinates; the whole, once around,
+        where the pupil is not even.
     centroid_um : float
         The light's centroid along y, µm from the chief ray: its mean landing point.
     rms_um : float
@@ -115,7 +115,11 @@ class FrequencyPupil:
     turned : bool
         Whether the box's x is −fx, which shows where a mask is not even.
     stretch, up : numpy.ndarray
-        ξ/x and η of the ray at a point of the box, as ``phase`` is.
+        ξ/x and η of the ray at a point of the box, as ``phase`` is; ξ itself where the pupil is not even.
+    even : bool
+        Whether fx and −fx are alike, as they are in the plane of symmetry of a lens that has one.
+    centroid_x_um : float
+        The light's centroid along x, 0 where the pupil is even.
     """
 
     half_x: float
@@ -134,6 +138,8 @@ class FrequencyPupil:
     turned: bool = False
     stretch: np.ndarray = field(default_factory=lambda: np.ones((1, 1)))
     up: np.ndarray = field(default_factory=lambda: np.array([[0.0], [1.0]]))
+    even: bool = True
+    centroid_x_um: float = 0.0
 
     @property
     def cut_off_per_um(self) -> tuple[float, float]:
@@ -143,7 +149,22 @@ class FrequencyPupil:
     def without_phase(self) -> "FrequencyPupil":
         """Return the same pupil of a perfect lens, whose light lands in one point but for diffraction."""
         mask = self.mask.without_phase()
-        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, rms_um=0.0, mask=mask)
+        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, centroid_x_um=0.0, rms_um=0.0, mask=mask)
+
+    @property
+    def transposed(self) -> "FrequencyPupil":
+        """Return a pupil that is not even with x and y exchanged; its middle and its map to the stop are left out."""
+        return replace(
+            self,
+            half_x=self.half_y,
+            half_y=self.half_x,
+            phase=self.phase.T,
+            density=self.density.T,
+            outline_x=self.outline_y,
+            outline_y=self.outline_x,
+            centroid_um=self.centroid_x_um,
+            centroid_x_um=self.centroid_um,
+        )
 
     def chords(self, y: np.ndarray) -> np.ndarray:
         """Return the half length of the row at each y, in the box's coordinates; 0 outside the pupil."""
@@ -151,7 +172,9 @@ class FrequencyPupil:
         return half
 
     def columns(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the lower and the upper end of the column at each x ≥ 0, in the box's coordinates."""
+        """Return the lower and the upper end of the column at each x of the box, ≥ 0 of an even pupil."""
+        if not self.even:
+            return _ends(self.outline_x, self.outline_y, x)
         widest = int(self.outline_x.argmax())
         upper = np.interp(x, self.outline_x[: widest + 1], self.outline_y[: widest + 1])
         lower = np.interp(x, self.outline_x[: widest - 1 : -1], self.outline_y[: widest - 1 : -1])
@@ -160,6 +183,16 @@ class FrequencyPupil:
     def on_grid(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return phase and density at the points (y, x) of a grid in the box's coordinates."""
         return _on_grid(self.phase, x, y), _on_grid(self.density, x, y)
+
+
+def _ends(edge_x: np.ndarray, edge_y: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the lower and the upper end, at each x, of what a closed curve goes around once; one point beside it."""
+    edge_x, edge_y = (np.roll(edge, -int(edge_x.argmin())) for edge in (edge_x, edge_y))
+    farthest = int(edge_x.argmax())
+    there = edge_x[: farthest + 1], edge_y[: farthest + 1]
+    back = np.append(edge_x[farthest:], edge_x[0])[::-1], np.append(edge_y[farthest:], edge_y[0])[::-1]
+    one, two = (np.interp(x, np.maximum.accumulate(side), height) for side, height in (there, back))
+    return np.minimum(one, two), np.maximum(one, two)
 
 
 def _on_grid(table: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -185,11 +218,18 @@ class Reach:
 def reach_of(pupil: FrequencyPupil) -> Reach:
     """Return how far apart rays land: over f, the phase has the gradient −(x, y) (Hamilton)."""
     x, y = np.linspace(0, 1, PROBE), np.cos(np.linspace(0, np.pi, PROBE))
-    outside = x > pupil.chords(y)[:, None] + 1 / PROBE
+    if pupil.even:
+        outside = x > pupil.chords(y)[:, None] + 1 / PROBE
+    else:
+        x = np.linspace(-1, 1, 2 * PROBE - 1)
+        low, high = pupil.columns(x)
+        margin = 2 / PROBE  # so that no column, however short, is without a point
+        outside = (y[:, None] > high + margin) | (y[:, None] < low - margin)
     along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y, x))
     by_x, by_y = _derivatives(pupil.phase)
     landing_x = np.where(outside, np.nan, along @ by_x @ across[:, :-1].T)
     landing_y = np.where(outside, np.nan, along[:, :-1] @ by_y @ across.T)
+    landing_x += pupil.centroid_x_um * pupil.half_x
     landing_y += pupil.centroid_um * pupil.half_y
     x_range, y_range = (
         np.nanmax(landing_x, 0) - np.nanmin(landing_x, 0),
@@ -201,6 +241,8 @@ def reach_of(pupil: FrequencyPupil) -> Reach:
 
 def landing_um(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return where rays land, x and y in µm from the chief ray, and the light of each, up to a factor."""
+    if not pupil.even:
+        return _landing_by_columns(pupil, count)
     angle = np.arange(1, count + 1) * (np.pi / (count + 1))
     y = np.cos(angle)[:, None]
     chord = pupil.chords(y[:, 0])[:, None]
@@ -212,6 +254,21 @@ def landing_um(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarra
         for table in (by_x, by_y, pupil.density)
     )
     light: np.ndarray = density**2 * chord * np.sin(angle)[:, None]
+    return -landing_x / pupil.half_x, -landing_y / pupil.half_y, light
+
+
+def _landing_by_columns(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    angle = np.arange(1, count + 1) * (np.pi / (count + 1))
+    x = np.cos(angle)[:, None]
+    low, high = (end[:, None] for end in pupil.columns(x[:, 0]))
+    y = low + (high - low) * (np.arange(count) + 0.5) / count
+    across, along = (chebvander(points, len(pupil.phase) - 1) for points in (x[:, 0], y))
+    by_x, by_y = _derivatives(pupil.phase)
+    landing_x, landing_y, density = (
+        np.einsum("xyb,ba,xa->xy", along[..., : len(table)], table, across[:, : table.shape[1]], optimize=True)
+        for table in (by_x, by_y, pupil.density)
+    )
+    light: np.ndarray = density**2 * (high - low) * np.sin(angle)[:, None]
     return -landing_x / pupil.half_x, -landing_y / pupil.half_y, light
 
 
@@ -227,66 +284,88 @@ def _derivative(order: int) -> np.ndarray:
     return protected(chebder(np.eye(order + 1)))
 
 
-def uniform_disc(half: float = 1.0) -> FrequencyPupil:
+def uniform_disc(half: float = 1.0, even: bool = True) -> FrequencyPupil:
     """Return the pupil of a perfect lens whose cut-off is 2·half cycles per µm."""
-    x, y = _rim(OUTLINE)
-    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), x, y, 0.0, 0.0, 0.0, 0)
+    x, y = _rim(OUTLINE, even)
+    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), x, y, 0.0, 0.0, 0.0, 0, even=even)
 
 
-def pupil_of_rays(lens: Lens, source: Source, clip: bool = False) -> FrequencyPupil:
+def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: float = 0.0) -> FrequencyPupil:
     """Return the pupil of exact rays; where rims clip or rays are lost, it ends there.
 
+    ``turn_deg``: by how much its axes are turned from those of the source's image, from +y towards +x.
     Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
     rays of different parts of it arrive in one direction.
     """
-    whole = not clip and all_reach(lens, source)
-    edge = _rim(RIM) if whole else clear_outline(lens, source, OUTLINE // 4, clip)
+    whole, even = not clip and all_reach(lens, source), not (lens.misaligned or turn_deg)
+    edge = _rim(RIM, even) if whole else clear_outline(lens, source, OUTLINE // 4, clip, even)
 
     def traced(sampling: Sampling) -> PupilNodes:
         counts = sampling.radii, 2 * sampling.directions
-        inside = disc_nodes(*counts) if whole else clear_nodes(lens, source, counts, clip)
+        inside = whole_nodes(counts) if whole else clear_nodes(lens, source, counts, clip)
+        inside = inside if even else inside.unfolded()
         xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
         rays = pencil(lens, source, xi, eta)
         data, passed = ray_data(rays), rays.passed  # where light is lost, an outline by directions misses a few rays
         if whole and not passed.all():
             raise GeometryError(UNFOLLOWED)
-        columns = xi, eta, _shares(inside.weight, edge), data.weight, data.phase, data.fx, data.fy
+        across, up = turned(data.fx, data.fy, turn_deg)
+        columns = xi, eta, _shares(inside.weight, edge), data.weight, data.phase, across, up
         xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
         return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
     mask = mask_seen(lens, source)
     if not (whole or mask.clear):
         check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
-    return behind_mask(_settled(traced, ORDERS, whole), mask, float(source.wavelength_um))
+    return behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
 
 
-def pupil_of_fit(found: FittedPencil) -> FrequencyPupil:
-    """Return the pupil that a fit describes. Raises GeometryError where its map of the pupil folds."""
-    edge = _rim(RIM)
+def turned(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return frequencies along axes that are turned from +y towards +x."""
+    if not turn_deg:
+        return fx, fy
+    sine, cosine = np.sin(np.deg2rad(turn_deg)), np.cos(np.deg2rad(turn_deg))
+    return cosine * fx - sine * fy, sine * fx + cosine * fy
+
+
+def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
+    """Return the pupil that a fit describes, axes as `pupil_of_rays`. Raises GeometryError where its map folds."""
+    even = not (found.level.skew or turn_deg)
+    edge = _rim(RIM, even)
 
     def evaluated(sampling: Sampling) -> PupilNodes:
-        inside = disc_nodes(sampling.radii, 2 * sampling.directions)
-        xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
-        weight = found.weight_at(xi, eta)
-        return PupilNodes(xi, eta, _shares(inside.weight, edge), weight, *found.at(xi, eta), edge[0].size)
+        xi, eta, share = _over_disc(sampling, edge, even)
+        phase, fx, fy = found.at(xi, eta)
+        return PupilNodes(xi, eta, share, found.weight_at(xi, eta), phase, *turned(fx, fy, turn_deg), edge[0].size)
 
-    return behind_mask(replace(_settled(evaluated, ORDERS, True), rays=found.rays), found.mask, found.wavelength_um)
+    known = replace(_settled(evaluated, ORDERS, True, even), rays=found.rays)
+    return behind_mask(known, found.mask, found.wavelength_um)
 
 
-def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR) -> FrequencyPupil:
+def _over_disc(
+    sampling: Sampling, edge: tuple[np.ndarray, np.ndarray], even: bool
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ξ, η and shares of the area of nodes over the disc, half of it for an even pupil, and on its edge."""
+    inside = whole_nodes((sampling.radii, 2 * sampling.directions))
+    inside = inside if even else inside.unfolded()
+    return np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1]), _shares(inside.weight, edge)
+
+
+def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR, turn_deg: float = 0.0) -> FrequencyPupil:
     """Return the pupil of the six coefficients: the unit circle, frequencies −n'u'(ξ, η)/λ, uniform density.
 
     ``mask``: what else stands in it, as the source sees it. W counts the other way round than the mask's path.
     """
-    edge, scale = _rim(RIM), -float(six.reduced_slope) / float(six.wavelength_um)
+    even, scale = not turn_deg, -float(six.reduced_slope) / float(six.wavelength_um)
+    edge = _rim(RIM, even)
 
     def evaluated(sampling: Sampling) -> PupilNodes:
-        inside = disc_nodes(sampling.radii, 2 * sampling.directions)
-        xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
+        xi, eta, share = _over_disc(sampling, edge, even)
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
-        return PupilNodes(xi, eta, _shares(inside.weight, edge), one, phase, scale * xi, scale * eta, edge[0].size)
+        across, up = turned(scale * xi, scale * eta, turn_deg)
+        return PupilNodes(xi, eta, share, one, phase, across, up, edge[0].size)
 
-    found = replace(_settled(evaluated, (EXACT,), True), rays=2)
+    found = replace(_settled(evaluated, (EXACT,), True, even), rays=2)
     return behind_mask(found, mask, -float(six.wavelength_um))
 
 
@@ -294,6 +373,11 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     """Return the pupil behind a mask: centroid and RMS distance are those of the light that passes."""
     if mask.clear:
         return pupil
+    if not pupil.even:
+        raise GeometryError(
+            "a mask stands in the stop, and the transfer function of a pupil without symmetry knows a clear round stop "
+            "only; take the mask away or set the lens straight"
+        )
     pupil = replace(pupil, mask=mask, wavelength_um=wavelength_um)
     axis = (np.arange(CENTROID_CELLS) + 0.5) * (2 / CENTROID_CELLS) - 1
     along = chebvander(axis, len(pupil.up) - 1)
@@ -324,20 +408,22 @@ def _shares(weight: np.ndarray, edge: tuple[np.ndarray, np.ndarray]) -> np.ndarr
 
 
 @lru_cache(maxsize=4)
-def _rim(intervals: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the right half of the unit circle from (0, 1) to (0, −1), (intervals + 1,)."""
-    angle = np.linspace(0, np.pi, intervals + 1)
+def _rim(intervals: int, even: bool = True) -> tuple[np.ndarray, np.ndarray]:
+    """Return the right half of the unit circle from (0, 1) to (0, −1), or once around, ``intervals`` to the half."""
+    angle = np.linspace(0, np.pi, intervals + 1) if even else np.arange(2 * intervals) * (np.pi / intervals)
     return protected(np.sin(angle)), protected(np.cos(angle))
 
 
-def _settled(nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling, ...], smooth: bool) -> FrequencyPupil:
+def _settled(
+    nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling, ...], smooth: bool, even: bool = True
+) -> FrequencyPupil:
     """Return the pupil through nodes, of the first order whose residual is small enough."""
     counts, traced = (0, 0), 0
     for sampling in orders:
         if counts != (sampling.radii, sampling.directions):
             nodes, counts = nodes_of(sampling), (sampling.radii, sampling.directions)
             traced += nodes.xi.size
-        found = _through(nodes, sampling.order, smooth)
+        found = _through(nodes, sampling.order, smooth, even)
         if found.residual_waves < RESIDUAL_WAVES:
             break
     if found.residual_waves == inf:
@@ -350,15 +436,16 @@ def _settled(nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling,
     return replace(found, rays=traced)
 
 
-def _through(nodes: PupilNodes, order: int, smooth: bool) -> FrequencyPupil:
+def _through(nodes: PupilNodes, order: int, smooth: bool, even: bool) -> FrequencyPupil:
     """Return the polynomials through nodes by least squares, and what else follows from the rays."""
-    fx, fy = np.abs(nodes.fx), nodes.fy  # of a pupil that is even in fx, either half will do
-    edge_x, edge_y = _outline(fx[-nodes.rim :], fy[-nodes.rim :], smooth)
-    half_x, low, high = float(edge_x.max()), float(edge_y.min()), float(edge_y.max())
+    fx, fy = np.abs(nodes.fx) if even else nodes.fx, nodes.fy  # of a pupil that is even in fx, either half will do
+    edge_x, edge_y = (_outline if even else _whole_outline)(fx[-nodes.rim :], fy[-nodes.rim :], smooth)
+    (left, right), (low, high) = ((float(edge.min()), float(edge.max())) for edge in (edge_x, edge_y))
+    half_x, centre = (right, 0.0) if even else ((right - left) / 2, (right + left) / 2)
     half_y, middle = (high - low) / 2, (high + low) / 2
-    x, y = fx / half_x, (fy - middle) / half_y
-    used = nodes.xi > 0
-    least = LeastSquares(order, x[used], y[used], nodes.share[used])
+    x, y = (fx - centre) / half_x, (fy - middle) / half_y
+    used = nodes.xi > 0 if even else np.ones(x.size, bool)
+    least = LeastSquares(order, x[used], y[used], nodes.share[used], even)
     phase = least.solve(nodes.phase[used])
     miss = least.values(phase) - nodes.phase[used]
     freedom = max(1 - least.unknowns / miss.size, 1e-3)
@@ -367,31 +454,34 @@ def _through(nodes: PupilNodes, order: int, smooth: bool) -> FrequencyPupil:
     light = share * nodes.weight[used] * least.values(density)  # D²df = D·weight·dξdη
     light /= light.sum()
     landing_x, landing_y = (-slope / half for slope, half in zip(least.slopes(phase), (half_x, half_y), strict=True))
-    centroid = float(light @ landing_y)
+    aside, centroid = 0.0 if even else float(light @ landing_x), float(light @ landing_y)
+    square = light @ ((landing_x - aside) ** 2 + (landing_y - centroid) ** 2)
     return FrequencyPupil(
         half_x,
         half_y,
         middle,
         phase,
         density,
-        edge_x / half_x,
+        (edge_x - centre) / half_x,
         (edge_y - middle) / half_y,
         centroid,
-        float(np.sqrt(max(light @ (landing_x**2 + (landing_y - centroid) ** 2), 0.0))),  # < 0 at a fold, refused below
+        float(np.sqrt(max(square, 0.0))),  # < 0 at a fold, refused below
         float(np.sqrt(share @ miss**2 / share.sum() / freedom)) if flat else inf,
         0,
         turned=bool(nodes.xi @ nodes.fx < 0),
         stretch=stretch,
         up=up,
+        even=even,
+        centroid_x_um=aside,
     )
 
 
 class LeastSquares:
-    """Polynomials T_a(x)·T_b(y), a even and a + b ≤ order, through values at points of the box, by one QR."""
+    """Polynomials T_a(x)·T_b(y), a + b ≤ order, through values at points of the box, by one QR; ``even``: a even."""
 
-    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray):
-        self._x, self._y, self._order = x, y, order
-        self._at = np.array([(b, a) for a in range(0, order + 1, 2) for b in range(order + 1 - a)]).T
+    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray, even: bool = True):
+        self._x, self._y, self._order, self._even = x, y, order, even
+        self._at = np.array([(b, a) for a in range(0, order + 1, 1 + even) for b in range(order + 1 - a)]).T
         self._across, self._along = chebvander(x, order), chebvander(y, order)
         self._design = self._along[:, self._at[0]] * self._across[:, self._at[1]]
         self._root = np.sqrt(share + share[share > 0].min())  # the edge counts too, where polynomials deviate first
@@ -420,9 +510,12 @@ class LeastSquares:
         self, xi: np.ndarray, eta: np.ndarray, weight: np.ndarray
     ) -> tuple[np.ndarray, bool, np.ndarray, np.ndarray]:
         """Return the coefficients of weight·|∂(ξ, η)/∂(x, y)|, whether that map goes without a fold, and its own."""
-        stretch, up = self.solve(xi / self._x), self.solve(eta)  # ξ is odd in x, and ξ/x even
+        # Of an even pupil ξ is odd in x, and ξ/x even.
+        stretch, up = self.solve(xi / self._x if self._even else xi), self.solve(eta)
         (stretch_x, stretch_y), (up_x, up_y) = self.slopes(stretch), self.slopes(up)
-        area = (self.values(stretch) + self._x * stretch_x) * up_y - self._x * stretch_y * up_x
+        if self._even:
+            stretch_x, stretch_y = self.values(stretch) + self._x * stretch_x, self._x * stretch_y
+        area = stretch_x * up_y - stretch_y * up_x
         return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0), stretch, up
 
 
@@ -433,6 +526,15 @@ def _outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np
     if smooth:
         x, y = _refined(x, y)
     return np.maximum(x, 0.0), np.minimum.accumulate(y)
+
+
+def _whole_outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return the whole edge, once around; a smooth one at 2·OUTLINE equal steps, where its Fourier series goes on."""
+    if not smooth:
+        return x, y
+    finer = 2 * OUTLINE
+    one, two = (irfft(rfft(edge), finer) * (finer / edge.size) for edge in (x, y))
+    return one, two
 
 
 def _refined(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

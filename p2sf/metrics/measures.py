@@ -16,16 +16,16 @@ from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError, SamplingError
-from p2sf.lens.lens import Lens, check_aligned, lens_range_um
+from p2sf.lens.lens import Lens, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
-from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays
+from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays, turned
 from p2sf.metrics.masked_transfer import MaskedSlice
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import check_seidel, coefficients
 from p2sf.psf.methods import choose
-from p2sf.psf.polychromatic import chief_shifts_um
+from p2sf.psf.polychromatic import chief_places_um
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.fit import fit
@@ -45,7 +45,8 @@ PARTS = (0.5, 0.8)  # of the light, whose radii are quoted
 class Mtf:
     """Contrast of sine patterns against cycles per mm on the sensor, all (n,).
 
-    ``tangential``: of patterns that vary along y, the direction of the field; ``sagittal``: along x. Beside them those
+    ``tangential``: of patterns that vary along y, the direction of the field, or along an axis that is ``turn_deg``
+    from it towards x; ``sagittal``: of those across. Beside them those
     of the same pupils without phase, which nothing exceeds, and of clear pupils without phase, the same where no mask
     stands in the stop. ``method`` names what described the pupil.
     """
@@ -58,16 +59,18 @@ class Mtf:
     method: str
     clear_tangential: np.ndarray
     clear_sagittal: np.ndarray
+    turn_deg: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class Energy:
     """The share of all light within each radius, µm, of its centroid, both (n,).
 
-    ``centroid_um``: along y from the chief ray. ``radius_50_um``, ``radius_80_um``: what holds half and 80 % of all
-    light. ``rms_um``: RMS distance of the rays from the centroid; that of the light is infinite behind any hard edge.
-    ``departure``: of a blur too large for a sum of waves it is that of landing points, the geometric limit, and this is
-    how far from waves it may lie; above ROADS_AGREE it is not to be trusted so far. 0 for waves.
+    ``centroid_um``: along y from the chief ray, ``centroid_x_um`` along x, 0 in a lens of symmetry. ``radius_50_um``,
+    ``radius_80_um``: what holds half and 80 % of all light. ``rms_um``: RMS distance of the rays from the centroid;
+    that of the light is infinite behind any hard edge. ``departure``: of a blur too large for a sum of waves it is that
+    of landing points, the geometric limit, and this is how far from waves it may lie; above ROADS_AGREE it is not to be
+    trusted so far. 0 for waves.
     """
 
     radius_um: np.ndarray
@@ -78,6 +81,7 @@ class Energy:
     rms_um: float
     method: str
     departure: float = 0.0
+    centroid_x_um: float = 0.0
 
     @property
     def note(self) -> Message | None:
@@ -98,7 +102,7 @@ class LineSpread:
     """Images of a line and of an edge across x and across y: positions in µm from the centroid, all (n,).
 
     ``line_x``, ``line_y``: shares of the light per µm, of lines along y and along x. ``edge_x``, ``edge_y``: edges that
-    are dark below 0, their bright side 1. ``centroid_um``: along y from the chief ray.
+    are dark below 0, their bright side 1. ``centroid_um``, ``centroid_x_um``: as `Energy` has them.
     """
 
     position_um: np.ndarray
@@ -108,62 +112,80 @@ class LineSpread:
     edge_y: np.ndarray
     centroid_um: float
     method: str
+    centroid_x_um: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class PupilPart:
-    """One wavelength's pupil, its share of the light and how far above the source's own chief ray it lands, µm."""
+    """One wavelength's pupil, its share of the light, and how far above and beside the chief ray it lands, µm.
+
+    That chief ray is the one of the source's own wavelength.
+    """
 
     pupil: FrequencyPupil
     share: float = 1.0
     shift_um: float = 0.0
+    aside_um: float = 0.0
 
     @property
     def centroid_um(self) -> float:
-        """Return where the light's centroid lies, µm from the source's chief ray."""
+        """Return where the light's centroid lies along y, µm from the source's chief ray."""
         return self.pupil.centroid_um + self.shift_um
+
+    @property
+    def centroid_x_um(self) -> float:
+        """Return where the light's centroid lies along x, µm from the source's chief ray."""
+        return self.pupil.centroid_x_um + self.aside_um
 
 
 Parts = Sequence[PupilPart]
 
 
-def pupil_of(lens: Lens, source: Source, method: str = "traced", clip: bool = False) -> tuple[FrequencyPupil, str]:
+def pupil_of(
+    lens: Lens, source: Source, method: str = "traced", clip: bool = False, turn_deg: float = 0.0
+) -> tuple[FrequencyPupil, str]:
     """Return the pupil that a method describes, and the method; "huygens" is "traced", the same rays.
 
+    ``turn_deg``: by how much its axes are turned from those of the source's image, from +y towards +x.
     Raises GeometryError where rays do not reach the sensor, RequestError for a method that knows no pupil.
     """
     if method not in METHODS:
         raise RequestError(
             'method "{method}" describes no pupil; choose {methods}', method=method, methods=Alternatives(METHODS)
         )
-    check_aligned(lens, Message("a transfer function"))
     if method == "auto":
         method = choose(lens, source, clip=clip).method
     if method == "seidel":
         check_seidel(lens)
         six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         check_image(six)
-        return pupil_of_coefficients(six, mask_seen(lens, source)), method
+        return pupil_of_coefficients(six, mask_seen(lens, source), turn_deg), method
     if method == "fitted":
-        return pupil_of_fit(fit(lens, source)), method
-    return pupil_of_rays(lens, source, clip), method
+        return pupil_of_fit(fit(lens, source), turn_deg), method
+    return pupil_of_rays(lens, source, clip, turn_deg), method
 
 
 @one_blas_thread
 def parts_of(
-    lens: Lens, source: Source, method: str = "traced", clip: bool = False, spectrum: Spectrum | None = None
+    lens: Lens,
+    source: Source,
+    method: str = "traced",
+    clip: bool = False,
+    spectrum: Spectrum | None = None,
+    turn_deg: float = 0.0,
 ) -> tuple[list[PupilPart], str]:
     """Return the pupils of a source by one method, of a spectrum one per wavelength, weighted by the eye's CIE Y."""
     if spectrum is None:
-        pupil, used = pupil_of(lens, source, method, clip)
+        pupil, used = pupil_of(lens, source, method, clip, turn_deg)
         return [PupilPart(pupil)], used
     known = lens_range_um(lens)
     waves, xyz = bands(spectrum, COLOURS, *((known,) if known else ()))
-    share, shifts = xyz[:, 1] / xyz[:, 1].sum(), chief_shifts_um(lens, source, waves)
+    share, (right, up) = xyz[:, 1] / xyz[:, 1].sum(), chief_places_um(lens, source, waves)
+    aside, shifts = turned(right, up, turn_deg)
     found = []
-    for wave, part, shift in zip(waves, share, shifts, strict=True):
-        pupil, used = pupil_of(lens, replace(source, wavelength_um=float(wave)), method, clip)
-        found.append(PupilPart(pupil, float(part), float(shift)))
+    for wave, part, shift, beside in zip(waves, share, shifts, aside, strict=True):
+        pupil, used = pupil_of(lens, replace(source, wavelength_um=float(wave)), method, clip, turn_deg)
+        found.append(PupilPart(pupil, float(part), float(shift), float(beside)))
     return found, used
 
 
@@ -172,12 +194,22 @@ def centroid_of(parts: Parts) -> float:
     return sum(part.share * part.centroid_um for part in parts)
 
 
+def centroid_x_of(parts: Parts) -> float:
+    """Return the centroid of all parts' light along x, µm from the source's chief ray."""
+    return sum(part.share * part.centroid_x_um for part in parts)
+
+
 @one_blas_thread
 def mtf_of(
-    parts: Parts, method: str, frequency_per_mm: ArrayLike | None = None, cancelled: Callable[[], bool] = never
+    parts: Parts,
+    method: str,
+    frequency_per_mm: ArrayLike | None = None,
+    cancelled: Callable[[], bool] = never,
+    turn_deg: float = 0.0,
 ) -> Mtf:
     """Return the contrast at frequencies in cycles per mm, by default FREQUENCIES even ones up to the cut-off.
 
+    ``turn_deg``: that of the parts, to be told with the curves.
     ``cancelled`` is polled now and then and ends the work with `Cancelled`.
     """
     slices = [otf_slices(part.pupil, cancelled) for part in parts]
@@ -194,21 +226,18 @@ def mtf_of(
         found = (_transfer(plain, [both[axis] for both in whole], np.abs(given) / UM_PER_MM)[1] for axis in (1, 0))
         clear = next(found), next(found)
     perfect = perfect_tangential, perfect_sagittal
-    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear)
+    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg)
 
 
 def _transfer(
     parts: Parts, slices: Sequence[OtfSlice | MaskedSlice], frequency: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return Σ share·OTF about the centroid of all parts, and the same of the pupils without phase.
-
-    Along x the centroid is that of the chief ray, 0.
-    """
+    """Return Σ share·OTF about the centroid of all parts, and the same of the pupils without phase."""
     total, bound = np.zeros(frequency.shape, complex), np.zeros(frequency.shape)
-    centre = centroid_of(parts)
+    up, right = centroid_of(parts), centroid_x_of(parts)
     for part, one in zip(parts, slices, strict=True):
         own, perfect = one.at(frequency)
-        aside = part.centroid_um - centre if one.along_y else 0.0
+        aside = part.centroid_um - up if one.along_y else part.centroid_x_um - right
         total += part.share * own * np.exp(-2j * np.pi * aside * frequency)
         bound += part.share * perfect
     return total, bound
@@ -217,16 +246,18 @@ def _transfer(
 @one_blas_thread
 def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> Energy:
     """Return the energy within radii of the centroid, by default even ones from 0 to beyond the blur."""
-    centre = centroid_of(parts)
-    found = [energy_of(part.pupil, centre - part.shift_um) for part in parts]
+    centre, right = centroid_of(parts), centroid_x_of(parts)
+    found = [energy_of(part.pupil, centre - part.shift_um, right - part.aside_um) for part in parts]
     radius, fraction = _tabulated(parts, found)
     half, most = (_radius_of(parts, found, radius, fraction, part) for part in PARTS)
     if radius_um is not None:
         radius = np.asarray(radius_um, dtype=float)
         fraction = _within(parts, found, radius)
-    square = sum(p.share * (p.pupil.rms_um**2 + (p.centroid_um - centre) ** 2) for p in parts)
+    square = sum(
+        p.share * (p.pupil.rms_um**2 + (p.centroid_um - centre) ** 2 + (p.centroid_x_um - right) ** 2) for p in parts
+    )
     departure = max((one.departure for one in found if isinstance(one, LandingPoints)), default=0.0)
-    return Energy(radius, fraction, centre, half, most, float(np.sqrt(square)), method, departure)
+    return Energy(radius, fraction, centre, half, most, float(np.sqrt(square)), method, departure, right)
 
 
 Found = Sequence[RingSums | LandingPoints]
@@ -274,7 +305,7 @@ def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -
         values = _transfer(parts, own, frequency)[0]
         found.append((line_spread(values, step, position), edge_spread(values, step, position)))
     (line_x, edge_x), (line_y, edge_y) = found
-    return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method)
+    return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method, centroid_x_of(parts))
 
 
 def radius_of(energy: Energy, share: float) -> float:

@@ -90,7 +90,13 @@ def otf_slices(
     """
     if not pupil.mask.clear:
         return masked_slices(pupil, cancelled)
-    across, along = _line_counts(reach_of(pupil))
+    across, along = _line_counts(reach_of(pupil), pupil.even)
+    if not pupil.even:
+        other = pupil.transposed
+        return (
+            _slice(_column_sum, other, across, 2 * pupil.half_x, False, cancelled),
+            _slice(_column_sum, pupil, along, 2 * pupil.half_y, True, cancelled),
+        )
     return (
         _slice(_row_sum, pupil, across, 2 * pupil.half_x, False, cancelled),
         _slice(_column_sum, pupil, along, 2 * pupil.half_y, True, cancelled),
@@ -101,7 +107,7 @@ def _slice(
     line_sum: LineSum, pupil: FrequencyPupil, counts: Counts, cut_off: float, along_y: bool, cancelled: Stop = never
 ) -> OtfSlice:
     own, perfect = line_sum(pupil, counts, cancelled)
-    factor = _calibration(counts, line_sum) if counts[0] <= CALIBRATED else np.ones(own.size)
+    factor = _calibration(counts, line_sum, pupil.even) if counts[0] <= CALIBRATED else np.ones(own.size)
     return OtfSlice(cut_off / counts[1], own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
 
 
@@ -135,14 +141,14 @@ def _waves(transfer: np.ndarray, step: float, position_um: np.ndarray, first: in
 
 def otf_samples(pupil: FrequencyPupil) -> int:
     """Return how many samples both slices of the transfer function take together."""
-    across, along = _line_counts(reach_of(pupil))
+    across, along = _line_counts(reach_of(pupil), pupil.even)
     return across[0] * across[1] + along[0] * along[1]
 
 
-def _line_counts(reach: Reach) -> tuple[Counts, Counts]:
-    """Return the counts of rows, and of columns at fx > 0: those at fx < 0 are the same."""
+def _line_counts(reach: Reach, even: bool) -> tuple[Counts, Counts]:
+    """Return the counts of rows and of columns, of an even pupil at fx > 0: those at fx < 0 are the same."""
     across, along = _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
-    return across, (along[0] // 2, along[1])
+    return across, (along[0] // 2, along[1]) if even else along
 
 
 def _counts(across: float, along: float) -> Counts:
@@ -188,7 +194,8 @@ def _row_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> 
 def _column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
     """Return the sums over columns of their autocorrelations about the centroid, as `_row_sum` does over rows."""
     lines, samples = counts
-    angle, step, size = (np.arange(lines) + 0.5) * (pi / (2 * lines)), 2 / samples, samples + 4
+    reach = pi / 2 if pupil.even else pi
+    angle, step, size = (np.arange(lines) + 0.5) * (reach / lines), 2 / samples, samples + 4
     columns_x, place = np.cos(angle), np.arange(size)
     y = (place - (size - 1) / 2) * step
     low, high = pupil.columns(columns_x)
@@ -284,13 +291,13 @@ def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=64)
-def _calibration(counts: Counts, line_sum: LineSum) -> np.ndarray:
+def _calibration(counts: Counts, line_sum: LineSum, even: bool) -> np.ndarray:
     """Return what a rule's sums over a uniform disc lack of the closed form, at every lag.
 
     The lines that a lag leaves no longer than nothing end a sum too abruptly, by 1e-4 where lines are few, and by as
     much for any pupil near an ellipse. The factor takes that away, to 1e-6 for such a pupil.
     """
-    found = line_sum(uniform_disc(), counts, never)[1]
+    found = line_sum(uniform_disc(even=even), counts, never)[1]
     found /= found[0]
     exact = circle_contrast(np.linspace(0, 1, counts[1] + 1))
     return protected(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))

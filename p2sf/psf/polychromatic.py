@@ -10,17 +10,16 @@ from numpy.typing import ArrayLike
 
 from p2sf.colour.colorimetry import bands, displayable, linear_rgb
 from p2sf.colour.spectrum import Spectrum
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, centred_axis
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, FloatOrArray, centred_axis
 from p2sf.errors import RequestError
-from p2sf.lens.lens import Lens, check_aligned, lens_range_um
+from p2sf.lens.lens import Lens, lens_range_um, seen_from
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, suitable_pixel_um
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import Sources, pencil
 from p2sf.threads import one_blas_thread
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
@@ -37,7 +36,7 @@ class ColourPsf:
 
     Y sums to ``light_in_window``, the share of all light that falls into it; None where samples are too far apart to
     tell, and then Y sums to an estimate. ``wavelengths_um`` were rendered by ``methods``; ``shift_um``: how far above
-    that of the source's colour each chief ray lands.
+    that of the source's colour each chief ray lands, ``aside_um``: how far to the right of it, 0 in a lens of symmetry.
     """
 
     xyz: np.ndarray
@@ -48,6 +47,7 @@ class ColourPsf:
     methods: tuple[str, ...]
     seconds: float
     light_in_window: float | None = None
+    aside_um: FloatOrArray = 0.0
 
     @property
     def x_um(self) -> np.ndarray:
@@ -80,17 +80,17 @@ def colour_psf(
         raise RequestError(
             "{count} wavelengths for a colour PSF; give a whole number from 1 to {most}", count=count, most=MOST
         )
-    check_aligned(lens, Message("a colour PSF"))
     make = method if callable(method) else by_method(method)
     wavelengths, weights = bands(spectrum, count, *_limits(lens))
-    shifts = chief_shifts_um(lens, source, wavelengths)
+    aside, shifts = chief_places_um(lens, source, wavelengths)
     made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
-    each = zip(made, shares(lens, source, made), shifts, strict=True)
-    layers = (shifted_up(share * psf.values, shift / window[1]) for psf, share, shift in each)
+    each = zip(made, shares(lens, source, made), shifts / window[1], aside / window[1], strict=True)
+    layers = (shifted_up(shifted_up(share * psf.values, up).T, right).T for psf, share, up, right in each)
     xyz = np.asarray(sum(layer[..., None] * weight for layer, weight in zip(layers, weights, strict=True)))
     methods = tuple(dict.fromkeys(psf.method for psf in made))
     light = None if any(psf.energy is None for psf in made) else float(xyz[..., 1].sum())
-    return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, perf_counter() - started, light)
+    seconds = perf_counter() - started
+    return ColourPsf(xyz, window[1], spectrum.name, wavelengths, shifts, methods, seconds, light, aside)
 
 
 def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
@@ -103,9 +103,9 @@ def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: in
     waves, _ = bands(spectrum, TRIED, *_limits(lens))
     if not np.isfinite(own.w40):
         each = [whole_pixel_um(lens, replace(source, wavelength_um=float(wave)), pixels) for wave in waves]
-        return float(np.max(each + 2 * np.abs(chief_shifts_um(lens, source, waves)) / pixels))
+        return float(np.max(each + 2 * np.abs(chief_places_um(lens, source, waves)).max(0) / pixels))
     c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
-    shift = np.abs(chief_shifts_um(lens, source, waves))
+    shift = np.abs(chief_places_um(lens, source, waves)).max(0)
     return float(np.max(suitable_pixel_um(c, pixels) + 2 * shift / pixels))
 
 
@@ -144,11 +144,21 @@ def estimated_share(psf: Psf, na: float) -> float:
 
 def chief_shifts_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:
     """Return how far above that of the source the exact chief ray of each wavelength lands, µm: lateral colour."""
-    waves = np.append(np.asarray(wavelengths_um, dtype=float), source.wavelength_um)
-    every = Source(source.depth_mm, source.field_slope, waves)  # one trace for all wavelengths
-    landed = pencil(lens, every, np.zeros(1), np.zeros(1)).chief_y[..., 0]
-    shift: np.ndarray = UM_PER_MM * (landed[:-1] - landed[-1])
+    shift: np.ndarray = chief_places_um(lens, source, wavelengths_um)[1]
     return shift
+
+
+def chief_places_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:
+    """Return how far beside and above that of the source the chief ray of each wavelength lands, (2, wavelengths) µm.
+
+    In the axes of the source's image: of a lens of symmetry none lands beside it.
+    """
+    waves = np.append(np.asarray(wavelengths_um, dtype=float), source.wavelength_um)
+    every = Sources(source.depth_mm, source.field_slope, waves)  # one trace for all wavelengths
+    rays = pencil(seen_from(lens, source.azimuth_deg), every, np.zeros(1), np.zeros(1))
+    landed = np.stack(np.broadcast_arrays(rays.chief_x, rays.chief_y))[..., 0]
+    places: np.ndarray = UM_PER_MM * (landed[:, :-1] - landed[:, -1:])
+    return places
 
 
 def shifted_up(values: np.ndarray, rows: float) -> np.ndarray:
@@ -188,6 +198,7 @@ def record(found: ColourPsf) -> dict:
         "pixel_um": found.pixel_um,
         "wavelengths_nm": found.wavelengths_um * NM_PER_UM,
         "chief_ray_shift_um": found.shift_um,
+        **({"chief_ray_aside_um": found.aside_um} if np.any(found.aside_um) else {}),
         "methods": list(found.methods),
         "light_in_window": found.light_in_window,
         "seconds": found.seconds,

@@ -78,6 +78,7 @@ class Spot:
     y_um: np.ndarray
     rms_um: np.ndarray
     centroid_y_um: np.ndarray
+    centroid_x_um: FloatOrArray = 0.0
 
 
 @dataclass(frozen=True)
@@ -267,7 +268,7 @@ def spot(
     rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
     centre_x, centre_y = _centroid(x, light, rounding), _centroid(y, light, rounding)
     square = _mean((x - centre_x) ** 2 + (y - centre_y) ** 2, light)[..., 0]
-    return Spot(x, y, np.sqrt(square), centre_y[..., 0])
+    return Spot(x, y, np.sqrt(square), centre_y[..., 0], centre_x[..., 0])
 
 
 def _mean(values: np.ndarray, light: np.ndarray) -> np.ndarray:

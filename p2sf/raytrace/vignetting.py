@@ -133,18 +133,25 @@ def _corners(lens: Lens, source: Source, clip: bool, centre: tuple[float, float]
     return corners
 
 
-def clear_outline(lens: Lens, source: Source, points: int, clip: bool = True) -> tuple[np.ndarray, np.ndarray]:
+def clear_outline(
+    lens: Lens, source: Source, points: int, clip: bool = True, even: bool = True
+) -> tuple[np.ndarray, np.ndarray]:
     """Return (ξ, η) along the right half of the clear part's edge from top to bottom, its corners among them.
 
-    Some ``points``, evenly seen from the centre. Raises GeometryError when no part is clear.
+    Some ``points``, evenly seen from the centre. Unless ``even``, as for a misaligned lens, the edge once around, with
+    twice as many. Raises GeometryError when no part is clear.
     """
-    check_aligned(lens, Message("the outline of half a pupil"))
+    if even:
+        check_aligned(lens, Message("the outline of half a pupil"))
     shape = outline(lens, source, clip)
     arcs = [(low, high, max(2, round(points * (high - low) / np.pi))) for low, high in pairwise(shape.corners)]
     parts = [np.linspace(*arc, endpoint=False) for arc in arcs]
-    theta = np.append(np.concatenate(parts), np.pi)
-    radius, _ = _edge(lens, source, clip, (0.0, shape.centre), theta)
-    return radius * np.sin(theta), shape.centre + radius * np.cos(theta)
+    theta = np.concatenate(parts) if lens.misaligned else np.append(np.concatenate(parts), np.pi)
+    radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta)
+    xi, eta = shape.aside + radius * np.sin(theta), shape.centre + radius * np.cos(theta)
+    if even or lens.misaligned:
+        return xi, eta
+    return np.append(xi, -xi[-2:0:-1]), np.append(eta, eta[-2:0:-1])
 
 
 def _edge(

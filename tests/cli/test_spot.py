@@ -10,7 +10,7 @@ from p2sf.cli import main
 from p2sf.raytrace.pencil import hexapolar, pencil
 
 PLACE = ("spot", "double_gauss_28", "--field-deg", "14")
-FIGURES = ["rms_um", "largest_um", "centroid_y_um", "airy_radius_um", "rays", "lost"]
+FIGURES = ["rms_um", "largest_um", "centroid_x_um", "centroid_y_um", "airy_radius_um", "rays", "lost"]
 
 
 def test_the_figures_are_those_of_the_points(answer):
