@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes
@@ -62,11 +62,13 @@ def zernike_fit(
 def pupil_opd(
     lens: Lens, source: Source, clip: bool = False, counts: tuple[int, int] = COUNTS
 ) -> tuple[ClearNodes, np.ndarray]:
-    """Return nodes over the clear part of the half disc ξ > 0 and the displayed OPD there, waves, (nodes,)."""
+    """Return nodes over the clear part of the pupil and the displayed OPD there, waves, (nodes,).
+
+    Those of the half disc ξ > 0, of a misaligned lens of the whole.
+    """
     check_unmasked(lens, Message("the decomposition of a wavefront"))
-    check_aligned(lens, Message("the decomposition of a wavefront"))
-    nodes = whole_nodes(counts)
-    turn = np.linspace(0, np.pi, RIM_RAYS)
+    nodes = whole_nodes(counts).unfolded() if lens.misaligned else whole_nodes(counts)
+    turn = np.linspace(0, 2 * np.pi, 2 * RIM_RAYS) if lens.misaligned else np.linspace(0, np.pi, RIM_RAYS)
     tried = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))
     if not pencil(lens, source, *tried, clip).passed.all():
         nodes = clear_nodes(lens, source, counts, clip)
@@ -74,18 +76,19 @@ def pupil_opd(
 
 
 def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
-    """Return the terms of a wavefront that is even in ξ, given at nodes of the half disc, (nodes,) waves.
+    """Return the terms of a wavefront at nodes, (nodes,) waves; nodes of the half disc stand for one even in ξ.
 
-    Terms that are odd in ξ are zero. Each of the others is made orthogonal to those before it, as a QR decomposition
-    of the terms at the weighted nodes does (Mahajan & Dai 2007, eq. 11); over the whole disc that changes nothing.
+    Terms that are odd in ξ are then zero. Each of the others is made orthogonal to those before it, as a QR
+    decomposition of the terms at the weighted nodes does (Mahajan & Dai 2007, eq. 11); over the whole disc that changes
+    nothing.
     """
-    even = [number for number, term in enumerate(terms) if term.even]
+    there = [number for number, term in enumerate(terms) if term.even or not nodes.even]
     root = np.sqrt(nodes.weight)
-    columns, lengths = np.linalg.qr((zernike_values(tuple(terms[k] for k in even), nodes.xi, nodes.eta) * root).T)
+    columns, lengths = np.linalg.qr((zernike_values(tuple(terms[k] for k in there), nodes.xi, nodes.eta) * root).T)
     columns *= np.sign(np.diag(lengths))
     found = np.zeros(len(terms))
-    found[even] = columns.T @ (root * waves)
-    rest = root * waves - columns @ found[even]
+    found[there] = columns.T @ (root * waves)
+    rest = root * waves - columns @ found[there]
     variance, blur = variances(nodes, waves)
     still = np.array([term.n < 2 for term in terms])  # piston and tilt
     scale = np.array([term.norm if order == "fringe" else 1.0 for term in terms])
@@ -104,9 +107,11 @@ def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms:
 
 
 def variances(nodes: ClearNodes, waves: np.ndarray) -> tuple[float, float]:
-    """Return the variance of a wavefront even in ξ over its nodes, waves², and what is left of it without its tilt."""
-    height = nodes.eta - float(nodes.weight @ nodes.eta)
+    """Return the variance of a wavefront over its nodes, waves², and what is left of it without its tilt."""
+    axes = nodes.eta[None] if nodes.even else np.stack([nodes.eta, nodes.xi])
+    places = axes - (axes @ nodes.weight)[:, None]
     rest = waves - float(nodes.weight @ waves)
     variance = float(nodes.weight @ rest**2)
-    tilt = float(nodes.weight @ (rest * height)) ** 2 / float(nodes.weight @ height**2)
+    along = (places * nodes.weight) @ rest
+    tilt = float(along @ np.linalg.solve((places * nodes.weight) @ places.T, along))
     return variance, max(variance - tilt, 0.0)

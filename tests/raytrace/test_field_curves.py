@@ -7,11 +7,14 @@ import pytest
 
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.misalignment import displaced, with_tilted_sensor
+from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.first_order import cardinal_points, image_distance, magnification
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace import field_curves as fieldcurves
+from p2sf.raytrace.pencil import pencil
 
 SMALL = np.array([0.01, 0.02])
 NAMES = ("double_gauss_28", "cooke_triplet", "landscape", "eye_navarro", "telephoto")
@@ -92,3 +95,75 @@ def test_an_achromat_brings_two_colours_together():
     shift = fieldcurves.colour_shift(lens, inf, np.array([0.4861327, 0.5875618, 0.6562725]), (0.0,))[0]
     single = fieldcurves.colour_shift(find_lens("singlet_f6"), inf, np.array([0.4861327, 0.6562725]), (0.0,))[0]
     assert abs(shift[0] - shift[2]) < 0.1 * abs(single[0] - single[1])
+
+
+GRID = np.array([-0.4, 0.0, 0.4])
+
+
+def misaligned(x=0.05, tilt=0.1):
+    return displaced(find_lens("double_gauss_28"), 3, 5, Placement(x, 0.1, 0, tilt, -0.2))
+
+
+def test_foci_without_symmetry_are_those_of_symmetry_where_there_is_one():
+    """A sphere turned about its own centre is the same sphere, but takes the road of misaligned lenses."""
+    lens, slopes = find_lens("double_gauss_28"), np.tan(np.deg2rad([-8.0, 5.0, 10.0]))
+    pivot = 0.0, 0.0, lens.surfaces[0].radius
+    turned = displaced(lens, 1, 1, Placement(tilt_x_deg=2.0, tilt_y_deg=1.0, pivot=pivot))
+    assert turned.misaligned
+    for one, two in zip(
+        fieldcurves.real_foci(turned, Source(), slopes), fieldcurves.real_foci(lens, Source(), slopes), strict=True
+    ):
+        assert one == pytest.approx(two, abs=1e-6)
+    seen = fieldcurves.heights(turned, Source(azimuth_deg=30.0), slopes)
+    assert seen.real == pytest.approx(fieldcurves.heights(lens, Source(), slopes).real, abs=1e-9)
+    assert np.abs(seen.aside).max() < 1e-9
+    waves, zones = np.array([0.48, 0.65]), (0.0, 0.5, 1.0)
+    plain = fieldcurves.colour_shift(lens, inf, waves, zones)
+    assert fieldcurves.colour_shift(turned, inf, waves, zones) == pytest.approx(plain, abs=1e-6)
+
+
+def test_neighbours_of_the_chief_ray_cross_it_at_the_foci():
+    """By rays in every direction of the pupil: none comes nearer to the chief ray than those of the two foci."""
+    lens, source = misaligned(), Source(field_deg=(6.0, 8.0))
+    foci = fieldcurves.real_foci(lens, source, source.field_slope)
+    turn, near = np.arange(720) * np.pi / 720, 1e-3
+    rays = pencil(lens, source, near * np.sin(turn), near * np.cos(turn))
+    chief = rays.chief_kx / rays.chief_kz, rays.chief_ky / rays.chief_kz
+    for z in foci:
+        apart = np.hypot(rays.dx + z * (rays.kx / rays.kz - chief[0]), rays.dy + z * (rays.ky / rays.kz - chief[1]))
+        assert apart.min() < 0.01 * apart.max()
+    assert abs(float(foci.sagittal - foci.tangential)) > 0.05
+
+
+@pytest.mark.parametrize("tilt", [(1.0, 0.0), (0.0, 1.0), (0.6, -0.8)])
+def test_the_plane_of_focus_of_a_tilted_sensor_is_tilted_the_other_way(tilt):
+    lens, _ = focused("tessar")
+    sensor = with_tilted_sensor(lens, Placement(tilt_x_deg=tilt[0], tilt_y_deg=tilt[1]))
+    found = fieldcurves.focal_surface(sensor, Source(), GRID, GRID)
+    assert found.tilt_deg == pytest.approx((-tilt[0], -tilt[1]), rel=1e-3, abs=1e-3)  # of second order in the tilt
+
+
+@pytest.mark.parametrize("depth", [inf, 150.0])
+def test_scheimpflug(depth):
+    """A lens turned by α sees the object tilted by −α and tilts its image by −mα to its axis, α(1 − m) to the sensor.
+
+    On top comes the slope of its curved field where the middle of the picture now lies, α·(distance)·|m| off its axis.
+    """
+    alpha, lens = 0.5, find_lens("tessar")
+    lens = with_sensor(lens, float(image_distance(lens, depth, 0.5875618)))
+    straight = fieldcurves.focal_surface(lens, Source(depth, 0.0, 0.5875618), GRID, GRID)
+    assert straight.tilt_deg == pytest.approx((0.0, 0.0), abs=1e-9)
+    curvature = 2 * (straight.points[2, 1, 2] - straight.points[1, 1, 2]) / straight.points[2, 1, 1] ** 2
+    turned = displaced(lens, 1, len(lens.surfaces), Placement(tilt_x_deg=alpha))
+    found = fieldcurves.focal_surface(turned, Source(depth, 0.0, 0.5875618), GRID, GRID)
+    focal = float(cardinal_points(lens, 0.5875618).effective_focal_length)
+    m = 0.0 if depth == inf else float(magnification(lens, depth, 0.5875618))
+    lever = focal if depth == inf else -m * depth
+    assert found.tilt_deg == pytest.approx((alpha * (1 - m + curvature * lever), 0.0), rel=2e-3, abs=1e-6)
+
+
+def test_a_chief_ray_lands_beside_the_field_of_a_misaligned_lens():
+    found = fieldcurves.heights(misaligned(x=0.2), Source(), np.array([0.0, 0.1]))
+    rays = pencil(misaligned(x=0.2), Source(field_slope=0.1), np.zeros(1), np.zeros(1))
+    assert (found.aside[1], found.real[1]) == (pytest.approx(rays.chief_x[0]), pytest.approx(rays.chief_y[0]))
+    assert abs(found.aside[0]) > 5e-4

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from p2sf.lens.lens import AIMS, with_aim
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
-from p2sf.raytrace.pencil import displayed_opd, opd_map, pencil, pupil_grid
+from p2sf.raytrace.pencil import displayed_opd, hexapolar, opd_map, pencil, pupil_grid
 from p2sf.raytrace.vignetting import whole_nodes
 from p2sf.raytrace.zernike_fit import decomposed, pupil_opd, zernike_fit
 
@@ -124,3 +126,38 @@ def test_stop_coordinates_follow_the_lens():
     nodes, waves = pupil_opd(with_aim(lens, "stop"), source)
     assert real.rms == pytest.approx(np.sqrt(nodes.weight @ (waves - nodes.weight @ waves) ** 2), rel=1e-12)
     assert abs(real.rms / paraxial.rms - 1) > 0.05
+
+
+def test_terms_of_a_misaligned_lens_are_those_of_its_mirror_image_and_of_no_misalignment():
+    """What is odd in ξ changes sign with the decentre, is proportional to it where small, and 0 without."""
+    lens, source = find_lens("double_gauss_28"), Source(field_deg=5)
+    still = zernike_fit(lens, source)
+    odd = np.array([not term.even for term in still.terms])
+    assert not still.waves[odd].any()
+    right, left, half = (
+        zernike_fit(displaced(lens, 3, 5, Placement(x, 0, 0, 0, x)), source) for x in (0.02, -0.02, 0.01)
+    )
+    assert right.waves[~odd] == pytest.approx(left.waves[~odd], abs=1e-6)
+    assert right.waves[odd] == pytest.approx(-left.waves[odd], abs=1e-6)
+    assert right.waves[odd] == pytest.approx(2 * half.waves[odd], abs=1e-3 * np.abs(right.waves[odd]).max())
+    assert np.abs(right.waves[odd]).max() > 0.01 and np.abs(right.waves - still.waves)[~odd].max() < 0.01
+    assert np.square(right.waves[1:]).sum() + right.residual**2 == pytest.approx(right.rms**2, rel=1e-9)
+
+
+def test_the_terms_of_a_misaligned_lens_add_up_to_its_wavefront():
+    """Rays that the decomposition does not use; by both tilts the variance without tilt is less."""
+    source, lens = Source(field_deg=(3, 4)), displaced(find_lens("tessar"), 1, 2, Placement(0.05, -0.1, 0, 0.1, 0.2))
+    found, (xi, eta) = zernike_fit(lens, source, count=231), hexapolar(3)
+    expected = displayed_opd(lens, source, xi, eta)
+    assert found.waves @ zernike_values(found.terms, xi, eta) == pytest.approx(expected, abs=1e-4)
+    tilts = np.square(found.waves[1:3])
+    assert (tilts > 0).all()
+    assert found.rms_without_tilt**2 == pytest.approx(found.rms**2 - tilts.sum(), rel=1e-9)
+    assert found.share.sum() == pytest.approx(1.0, abs=1e-6)
+
+
+def test_rims_end_the_pupil_of_a_misaligned_lens():
+    lens = displaced(find_lens("double_gauss_28"), 1, 3, Placement(1.5, 0.5))
+    nodes, waves = pupil_opd(lens, Source(field_deg=14), clip=True, counts=(8, 20))
+    found = decomposed(nodes, waves, "noll", zernike_terms("noll", 37))
+    assert 0.2 < found.clear < 0.95 and found.residual < 0.2 * found.rms

@@ -1853,6 +1853,7 @@
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
 <message><source>{count} blades</source><translation>{count} Lamellen</translation></message>
+<message><source>{count} fields have a focus, and a plane needs three; choose smaller fields</source><translation>{count} Felder haben einen Fokus, und eine Ebene braucht drei; kleinere Felder wählen</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
