@@ -155,7 +155,7 @@ def plan_lattice(
         return [np.stack(several) for several in zip(*of_channels, strict=True)]
 
     shape = sensor.rows, sensor.columns
-    return build_lattice(kernels_at, shape, planned.counts, sensor.centred, watch, beside)
+    return build_lattice(kernels_at, shape, planned.counts, planned.mirrored, watch, beside)
 
 
 def _doubled(lattice: Lattice) -> Lattice:

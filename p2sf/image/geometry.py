@@ -45,8 +45,11 @@ def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 
 def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
     """Return the irradiance of an even object over that on the axis, (rows, columns) float32, from ``count`` heights.
 
-    Between these it is a polynomial of h², or where rims clip, which makes it bend, a monotone cubic.
+    Between these it is a polynomial of h², or where rims clip, which makes it bend, a monotone cubic. Behind a mask
+    that is not round, which lights the azimuths unevenly, it is interpolated between ``count``² places.
     """
+    if not seen.lens.mask.round:
+        return _illumination_on_grid(seen, sensor, count + MORE * seen.clip)
     heights = np.linspace(*sensor.corners_mm(), count + MORE * seen.clip)
     light = relative_illumination(seen, heights)
     x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
@@ -58,4 +61,17 @@ def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
     else:
         fit = np.polynomial.Polynomial.fit(heights**2, light, min(4, count - 1))
     light_at: np.ndarray = fit(square)
+    return light_at.astype(np.float32)
+
+
+def _illumination_on_grid(seen: SensorMap, sensor: Sensor, count: int) -> np.ndarray:
+    """Return the illumination by splines through places on a grid: cubic, or linear where rims make it bend."""
+    from scipy.interpolate import RectBivariateSpline
+
+    rows, columns = (np.linspace(0, max(n - 1, 1), count) for n in (sensor.rows, sensor.columns))
+    x, y = np.meshgrid(sensor.x_mm(columns), sensor.y_mm(rows))
+    light = relative_illumination(seen, np.hypot(x, y), np.arctan2(x, y))
+    degree = 1 if seen.clip else 3
+    spline = RectBivariateSpline(rows, columns, light, kx=degree, ky=degree)
+    light_at: np.ndarray = spline(np.arange(sensor.rows), np.arange(sensor.columns))
     return light_at.astype(np.float32)

@@ -64,6 +64,8 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     for most, fewer in WAVE_COUNTS:
         if side <= most:
             return replace(planned, counts=fewer)
+    if camera.mask.phased:  # which rays do not see
+        return replace(planned, counts=(1, 1))
     by_rays = replace(planned, recipe=BY_RAYS)
     size = 2 * _middle_kernels(by_rays).half_width(edge) + 1
     return replace(by_rays, counts=next((fewer for most, fewer in RAY_COUNTS if size <= most), (1, 1)))

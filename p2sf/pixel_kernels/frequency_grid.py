@@ -5,7 +5,7 @@ Phase and entrance-pupil point are polynomials over f = n'K/λ; the image of the
 polynomials are Zernike's, so that a field in another direction is the same pupil with rotated coefficients.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -16,13 +16,15 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, with_reach
+from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
-from p2sf.raytrace.clear_pieces import CLIPPED, check_without_holes
+from p2sf.raytrace.clear_pieces import CLIPPED
 from p2sf.raytrace.fit import Gradient, Level, PencilForms, determinant, fit, level_rays, pencil_forms
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.trace import lens_rims, run
 
 ORDERS = 6, 18  # the least and the greatest
@@ -44,11 +46,11 @@ def pupil_map(
     """
     several = Sources(*(np.array([v]) for v in (source.depth_mm, source.field_slope, source.wavelength_um)))
     if method == "seidel":
-        return seidel_pupils(lens, several, clip).one(0)
+        return replace(seidel_pupils(lens, several, clip).one(0), mask=mask_seen(lens, source))
     found = fit(lens, source, numbers)
     columns = (found.phase, found.fx, found.fy, found.weight, found.residual_waves)
     forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.weight_residual)))
-    return pupils_of(lens, several, forms, found.level, clip).one(0)
+    return replace(pupils_of(lens, several, forms, found.level, clip).one(0), mask=mask_seen(lens, source))
 
 
 def fitted_forms(lens: Lens, sources: Sources, level: Level) -> tuple[PencilForms, np.ndarray]:
@@ -74,20 +76,25 @@ def pupils_of(
 
     Raises GeometryError where rims clip all rays of a source.
     """
-    rims = _rims(lens, sources, clip)
+    rims, behind = _rims(lens, sources, clip), _mask_of(lens, sources)
     while True:
         found, excess = _of_order(order, fits, level, rims)
         if excess < 1 or order == ORDERS[-1]:
-            return with_reach(found)
+            return with_reach(replace(found, mask=behind, wavelength_um=np.asarray(sources.wavelength_um, float)))
         order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
+
+
+def _mask_of(lens: Lens, sources: Sources) -> PupilMask:
+    """Return the mask in the stop as sources see it whose chief rays land at +y."""
+    return mask_seen(lens, Source(wavelength_um=float(np.ravel(sources.wavelength_um)[0])))
 
 
 def _rims(lens: Lens, sources: Sources, clip: bool) -> np.ndarray:
     """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim.
 
-    (Sources, surfaces, nodes); no surfaces unless ``clip``. Raises GeometryError where rims clip all rays of a source.
+    Of a hole or a shadow, (height/radius)² − 1. (Sources, surfaces, nodes); no surfaces unless ``clip``. Raises
+    GeometryError where these clip all rays of a source.
     """
-    check_without_holes(lens, clip)
     nodes, limits = disc_nodes(*NODES), lens_rims(lens, keep_stop=False)
     if not clip:
         return np.empty((len(np.asarray(sources.depth_mm)), 0, nodes.xi.size))
@@ -95,7 +102,9 @@ def _rims(lens: Lens, sources: Sources, clip: bool) -> np.ndarray:
     beam = start(rays)
     run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
     met = zip(heights, limits, strict=False)
-    rims = np.stack([1 - (height / rim) ** 2 for height, rim in met if np.isfinite(rim)], axis=1)
+    inner = zip(heights, (surface.inner_radius for surface in lens.surfaces), strict=False)
+    holes = [(height / radius) ** 2 - 1 for height, radius in inner if radius]
+    rims = np.stack([1 - (height / rim) ** 2 for height, rim in met if np.isfinite(rim)] + holes, axis=1)
     if np.any(np.max(np.min(rims, axis=1), axis=1) <= 0):
         raise GeometryError(CLIPPED, parameter="clip")
     return rims
@@ -121,7 +130,8 @@ def seidel_pupils(lens: Lens, sources: Sources, clip: bool = False) -> PupilStac
     energy = np.pi * np.where((rims > 0).all(1), nodes.weight, 0.0).sum(1) / scale**2
     none, unknown = np.empty((len(scale), 0)), np.full(len(scale), np.nan)
     forms = found[:, 0], found[:, 1], xi, none, found[:, 2:]
-    return with_reach(PupilStack(order, np.abs(scale), *forms, energy, unknown, 0 * scale, "seidel", 6))
+    sizes = energy, unknown, 0 * scale, -np.asarray(sources.wavelength_um, float) + 0 * scale
+    return with_reach(PupilStack(order, np.abs(scale), *forms, *sizes, "seidel", 6, _mask_of(lens, sources)))
 
 
 def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> tuple[PupilStack, float]:
@@ -155,7 +165,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ nodes.weight
     forms = found[:, 0], found[:, 1], xi, weight_of, found[:, first:]
     unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
-    return PupilStack(order, radius, *forms, energy, unknown, left, "fitted", level.numbers), excess
+    return PupilStack(order, radius, *forms, energy, unknown, left, unknown, "fitted", level.numbers), excess
 
 
 def _terms_over(order: int, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

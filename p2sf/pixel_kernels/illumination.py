@@ -1,5 +1,6 @@
 """The light that a lens collects from a point of an even object, and how thinly the sensor's area spreads it."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -8,9 +9,12 @@ from numpy.typing import ArrayLike
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.sensor_points import SensorMap
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.raytrace.aiming import pupil_rays
+from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.clear_rim import clear_rim
-from p2sf.raytrace.vignetting import clear_nodes
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
 
 NODES = 12, 32
 RIM_DIRECTIONS, RIM_ROUNDS = 96, 3  # corners between directions cost 3e-5 of the light, as do 16⁻³ of the radius
@@ -25,28 +29,43 @@ def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
     weight·cos θ·cos³θ_chief over the pupil (the cosine to the fourth of a pinhole; Welford 1986, §6.5). Rays that are
     lost carry no light. Raises GeometryError where all are.
     """
-    if clip:
-        nodes = clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
-    else:
-        nodes = clear_nodes(lens, source, NODES, clip)
+    nodes = _open_nodes(lens, source, clip)
     rays = pupil_rays(lens, source, nodes.xi, nodes.eta)
     cosine = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
-    mean = float(nodes.weight @ (rays.weight * cosine + 0 * nodes.xi))
+    mean = float(nodes.weight @ (rays.weight * cosine * np.square(nodes.amplitude) + 0 * nodes.xi))
     return float(nodes.share * mean / (1 + source.field_slope**2) ** 1.5)
 
 
-def relative_illumination(seen: SensorMap, heights_mm: ArrayLike) -> np.ndarray:
+def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
+    """Return nodes over what mask, rims and lost rays leave open."""
+    if lens.mask.clear and not (clip and holes_of(lens)):
+        if clip:
+            return clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
+        return clear_nodes(lens, source, NODES, clip)
+    nodes = pupil_nodes(lens, source, NODES, clip)
+    if pencil(lens, source, nodes.xi, nodes.eta).passed.all():
+        return nodes
+    return pupil_nodes(lens, source, NODES, clip, whole=False)
+
+
+def relative_illumination(seen: SensorMap, heights_mm: ArrayLike, angles: ArrayLike = 0.0) -> np.ndarray:
     """Return the irradiance of an even object over that on the axis, where chief rays land at these heights, mm.
 
+    ``angles``: azimuths of the fields, radians from +y towards +x; they count behind a mask that is not round.
     The light of d²s falls on the area d²h = d(h²)/d(s²)·d²s, which distortion changes over the field.
     """
-    heights = np.ravel(np.asarray(heights_mm, dtype=float))
+    heights, azimuths = (np.ravel(a) for a in np.broadcast_arrays(np.asarray(heights_mm, float), angles))
     square = seen.heights_mm**2
     thinned = np.gradient(seen.slopes**2, square, edge_order=2)
-    found = np.array([_collected(seen, h) for h in heights]) * np.interp(heights**2, square, thinned)
-    relative: np.ndarray = found / (_collected(seen, 0.0) * thinned[0])
+    found = np.array([_collected(seen, *place) for place in zip(heights, azimuths, strict=True)]) * np.interp(
+        heights**2, square, thinned
+    )
+    relative: np.ndarray = found / (_collected(seen, 0.0, 0.0) * thinned[0])
     return relative.reshape(np.shape(heights_mm))
 
 
-def _collected(seen: SensorMap, height_mm: float) -> float:
-    return light_collected(seen.lens, seen.source(height_mm, seen.wavelength_um), seen.clip)
+def _collected(seen: SensorMap, height_mm: float, angle: float) -> float:
+    source = seen.source(height_mm, seen.wavelength_um)
+    if not seen.lens.mask.round:
+        source = replace(source, azimuth_deg=float(np.rad2deg(angle)))
+    return light_collected(seen.lens, source, seen.clip)

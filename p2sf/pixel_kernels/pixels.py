@@ -10,8 +10,9 @@ from p2sf.errors import SamplingError
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, Turned, stacked, turned
 from p2sf.pixel_kernels.ray_spread import RaySpread
 from p2sf.pupil.binning import binned
+from p2sf.pupil.mask_cells import inside_share, open_share, turned_back, wings
 
-TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land
+TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
 LARGEST_WINDOW = 4096
 BLOCK = 32768  # samples of pupils in one block
 TOGETHER = 65536  # samples of the light that are transformed together
@@ -40,7 +41,8 @@ def half_width(pupil: FrequencyPupil | RaySpread, pixel_um: float, shift_um: flo
 
 def half_widths(pupils: Light, pixel_um: float, shifts_um: FloatOrArray = 0.0) -> np.ndarray:
     """Return `half_width` of pupils whose light is shifted by µm, (pupils,)."""
-    reach = pupils.reach_um + np.abs(shifts_um) + TAIL / pupils.radius
+    tail = TAIL if pupils.mask.clear else TAIL * wings(pupils.mask)
+    reach = pupils.reach_um + np.abs(shifts_um) + tail / pupils.radius
     return np.maximum(1, np.ceil(reach / pixel_um - 0.5)).astype(int)
 
 
@@ -151,15 +153,17 @@ def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.nda
     for start in range(0, 2 * half + 1, rows_at_once):
         rows = slice(start, start + rows_at_once)
         turns = table[:, rows] @ across
-        turns -= np.rint(turns)
-        turns = (2 * np.pi * turns).astype(np.float32)
         (xi, xi_u), (eta, eta_u), *others = single[:, rows] @ maps
         xi_v, eta_v, *others_v = steep[:, rows] @ maps[:, 0]
         amplitude = _amplitude((xi, eta), np.abs(xi_u * eta_v - xi_v * eta_u), axis, rows)
+        if not pupils.mask.clear:
+            _behind_mask(pupils, amplitude, turns, (xi, eta), narrow * np.sqrt(np.abs(xi_u * eta_v - xi_v * eta_u)))
+        turns -= np.rint(turns)
+        turns = (2 * np.pi * turns).astype(np.float32)
         if pupils.weight is not None:
             amplitude *= others.pop()[0]
         for (rim, rim_u), rim_v in zip(others, others_v, strict=False):
-            amplitude *= _share_inside(rim, np.hypot(rim_u, rim_v) * narrow)
+            amplitude *= inside_share(rim, np.hypot(rim_u, rim_v) * narrow)
         np.multiply(amplitude, np.cos(turns), out=field[:, rows].real)
         np.multiply(amplitude, np.sin(turns), out=field[:, rows].imag)
     return _wrapped(field, half, side)
@@ -188,17 +192,29 @@ def _amplitude(point: tuple[np.ndarray, np.ndarray], area: np.ndarray, axis: np.
     A cell's width in the pupil is the root of its area there.
     """
     (xi, eta), cell = point, (axis[:, 1] - axis[:, 0])[:, None, None]
-    inside = _share_inside(1 - np.sqrt(xi * xi + eta * eta), np.sqrt(area) * cell.astype(np.float32))
+    inside = inside_share(1 - np.sqrt(xi * xi + eta * eta), np.sqrt(area) * cell.astype(np.float32))
     square = axis * axis
     inside *= square[:, rows, None] + square[:, None] <= (1 + cell) ** 2  # beyond, the polynomials are not valid
     np.multiply(area, inside, out=area)
     return area
 
 
-def _share_inside(within: np.ndarray, cell: np.ndarray) -> np.ndarray:
-    """Return the share of each cell where ``within`` is positive, if it changes by ``cell`` across: linear at a rim."""
-    share = within / (cell + np.float32(1e-30)) + 0.5
-    return np.clip(share, 0, 1, out=share)
+def _behind_mask(
+    pupils: Turned, amplitude: np.ndarray, turns: np.ndarray, point: tuple[np.ndarray, np.ndarray], width: np.ndarray
+) -> None:
+    """Put the mask at pupil points, (pupils, rows, columns), into amplitudes and phases; ``width`` of each cell there.
+
+    The points are in the axes of each field, the mask in those of the field at +y.
+    """
+    mask, inside = pupils.mask, amplitude > 0
+    xi, eta = (np.where(inside, column, np.float32(0)) for column in point)
+    if not mask.round:
+        xi, eta = turned_back(xi, eta, pupils.angles[:, None, None])
+    amplitude *= open_share(mask, xi, eta, width)
+    if mask.shaded:
+        amplitude *= mask.amplitude(xi, eta).astype(np.float32)
+    if mask.phased:
+        turns += mask.path_um(xi, eta) / pupils.wavelength_um[:, None, None]
 
 
 def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:

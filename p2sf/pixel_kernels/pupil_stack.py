@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.pupil.mask import CLEAR, PupilMask, mask_slopes
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, gradient, powers, terms
 from p2sf.raytrace.fit import Gradient
@@ -20,7 +21,7 @@ FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % 
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
 FORMS = "phase", "eta", "xi", "weight", "rims"
-SIZES = "radius", "energy", "reach_um", "residual_waves"
+SIZES = "radius", "energy", "reach_um", "residual_waves", "wavelength_um"
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +32,8 @@ class FrequencyPupil:
     ``weight``: of the light by entrance pupil area, even; none for the even light of a paraxial pupil. ``rims``,
     (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
     ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
+    ``mask``: what stands in the pupil besides, as the source sees it; its path makes waves by ``wavelength_um``, which
+    is negative where the phase counts as W does.
     """
 
     order: int
@@ -43,8 +46,10 @@ class FrequencyPupil:
     energy: float
     reach_um: float
     residual_waves: float
+    wavelength_um: float
     method: str
     numbers: int
+    mask: PupilMask = CLEAR
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +66,10 @@ class PupilStack:
     energy: np.ndarray
     reach_um: np.ndarray
     residual_waves: np.ndarray
+    wavelength_um: np.ndarray
     method: str
     numbers: int
+    mask: PupilMask = CLEAR
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -71,7 +78,7 @@ class PupilStack:
         """Return one of the pupils."""
         values: dict[str, Any] = {name: getattr(self, name)[k] for name in FORMS}
         values |= {name: float(getattr(self, name)[k]) for name in SIZES}
-        return FrequencyPupil(order=self.order, method=self.method, numbers=self.numbers, **values)
+        return FrequencyPupil(order=self.order, method=self.method, numbers=self.numbers, mask=self.mask, **values)
 
     def some(self, chosen: np.ndarray | slice) -> "PupilStack":
         """Return those of the pupils that an index array, a mask or a slice chooses."""
@@ -93,7 +100,7 @@ def _widened(form: np.ndarray, lacking: int) -> np.ndarray:
 
 
 def stacked(pupils: Sequence[FrequencyPupil | PupilStack]) -> PupilStack:
-    """Return pupils and stacks of them as one stack, of the highest order; all with a weight, or none."""
+    """Return pupils and stacks of them as one stack, of the highest order; all with a weight, or none; of one mask."""
     stacks = [_as_stack(pupil) for pupil in pupils]
     order = max(stack.order for stack in stacks)
     stacks = [stack.of_order(order) for stack in stacks]
@@ -110,7 +117,7 @@ def _as_stack(pupil: FrequencyPupil | PupilStack) -> PupilStack:
     if isinstance(pupil, PupilStack):
         return pupil
     values: dict[str, Any] = {name: np.array([getattr(pupil, name)]) for name in (*FORMS, *SIZES)}
-    return PupilStack(order=pupil.order, method=pupil.method, numbers=pupil.numbers, **values)
+    return PupilStack(order=pupil.order, method=pupil.method, numbers=pupil.numbers, mask=pupil.mask, **values)
 
 
 def with_reach(pupils: PupilStack) -> PupilStack:
@@ -138,9 +145,21 @@ def with_reach(pupils: PupilStack) -> PupilStack:
             share=worst,
         )
     distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]
+    mask, stray = pupils.mask, STRAY
+    if not mask.clear:
+        xi, eta = pupils.xi @ at.odd, pupils.eta @ at.even
+        round_part = mask.round_part
+        light = np.where(round_part.opens(xi, eta), light * round_part.amplitude(xi * inside, eta * inside) ** 2, 0.0)
+        stray *= mask.round  # what is dark in some directions only may be where most of the light is
+    if mask.phased:
+        slopes = mask_slopes(mask)
+        steepest = (
+            np.sqrt(xi_u**2 + xi_v**2 + eta_u**2 + eta_v**2) / (pupils.radius * np.abs(pupils.wavelength_um))[:, None]
+        )
+        distance += np.hypot(slopes.path_radial_um, slopes.path_angular_um) * steepest
     order_of = distance.argsort(1)
     near_first = np.take_along_axis(light, order_of, 1).cumsum(1)
-    within = near_first <= (1 - STRAY) * light.sum(1, keepdims=True)
+    within = near_first <= (1 - stray) * light.sum(1, keepdims=True)
     reach = np.where(within, np.take_along_axis(distance, order_of, 1), 0.0).max(1)
     return replace(pupils, reach_um=reach)
 
@@ -178,7 +197,8 @@ def _terms_at(order: int) -> _TermsAt:
 class Turned:
     """Pupils as plain powers Σ c[i, j]·uⁱ·vʲ, (pupils, i, j), each rotated to the direction of its field.
 
-    ``weight`` None: 1 everywhere. ``rims``, (surfaces, pupils, i, j): only those that clip.
+    ``weight`` None: 1 everywhere. ``rims``, (surfaces, pupils, i, j): only those that clip. ``angles`` of the fields,
+    (pupils,), to which ``mask`` does not turn.
     """
 
     radius: np.ndarray
@@ -187,6 +207,9 @@ class Turned:
     xi: np.ndarray
     weight: np.ndarray | None
     rims: np.ndarray
+    mask: PupilMask
+    wavelength_um: np.ndarray
+    angles: np.ndarray
 
 
 def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
@@ -207,7 +230,8 @@ def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
         _plain(pupils.order, form * cosine, form[:, keep] * sine) if form.size else None
         for form in (pupils.weight, *pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1))
     )
-    return Turned(pupils.radius, phase, eta, xi, weight, np.array(rims))
+    behind = pupils.mask, pupils.wavelength_um, angles
+    return Turned(pupils.radius, phase, eta, xi, weight, np.array(rims), *behind)
 
 
 def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:

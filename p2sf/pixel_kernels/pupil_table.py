@@ -64,7 +64,8 @@ class PupilTable:
             forms[name], rows = rows[:, :size].reshape(len(rows), *getattr(like, name).shape[1:]), rows[:, size:]
         radius, energy, shifts = rows.T
         residual = np.full(len(radius), like.residual_waves.max())
-        made = replace(like, **forms, radius=radius, energy=energy, residual_waves=residual)
+        waves = np.sign(like.wavelength_um[0]) * places[2]
+        made = replace(like, **forms, radius=radius, energy=energy, residual_waves=residual, wavelength_um=waves)
         return with_reach(made), shifts
 
 

@@ -4,18 +4,22 @@ A sum of waves takes a transform as wide as the blur and as fine as its fringes.
 is, and one that is lost on its way leaves dark no more than its own place.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import cos, pi, sin
 
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.pixel_kernels.nodes import hats
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_cells import turned_back
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.seen_mask import mask_seen
 
 TRACED = 40, 120  # steps of radius, and of direction over half the disc: exact rays at their ends
 FINER = 5  # times as many cells either way, with rays interpolated between the exact ones
@@ -30,6 +34,7 @@ class RaySpread:
 
     ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but STRAY.
     ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.
+    ``mask``: what of the light stands in the pupil keeps, in the axes of the field at +y; the shares are those without.
     """
 
     x_um: np.ndarray
@@ -38,14 +43,27 @@ class RaySpread:
     reach_um: float
     radius: float
     lost: float
+    mask: PupilMask = CLEAR
+
+    def passing(self, side: int, angle: float) -> np.ndarray:
+        """Return the shares of light that pass the mask, (radii, directions): the half pencil's, its mirror's for −1.
+
+        ``angle`` of the field, radians from +y towards +x.
+        """
+        if self.mask.clear:
+            return self.light
+        xi, eta = turned_back(*_grid().at_middles(side), np.asarray(angle))
+        return np.where(self.mask.opens(xi, eta), self.light * self.mask.amplitude(xi, eta) ** 2, 0.0)
 
 
 def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
-    """Return the rays of one source; GeometryError where none reaches the sensor.
+    """Return the rays of one source; GeometryError where none reaches the sensor, and behind a phase, which bends them.
 
     A cell's light is that of the sum of waves, weight²·|∂(ξ, η)/∂f|·dξ dη (Parseval).
     """
-    grid = _grid()
+    grid, mask = _grid(), mask_seen(lens, source)
+    if mask.phased:
+        check_unmasked(lens, Message("a blur by rays"))
     rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
     passed = rays.passed.reshape(grid.xi.shape)
     if not passed.any():
@@ -58,7 +76,9 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     light /= 2 * light.sum()
     lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
     spread = float(np.nanmax(np.hypot(data.fx, data.fy)))
-    return RaySpread(x, y, light, _reach(np.hypot(x, y), light), spread, lost)
+    made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part)
+    reach = _reach(np.hypot(x, y), made.passing(1, 0.0), STRAY if mask.round else 0.0)
+    return replace(made, reach_um=reach, mask=mask)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +90,7 @@ class _Grid:
     to_radii: np.ndarray
     to_directions: np.ndarray
     rho: np.ndarray
+    theta: np.ndarray
 
     @property
     def xi(self) -> np.ndarray:
@@ -86,12 +107,18 @@ class _Grid:
         found: np.ndarray = self.to_radii @ values @ self.to_directions
         return found
 
+    def at_middles(self, side: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return ξ and η of the cells' middles, (radii, directions); of the mirror half for ``side`` −1."""
+        return side * self.rho * np.sin(self.theta), self.rho * np.cos(self.theta)
+
 
 @lru_cache(maxsize=1)
 def _grid() -> _Grid:
     radii, directions = (np.linspace(0, end, count + 1) for end, count in zip((1.0, pi), TRACED, strict=True))
     middles = [(np.arange(FINER * n) + 0.5) * (end / (FINER * n)) for end, n in zip((1.0, pi), TRACED, strict=True)]
-    return _Grid(radii, directions, hats(radii, middles[0]).T, hats(directions, middles[1]), middles[0][:, None])
+    return _Grid(
+        radii, directions, hats(radii, middles[0]).T, hats(directions, middles[1]), middles[0][:, None], middles[1]
+    )
 
 
 def _between_passed(values: np.ndarray, passed: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -110,11 +137,11 @@ def _frequency_area(fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
     return found
 
 
-def _reach(distance: np.ndarray, light: np.ndarray) -> float:
-    """Return the radius that holds all of the light but STRAY, to a part in RINGS of the farthest ray's."""
+def _reach(distance: np.ndarray, light: np.ndarray, stray: float) -> float:
+    """Return the radius that holds all of the light but a part, to a part in RINGS of the farthest ray's."""
     ring = float(distance.max()) / RINGS or 1.0
     within = np.bincount((distance / ring).astype(np.intp).ravel(), light.ravel()).cumsum()
-    return ring * (1 + int(np.searchsorted(within, (1 - STRAY) * within[-1])))
+    return ring * (1 + int(np.searchsorted(within, (1 - stray) * within[-1])))
 
 
 def ray_kernel(
@@ -137,13 +164,14 @@ def _landing(
     """Return the share of all light that lands on each pixel, (2·half + 1,)², row 0 at the top."""
     size, sine, cosine = 2 * half + 1, sin(angle), cos(angle)
     total = np.zeros(size * size)
-    for across in (spread.x_um, -spread.x_um):
+    for side in (1, -1):
+        across, light = side * spread.x_um, spread.passing(side, angle)
         x = across * cosine + spread.y_um * sine + shift_um[0]
         y = spread.y_um * cosine - across * sine + shift_um[1]
         column, row = np.rint(x / pixel_um) + half, half - np.rint(y / pixel_um)
         inside = (column >= 0) & (column < size) & (row >= 0) & (row < size)
         place = (row[inside] * size + column[inside]).astype(np.intp)
-        total += np.bincount(place, spread.light[inside], total.size)
+        total += np.bincount(place, light[inside], total.size)
     return total.reshape(size, size)
 
 

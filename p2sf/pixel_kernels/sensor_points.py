@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray, vergence
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked
+from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import find_stop, pupils
@@ -83,7 +83,6 @@ def sensor_maps(
     rays: int = CHIEF_RAYS,
 ) -> list[SensorMap]:
     """Return `sensor_map` of several depths, whose chief rays are traced together where that is possible."""
-    check_unmasked(lens, Message("the forming of images"))
     check_aligned(lens, Message("the forming of images"))
     depths = np.array(depths_mm, float)
     scale = np.broadcast_to(coefficients(lens, depths, 1.0, wavelength_um).image_height, depths.shape)

@@ -237,6 +237,16 @@ class PupilMask:
         maps = self.phase_map is not None or self.amplitude_map is not None
         return not (self.spider or self.iris or self.cubic_um or maps) and all(term.m == 0 for term in terms)
 
+    @cached_property
+    def quartered(self) -> bool:
+        """Return whether the mask is its own mirror image across both axes."""
+        return self.even and self.turned(90.0).even
+
+    @cached_property
+    def round_part(self) -> "PupilMask":
+        """Return what of the mask every azimuth sees alike, without its phase: the obscuration and the apodisation."""
+        return replace(self.without_phase(), vanes=0, blades=0, amplitude_map=None)
+
     def turned(self, angle_deg: float) -> "PupilMask":
         """Return the mask turned, degrees from +η towards +ξ; the same object where that makes no difference."""
         return self if self.round or not angle_deg else replace(self, turn_deg=self.turn_deg + angle_deg)
@@ -315,12 +325,16 @@ class BladeEdge:
         m = sqrt(1 - (kappa * half) ** 2)
         return kappa / 2, kappa * distance - m, kappa / 2 * (distance**2 - half**2) - distance * m
 
-    def lies_inside(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return which points the blade leaves open."""
+    def depth(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return how far inside the edge points lie, negative outside: to first order, beside the edge."""
         square, linear, constant = self._numbers()
         across = xi * sin(self.angle) + eta * cos(self.angle)
-        inside: np.ndarray = square * (xi * xi + eta * eta) - linear * across + constant <= 0
-        return inside
+        depth: np.ndarray = linear * across - square * (xi * xi + eta * eta) - constant
+        return depth
+
+    def lies_inside(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return which points the blade leaves open."""
+        return self.depth(xi, eta) >= 0
 
     def distance(self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
         """Return how far inner points (ξ, η) lie from the edge along the directions (sine, cosine); inf where it goes.

@@ -11,7 +11,7 @@ from p2sf.scene.study import Place, Study, distance, oblique, weighted
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
 DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
 TRIED = (0.5, 0.5), (0.5, 0.2), (0.2, 0.5)  # down and right in a cell
-CELLS = 3  # nearest to the axis, between, and farthest from it
+CELLS = 3  # nearest to the axis, between, and farthest from it; behind a mask that is not round those in the corners
 EVERY = 8  # up to so many intervals of depth are all tried
 
 
@@ -53,6 +53,8 @@ def field_places(study: Study) -> list[FieldPlace]:
     axis, _, corner = study.sharpest(blue)
     far, between, near = CELLS - 1, CELLS // 2, 0
     places = [(blue, corner, far), (blue, corner, between), (blue, corner, near), (blue, axis, near), (blue, axis, far)]
+    if not study.lens.mask.round:
+        places += [(blue, corner, CELLS + quarter) for quarter in range(4)]
     places += [(blue, v, far) for v in study.scan] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
     return list(dict.fromkeys(places))
 
@@ -64,7 +66,9 @@ def between_field_nodes(study: Study, number: int, place: FieldPlace) -> list[Be
     if len(rows) == 1:
         return _about_one(study, wave, vergence)
     away = np.hypot(sensor.x_mm((columns[:-1] + columns[1:]) / 2), sensor.y_mm((rows[:-1] + rows[1:]) / 2)[:, None])
-    order = away.argsort(axis=None, kind="stable")[[0, away.size // 2, -1]]
+    order = away.argsort(axis=None, kind="stable")[[0, away.size // 2, -1]].tolist()
+    last = away.size - 1
+    order += [0, away.shape[1] - 1, last - away.shape[1] + 1, last]
     a, b = np.unravel_index(order[cell], away.shape)
     return _in_cell(study, rows[a : a + 2], columns[b : b + 2], wave, vergence)
 

@@ -23,7 +23,7 @@ from p2sf.scene.nodes import (
     field_places,
     worst_errors,
 )
-from p2sf.scene.pricing import naive_work, plan_work
+from p2sf.scene.pricing import mirrored, naive_work, plan_work
 from p2sf.scene.scene import Channel, Scene, depth_of
 from p2sf.scene.sharing import seidel_table, share_pupils
 from p2sf.scene.spectrum import reduced
@@ -102,6 +102,11 @@ class Plan:
     def allowed_error(self) -> float:
         """Return the tolerance as relative error of these kernels."""
         return self.scene.relative_error(self.norm)
+
+    @property
+    def mirrored(self) -> bool:
+        """Return whether the quarters of the picture are mirror images of each other."""
+        return mirrored(self.lens, self.scene)
 
     def kernels(self, channel: int, vergence: float) -> Kernels:
         """Return the kernels of one channel at one depth."""

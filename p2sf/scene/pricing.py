@@ -5,18 +5,25 @@ from math import ceil
 
 import numpy as np
 
+from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels import Colour, Recipe
 from p2sf.scene.bounds import transforms
 from p2sf.scene.cost import ALONE_SECONDS, TOGETHER_SECONDS, Work, pupil_seconds
+from p2sf.scene.scene import Scene
 from p2sf.scene.study import PupilAt, Study
 
 NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), and half a window against aliasing
 
 
+def mirrored(lens: Lens, scene: Scene) -> bool:
+    """Return whether one quarter of a scene's kernels gives the others, as mirror images."""
+    return scene.sensor.centred and lens.mask.quartered
+
+
 def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:
     """Return the plan's work; its pupils were fitted while planning, unless each is fitted by itself."""
     sensor, waves = study.scene.sensor, sum(len(colour.wavelengths_um) for colour in colours)
-    nodes = ceil(counts[0] / 2) * ceil(counts[1] / 2) if sensor.centred else counts[0] * counts[1]
+    nodes = ceil(counts[0] / 2) * ceil(counts[1] / 2) if mirrored(study.lens, study.scene) else counts[0] * counts[1]
     halves, sides = _widths(study, recipe)
     kernels, side = nodes * layers * waves, float(np.sqrt(np.mean(np.square(sides))))
     fits = 0.0 if study.table else kernels * pupil_seconds(recipe.method, recipe.numbers or 6)

@@ -1,5 +1,6 @@
 """The reference kernel of a point anywhere on the sensor: exact rays, a plane wave each, summed without any FFT."""
 
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -9,12 +10,12 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels import SensorMap
 from p2sf.psf.plane_waves import counts_for, pupil_amplitude
-from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
-from p2sf.raytrace.vignetting import clear_nodes, whole_nodes
+from p2sf.raytrace.seen_mask import with_slopes
+from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36
@@ -38,17 +39,19 @@ def reference_kernel(
 def exact_pixels(
     lens: Lens, source: Source, angle: float, half: int, pixel_um: float, shift_um: float, clip: bool = False
 ) -> np.ndarray:
-    """Return one wavelength's light per pixel; ``shift_um`` along the field's direction."""
-    probe = nodes_of(lens, source, PROBE, clip)
+    """Return one wavelength's light per pixel; ``shift_um`` along the field's direction, ``angle`` radians from +y."""
+    seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))  # its mask is turned, which stays in the lens
+    probe = pupil_nodes(lens, seen, PROBE, clip)
     steep = steepness(ray_data(pencil(lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
+    steep = with_slopes(steep, lens.mask, source.wavelength_um)
     size = 2 * half + 1
     place, share = _pixel_points(size, pixel_um, steep.spread)
     counts = counts_for(steep, size, pixel_um)
     radii, directions = (2 * ceil(0.55 * count) for count in counts)
-    nodes = nodes_of(lens, source, (radii, directions), clip)
+    nodes = pupil_nodes(lens, seen, (radii, directions), clip).unfolded()
     data = ray_data(pencil(lens, source, nodes.xi, nodes.eta))
-    phase, weight = (np.concatenate([v, v]) for v in (data.phase, nodes.weight * data.weight / 2))
-    across_f, along_f = np.concatenate([data.fx, -data.fx]), np.concatenate([data.fy, data.fy])
+    phase = data.phase + nodes.path_um / source.wavelength_um
+    weight, across_f, along_f = nodes.weight * nodes.amplitude * data.weight, data.fx, data.fy
     sine, cosine = np.sin(angle), np.cos(angle)
     fx, fy = across_f * cosine + along_f * sine, along_f * cosine - across_f * sine
     amplitude = pupil_amplitude(weight, phase - along_f * shift_um)
@@ -57,11 +60,6 @@ def exact_pixels(
     pixels = np.einsum("aibj,i,j->ab", light, share, share)
     image: np.ndarray = pixels[::-1] / pixels.sum()
     return image
-
-
-def nodes_of(lens: Lens, source: Source, counts: tuple[int, int], clip: bool) -> ClearNodes:
-    """Return (radial, angular) ``counts`` of nodes over the pupil, or its clear part."""
-    return clear_nodes(lens, source, counts) if clip else whole_nodes(counts)
 
 
 def _pixel_points(size: int, pixel_um: float, spread: float) -> tuple[np.ndarray, np.ndarray]:

@@ -44,7 +44,7 @@ class Sensor:
 
     @property
     def centred(self) -> bool:
-        """Return whether the axis goes through the middle, so that the quarters are mirror images of each other."""
+        """Return whether the axis goes through the middle."""
         return self.centre_mm == (0.0, 0.0)
 
     def x_mm(self, column: ArrayLike) -> np.ndarray:

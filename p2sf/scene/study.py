@@ -21,6 +21,7 @@ from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, s
 from p2sf.pixel_kernels.pixels import half_widths
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import Level, PencilForms, levels
 from p2sf.scene.scene import Scene, depth_of
@@ -131,7 +132,8 @@ class Study:
 
     def residual(self, level: Level) -> float:
         """Return the largest RMS phase residual of fits of this size, waves, at the ends of field and depth."""
-        return float(self._corner_fits(level)[0].residual_waves.max())
+        share = 1.0 if self.lens.mask.clear else throughput(self.lens.mask).light  # all of it may be where that is open
+        return float(self._corner_fits(level)[0].residual_waves.max() / np.sqrt(share))
 
     def _corner_fits(self, level: Level) -> tuple[PencilForms, np.ndarray]:
         """Return the fits of one size at the ends of field and depth, and where their chief rays land, mm."""

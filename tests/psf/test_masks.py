@@ -195,8 +195,5 @@ def test_throughput_of_a_gaussian():
 
 def test_what_knows_no_mask_says_so():
     lens = with_mask(find_lens("cooke_triplet"), EVEN[0])
-    for kind in ("seidel", "fitted"):
-        with pytest.raises(GeometryError, match="mask"):
-            p2sf.build_database(lens, [1000.0, 2000.0], [0.0, 5.0], [550.0, 560.0], method=kind)
     with pytest.raises(GeometryError, match="mask"):
         p2sf.zernike(lens)
