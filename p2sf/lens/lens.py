@@ -14,6 +14,7 @@ from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.placement import Motion, Placement, along_z
+from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Shape
 from p2sf.messages import Message
 from p2sf.notebook import html_table
@@ -60,6 +61,8 @@ class Surface:
         Radius, mm, within which rays are lost where rims clip: a mirror's hole, or the shadow of what stands there.
     ideal_focal_length : float
         The focal length, mm, of an ideal lens in this plane, whose power is its inverse; inf for a real surface.
+    rim : Rim, optional
+        Where the clear aperture stands, if it is decentred or a rectangle.
     """
 
     radius: float = inf
@@ -74,6 +77,7 @@ class Surface:
     after: tuple[Placement, ...] = ()
     inner_radius: float = 0.0
     ideal_focal_length: float = inf
+    rim: Rim | None = None
 
     @property
     def curvature(self) -> float:
@@ -247,7 +251,9 @@ class Lens:
 
     @cached_property
     def misaligned(self) -> bool:
-        """Return whether anything is tilted or decentred, folding mirrors included."""
+        """Return whether anything is tilted or decentred, folding mirrors and clear rims included."""
+        if any(surface.rim for surface in self.surfaces):
+            return True
         placements = *(p for s in self.surfaces for p in (*s.before, *s.after)), *self.sensor_before
         return not all(placement.idle for placement in placements)
 
@@ -307,7 +313,7 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     """Return a lens as a source in this azimuth sees it that is described in the plane x = 0: turned about its axis.
 
     Every break of the coordinates stands in axes that are turned with the source, so that the stop's and the sensor's
-    own are as well; the surfaces are round and do not notice. A lens that is not misaligned is returned as it is.
+    own are as well; the surfaces are round, and only their rims are turned. A lens that is not misaligned is returned.
     """
     if not azimuth_deg or not lens.misaligned:
         return lens
@@ -316,7 +322,10 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     def turned(placements: tuple[Placement, ...]) -> tuple[Placement, ...]:
         return (into, *placements, back) if placements else ()
 
-    surfaces = tuple(replace(s, before=turned(s.before), after=turned(s.after)) for s in lens.surfaces)
+    surfaces = tuple(
+        replace(s, before=turned(s.before), after=turned(s.after), rim=s.rim and s.rim.turned(azimuth_deg))
+        for s in lens.surfaces
+    )
     return replace(lens, surfaces=surfaces, sensor_before=turned(lens.sensor_before))
 
 
@@ -332,7 +341,7 @@ def check_aligned(lens: Lens, what: Message) -> None:
 
 def _first_misaligned(lens: Lens) -> int:
     """Return the first surface, from 1, that a break stands before or behind; the sensor is that behind the last."""
-    placed = (any(not p.idle for p in (*s.before, *s.after)) for s in lens.surfaces)
+    placed = (s.rim is not None or any(not p.idle for p in (*s.before, *s.after)) for s in lens.surfaces)
     return next((number for number, found in enumerate(placed, 1) if found), len(lens.surfaces) + 1)
 
 
@@ -405,6 +414,8 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
             )
         for placement in (*surface.before, *surface.after):
             placement.check(number)
+        if surface.rim:
+            surface.rim.check(number)
         _check_shape(surface, number)
 
 

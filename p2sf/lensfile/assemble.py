@@ -22,6 +22,7 @@ HIGHEST_ORDER = 40
 MOST_SURFACES = 1000
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
 NO_STOP = Message("no stop named")
+RECTANGLE, CIRCLE = Message("a rectangle"), Message("a circle")
 HEIGHTS = {
     "object_height": Message("object heights"),
     "image_height": Message("image heights"),
@@ -165,6 +166,7 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
         before=_scaled(raw.before, unit),
         after=_scaled(raw.after, unit),
         ideal_focal_length=raw.ideal_focal_length * unit,
+        rim=raw.rim.scaled(unit) if raw.rim else None,
     )
 
 
@@ -276,6 +278,15 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
     for number, surface in enumerate(lens.surfaces, 1):
         for words in shape_words(surface):
             notes.add("read", "{shape}", number, shape=words)
+        if surface.rim:
+            kind = RECTANGLE if surface.rim.half_widths else CIRCLE
+            notes.add(
+                "read",
+                "where rims clip, its clear rim is {kind} about ({centre:g}) mm",
+                number,
+                kind=kind,
+                centre=surface.rim.decentre,
+            )
     if raw.unit_mm != 1:
         notes.add("read", "lengths converted to mm from units of {unit:g} mm", unit=raw.unit_mm)
     if isfinite(raw.object_distance):

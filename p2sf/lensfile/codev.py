@@ -14,6 +14,7 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import MIRROR, Medium, measured_index
 from p2sf.lens.lens import Lens
+from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, RadialPolynomial
 from p2sf.lens.tilts import Breaks, decentred_surface
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
@@ -25,6 +26,7 @@ from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
 
 TILT_NAMES = ("XDE", "YDE", "ZDE", "ADE", "BDE", "CDE")
+RIM_NAMES = ("REX", "REY", "ADX", "ADY", "ARO")  # half-widths of a rectangle, the centre of a rim, and its turn
 TILTS = Message("is tilted or decentred otherwise than by XDE to CDE")
 SHAPES = Message("has a shape that is not a sphere, a conic or an asphere in powers of r")
 REFUSED = {
@@ -42,7 +44,7 @@ HARMLESS = (
     (Message("control codes of the optimiser"), "CCY THC KC AC BC CC DC EC FC GC HC GLC CUM THM CCX DEL CCF"),
     (Message("solves and pickups, whose stored values are read"), "PIM PIK SOL UMY CUS RED"),
     (Message("weights"), "WTW WTF WTA"),
-    (Message("edge and rectangle rims, obscurations in other shapes"), "REX REY ELX ELY ADX ADY ARO"),
+    (Message("edges, and rims and obscurations in other shapes"), "ELX ELY"),
     (
         Message("titles, sessions and computing settings"),
         "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT PIV CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
@@ -135,6 +137,7 @@ class CodeVReading:
     special: dict[int, dict[str, float]] = field(default_factory=dict)
     phase: dict[int, dict[str, float]] = field(default_factory=dict)
     tilts: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of XDE … CDE by the surface's id
+    rims: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of RIM_NAMES by the surface's id
     returns: dict[int, str] = field(default_factory=dict)  # DAR, REV or BEN by the surface's id
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
@@ -350,12 +353,17 @@ def _diffracts(reading: CodeVReading, command: CodeVCommand, surface: RawSurface
 
 
 def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    """Read CIR radius; an edge is not a clear rim, and within an obscuration or a hole rays are lost."""
+    """Read CIR radius and RIM_NAMES; an edge is not a clear rim, and within an obscuration or a hole rays are lost."""
     kind = next((word.upper() for word in command.words if word.upper() in ("EDG", "OBS", "HOL")), "")
     if kind == "EDG":
         return
     value = reading.number(command, len(command.words) - 1, Message("clear rim")) if command.words else 0.0
-    if kind:
+    if command.name[:3] in RIM_NAMES:
+        if kind:
+            note(reading.notes, reading.raw, "ELX", command.words, surface.number, command.line)
+        else:
+            reading.rims.setdefault(id(surface), {})[command.name[:3]] = value
+    elif kind:
         surface.inner_radius = max(value, 0.0)
         reading.notes.add("caution", HOLE, surface.number, command.line, radius=value)
     else:
@@ -390,7 +398,7 @@ ON_SURFACE = {
     "RMD": read_glass,  # the mode of refraction: REFL or REFR
     "THI": _thickness,
     "K": _set("conic", Message("conic constant")),
-    "CIR": _rim,
+    **dict.fromkeys(("CIR", *RIM_NAMES), _rim),
     "SPS": _special,
     "SCO": _special_value,
     **dict.fromkeys(("DIF", "HOR", "HWL", "HCT", "HCO"), _diffracts),
@@ -608,8 +616,16 @@ def _finish(reading: CodeVReading) -> None:
         raise reading.source.error("the stop is on the object or the image; put it on a surface between", first.line)
     for surface in raw.surfaces:
         _shape(reading, surface)
+        surface.rim = _shaped_rim(reading.rims.get(id(surface), {}))
     _place(reading)
     _gather_fields(reading)
+
+
+def _shaped_rim(numbers: dict[str, float]) -> Rim | None:
+    """Return the rim that REX, REY, ADX, ADY and ARO mean; None for a circle about the axis."""
+    x, y, across, up, turn = (numbers.get(name, 0.0) for name in RIM_NAMES)
+    sides = (x if x > 0 else inf, y if y > 0 else inf) if x > 0 or y > 0 else None
+    return Rim((across, up), sides, turn if sides else 0.0) if sides or across or up else None
 
 
 def _place(reading: CodeVReading) -> None:

@@ -8,6 +8,7 @@ from typing import Literal
 
 from p2sf.glass.media import Medium
 from p2sf.lens.placement import Placement
+from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Shape
 from p2sf.messages import Message
 
@@ -60,6 +61,7 @@ class RawSurface:
     before: tuple[Placement, ...] = ()
     after: tuple[Placement, ...] = ()
     ideal_focal_length: float = inf
+    rim: Rim | None = None
 
     @property
     def name(self) -> Message:

@@ -24,6 +24,7 @@ radius = 50.0                    # > 0: centre of curvature to the right; inf is
 thickness = 4.0                  # to the next surface, the last one to the sensor; < 0 where light runs back
 glass = "SCHOTT N-BK7"           # or 1.5168, or { nd = 1.5168, vd = 64.17 }, or "mirror"; left out: air
 semi_diameter = 10.0             # clear rim; left out: unlimited
+rim = { decentre = [0, 5.0] }    # the clear rim is elsewhere, or also half_widths = [4, 3], turn_deg: a rectangle
 inner_radius = 2.0               # rays within are lost: a hole, a shadow; left out: 0
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
@@ -63,7 +64,7 @@ from p2sf.lensfile.columns import KINDS as RINGS
 from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
 from p2sf.lensfile.source_text import read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
-from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements
+from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements, read_rim, rim_text
 from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns
@@ -139,6 +140,7 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
         _Line("glass", _medium(surface.medium), '"air"'),
         _Line("semi_diameter", _number(surface.semi_diameter), "inf"),
         _Line("inner_radius", _number(surface.inner_radius), "0.0"),
+        _Line("rim", rim_text(surface.rim) if surface.rim else ""),
         _Line("conic", _number(surface.conic), "0.0"),
         _Line("ideal_focal_length", _number(surface.ideal_focal_length), "inf"),
         _Line("aspheric", _list(surface.aspheric), "[]"),
@@ -210,7 +212,7 @@ TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_m
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 SHAPED = ("ideal_focal_length", "shape", "diffraction", "before", "after")
-SURFACE = ("radius", "thickness", "glass", "semi_diameter", "inner_radius", "conic", "aspheric", *SHAPED)
+SURFACE = ("radius", "thickness", "glass", "semi_diameter", "inner_radius", "rim", "conic", "aspheric", *SHAPED)
 # The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
 # ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
 SHAPES = ("odd asphere", "extended odd asphere", "extended asphere", "Qbfs", "Qcon")
@@ -319,6 +321,7 @@ def _surface(table: Table, scale: float) -> Surface:
         before=read_placements(table, "before", scale),
         after=read_placements(table, "after", scale),
         ideal_focal_length=focal,
+        rim=read_rim(table, scale),
     )
 
 

@@ -1,4 +1,4 @@
-"""Tilts and decentres in a lens file in TOML: ``before`` and ``after`` of a surface, [[misaligned]] pieces."""
+"""Tilts and decentres in a lens file in TOML: ``before``, ``after`` and ``rim`` of a surface, [[misaligned]] pieces."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -8,12 +8,14 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
+from p2sf.lens.rim import Rim
 from p2sf.lensfile.toml_table import Constraint, Table, shown
 from p2sf.messages import Message
 
 PLACEMENT = ("decentre", "tilt_deg", "tilt_first", "pivot")
 PIECE = ("surfaces", *PLACEMENT)
 FINITE = Constraint(isfinite, Message("write a finite number"))
+WIDTH = Constraint(lambda x: x > 0, Message("write a positive number"))
 ANGLE = Constraint(isfinite, Message("write an angle in degrees"))
 NOWHERE = (0.0, 0.0, 0.0)
 
@@ -89,3 +91,26 @@ def _text(placement: Placement) -> str:
     ]
     parts += ["tilt_first = true"] * placement.tilt_first
     return f"{{ {', '.join(parts)} }}" if parts else "{ }"
+
+
+def read_rim(surface: Table, scale: float) -> Rim | None:
+    """Return the rim of a surface that is decentred or a rectangle; LensFileError for what cannot be."""
+    table = surface.inline("rim")
+    if table is None:
+        return None
+    table.check_keys(("decentre", "half_widths", "turn_deg"))
+    pairs = {key: table.numbers(key, rule, ()) for key, rule in (("decentre", FINITE), ("half_widths", WIDTH))}
+    for key, numbers in pairs.items():
+        if key in table.values and len(numbers) != 2:
+            table.fail("{name} are {count} numbers; write x and y", key, name=key, count=len(numbers))
+    (x, y), sides = pairs["decentre"] or (0.0, 0.0), pairs["half_widths"]
+    turn = table.number("turn_deg", ANGLE, 0.0)
+    return Rim((x, y), (sides[0], sides[1]) if sides else None, turn).scaled(scale)
+
+
+def rim_text(rim: Rim) -> str:
+    """Return a rim as `read_rim` reads it, in mm."""
+    parts = [f"decentre = [{rim.decentre[0]!r}, {rim.decentre[1]!r}]"]
+    parts += [f"half_widths = [{rim.half_widths[0]!r}, {rim.half_widths[1]!r}]"] if rim.half_widths else []
+    parts += [f"turn_deg = {rim.turn_deg!r}"] * bool(rim.turn_deg)
+    return f"{{ {', '.join(parts)} }}"

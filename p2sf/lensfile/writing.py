@@ -27,6 +27,7 @@ from p2sf.paraxial.positions import as_in_columns, focused_vergence
 
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
+UNLIMITED = 1e10  # mm: no rim
 HIGHEST_ZEMAX_ORDER = 16
 HIGHEST_ZEMAX_ODD = 8
 MOST_ISET_TERMS = 20
@@ -171,7 +172,7 @@ def _zemax_rows(lens: Lens, number: int, stop: int) -> list[list[str]]:
     """Return the lines of a surface, and of the coordinate breaks before and behind it."""
     surface, before = lens.surfaces[number - 1], lens.media[number - 1]
     breaks = [row for placement in surface.before for row in break_rows(placement, 0.0)]
-    open_wide = not isfinite(surface.semi_diameter) and not surface.inner_radius
+    open_wide = not isfinite(surface.semi_diameter) and not surface.inner_radius and not surface.rim
     idle = surface.bare and surface.medium == before and number != stop and open_wide
     if idle and breaks and not surface.after:  # as a coordinate break of a file is read
         return [*(_zemax_break(*row) for row in breaks[:-1]), _zemax_break(*breaks[-1], surface.thickness)]
@@ -203,8 +204,24 @@ def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list
         *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
         *[f"  CONI {surface.conic!r}"] * bool(surface.conic),
         f"  DIAM {rim if isfinite(rim) else 0!r} {int(isfinite(rim))} 0 0 1",
-        *[f"  OBSC 0 {surface.inner_radius!r}"] * bool(surface.inner_radius),
+        *_zemax_rim(surface, number),
     ]
+
+
+def _zemax_rim(surface: Surface, number: int) -> list[str]:
+    """Return the lines of a hole and of a rim that is decentred or a rectangle, which takes the place of a circle's."""
+    rim, hole = surface.rim, surface.inner_radius
+    if rim is None:
+        return [f"  OBSC 0 {hole!r}"] * bool(hole)
+    if rim.turn_deg or (rim.half_widths and hole):
+        raise LensFileError(
+            "surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save "
+            "as TOML",
+            surface=number,
+        )
+    outer = min(surface.semi_diameter, UNLIMITED)
+    sides = [f"  SQAP {rim.half_widths[0]!r} {rim.half_widths[1]!r} 0"] if rim.half_widths else []
+    return [*(sides or [f"  CLAP {hole!r} {outer!r} 0"]), f"  OBDC {rim.decentre[0]!r} {rim.decentre[1]!r}"]
 
 
 def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:

@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
+from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.tilts import coordinate_break
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
@@ -64,7 +65,7 @@ HARMLESS = (
 )
 REASON = {keyword: reason for reason, keywords in HARMLESS for keyword in keywords.split()}
 VIGNETTING = ("VDXN", "VDYN", "VCXN", "VCYN", "VANN", "ZVDX", "ZVDY", "ZVCX", "ZVCY", "ZVAN")
-RIMS = ("SQAP", "RECA", "ELAP", "SPID", "UDAD", "USAP")
+RIMS = ("RECA", "ELAP", "SPID", "UDAD", "USAP")
 
 
 def note(notes: Notebook, raw: RawLens, words: list[str], surface: int | None, line: int) -> None:
@@ -338,12 +339,18 @@ def _inner_radius(reading: ZemaxReading, radius: float) -> None:
         reading.notes.add("caution", HOLE, reading.surface.number, reading.line, radius=radius)
 
 
+def _rectangle(reading: ZemaxReading, words: list[str]) -> None:
+    """Read SQAP x y, half the sides of a clear rectangle."""
+    x, y = (reading.number(words, place, Message("half-width of a rim"), 0.0) for place in (1, 2))
+    if x > 0 and y > 0:
+        reading.surface.rim = replace(reading.surface.rim or Rim(), half_widths=(x, y))
+
+
 def _decentred_rim(reading: ZemaxReading, words: list[str]) -> None:
-    offset = [reading.number(words, place, Message("rim offset"), 0.0) for place in (1, 2)]
-    if any(offset):
-        reading.refuse(
-            "{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read", x=offset[0], y=offset[1]
-        )
+    """Read OBDC x y, the centre of the clear rim or the obscuration."""
+    x, y = (reading.number(words, place, Message("rim offset"), 0.0) for place in (1, 2))
+    if x or y:
+        reading.surface.rim = replace(reading.surface.rim or Rim(), decentre=(x, y))
 
 
 def _own_tilt(reading: ZemaxReading, words: list[str]) -> None:
@@ -388,6 +395,7 @@ ON_SURFACE = {
     "GLAS": _glass,
     "CLAP": _clear_rim,
     "OBSC": _obscuration,
+    "SQAP": _rectangle,
     "OBDC": _decentred_rim,
     "SCBD": _own_tilt,
 }
@@ -409,7 +417,7 @@ def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
     """Return the lens of a .zmx file; LensFileError with its line for what P2SF does not trace.
 
     Refused by surface number and name: gratings, toroids, gradients,
-    non-sequential parts, black boxes, decentred or non-circular clear rims, and any unknown type.
+    non-sequential parts, black boxes, and any unknown type.
     """
     reading = ZemaxReading(source, notes)
     for reading.line, text in enumerate(source.lines, 1):

@@ -123,7 +123,7 @@ def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
 
 def named_stop(lens: Lens) -> int:
     """Return the stop of a lens that names none: the limiting rim for infinity and the reference wavelength."""
-    rims = np.array([surface.semi_diameter for surface in lens.surfaces])
+    rims = np.array([np.inf if surface.rim else surface.semi_diameter for surface in lens.surfaces])
     if not np.isfinite(rims).any():
         raise GeometryError("the lens names no stop surface and no semi-diameters; state one of them")
     rays = basis_rays(lens, lens.reference_wavelength_um)
@@ -133,6 +133,8 @@ def named_stop(lens: Lens) -> int:
 def _limiting_surface(lens: Lens, rays: BasisRays, depth_mm: FloatOrArray, named: int, rim: float) -> np.ndarray:
     height, _ = axial_ray(rays, depth_mm)
     rims = rim_radii(lens, named, rim)
+    if lens.misaligned:
+        rims[[number != named and s.rim is not None for number, s in enumerate(lens.surfaces, 1)]] = np.inf
     fraction = np.abs(height) / rims.reshape(-1, *[1] * (height.ndim - 1))
     fraction[named - 1] *= 1 + RIM_TIE
     limiting: np.ndarray = np.argmax(fraction, axis=0) + 1

@@ -38,7 +38,7 @@ def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
         raise chief_ray_error(lens, status_message(status, failed), failed)
     for number, (surface, height) in enumerate(zip(lens.surfaces, heights, strict=False), 1):
         far = float(np.max(height))
-        if far > surface.semi_diameter:
+        if surface.rim is None and far > surface.semi_diameter:
             beyond = Message(
                 "meets surface {surface} {height:.4g} mm from its vertex, beyond its rim of {rim:g} mm",
                 surface=number,

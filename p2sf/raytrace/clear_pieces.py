@@ -14,15 +14,14 @@ from math import ceil, cos, pi, sin, tan
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import FEWEST_ACROSS, ClearNodes, Piece, circle_exit, ring_count, shaded_nodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.pencil import hexapolar
-from p2sf.raytrace.surface import Status
+from p2sf.raytrace.surface import Status, ended_at, in_hole
 from p2sf.raytrace.trace import lens_rims, run
 
 SEARCH_RINGS = 24
@@ -52,20 +51,30 @@ class Region:
     mask: PupilMask
     within: tuple[int, ...] = ()
 
+    @property
+    def even(self) -> bool:
+        """Return whether the half ξ < 0 is the mirror image of the other."""
+        return self.mask.even and not self.lens.misaligned
+
     def holds(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return which points of the iris lie in the region, and what ends it at the others."""
         rays = pupil_rays(self.lens, self.source, xi, eta)
-        beam, heights = start(rays), []
+        beam, shaded = start(rays), {}
         beam.exempt = 0
         rims = lens_rims(self.lens, keep_stop=False) if self.clip else None
         solid = replace(self.lens, surfaces=tuple(replace(s, inner_radius=0.0) for s in self.lens.surfaces))
-        run(solid, beam, rays.index, rims, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
-        passed, label = beam.status == Status.PASSED, beam.failed_surface.astype(int)
+
+        def visit(number: int) -> None:
+            if number in self.within:
+                surface = self.lens.surfaces[number - 1]
+                shaded[number] = in_hole(beam, surface.inner_radius, surface.rim)
+
+        run(solid, beam, rays.index, rims, visit=visit)
+        passed, label = beam.status == Status.PASSED, ended_at(beam.status, beam.failed_surface)
         for number in self.within:
             if number != OBSCURATION:
-                inside = heights[number - 1] < self.lens.surfaces[number - 1].inner_radius
-                label = np.where(passed & ~inside, LEFT_HOLE + number, label)
-                passed = passed & inside
+                label = np.where(passed & ~shaded[number], LEFT_HOLE + number, label)
+                passed = passed & shaded[number]
         return passed, label
 
     def limit(
@@ -93,9 +102,9 @@ class Region:
         low, high = np.zeros_like(outer), outer.copy()
         for _ in range(0 if whole.all() else BISECTIONS):
             middle = (low + high) / 2
-            inside, why = self.holds(xi + middle * sine, eta + middle * cosine)
-            low, high = np.where(inside, middle, low), np.where(inside, high, middle)
-            ended = np.where(inside, ended, why)
+            held, why = self.holds(xi + middle * sine, eta + middle * cosine)
+            low, high = np.where(held, middle, low), np.where(held, high, middle)
+            ended = np.where(held, ended, why)
         return np.where(whole, outer, low), np.where(whole, label, ended)
 
 
@@ -126,7 +135,6 @@ def check_without_holes(lens: Lens, clip: bool) -> None:
 
 def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool, mask: PupilMask) -> ClearNodes:
     """Return nodes over what mask, rims, holes and lost rays leave open; GeometryError where that is nothing."""
-    check_aligned(lens, Message("the search for rims in the pupil"))
     region = Region(lens, source, clip, mask)
     shadows = (*((OBSCURATION,) if mask.obscuration else ()), *(holes_of(lens) if clip else ()))
     outline = outline_of(region)
@@ -145,10 +153,10 @@ def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool,
                 pieces.append(_nodes(part, shape, counts, (-1) ** size))
     for angle in mask.vane_angles:
         pieces += _vane(region, shadows, angle, counts[0])
-    if mask.even:
+    if region.even:
         pieces = [(xi, eta, 2 * area) for xi, eta, area in pieces if xi.mean() > 0]
     xi, eta, area = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    return shaded_nodes(mask, xi, eta, area, mask.even)
+    return shaded_nodes(mask, xi, eta, area, region.even)
 
 
 @lru_cache(maxsize=64)
@@ -157,11 +165,11 @@ def outline_of(region: Region) -> Outline | None:
     found = _centre(region)
     if found is None:
         return None
-    turn = pi if region.mask.even else 2 * pi
-    count = SCAN // 2 if region.mask.even else SCAN
+    turn = pi if region.even else 2 * pi
+    count = SCAN // 2 if region.even else SCAN
     theta = (np.arange(count) + 0.5) * (turn / count)
     label = _along(region, found, theta)[1]
-    if not region.mask.even:  # the last direction and the first are neighbours
+    if not region.even:  # the last direction and the first are neighbours
         theta, label = np.append(theta, theta[0] + turn), np.append(label, label[0])
     change = np.flatnonzero(np.diff(label))
     low, high, first = theta[change], theta[change + 1], label[change]
@@ -170,7 +178,7 @@ def outline_of(region: Region) -> Outline | None:
         same = _along(region, found, middle)[1] == first
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     corners = ((low + high) / 2).tolist()
-    if region.mask.even:
+    if region.even:
         return Outline(*found, (0.0, *corners, pi))
     return Outline(*found, (*corners, corners[0] + turn) if corners else (0.0, turn))
 
@@ -187,10 +195,10 @@ def _centre(region: Region) -> tuple[float, float] | None:
     for place in (place for place in tried if place is not None):
         if _inside(region, np.zeros(1), np.array([place]))[0]:
             return 0.0, place
-    inside = _inside(region, xi, eta)
-    if not inside.any():
+    held = _inside(region, xi, eta)
+    if not held.any():
         return None
-    middle = (0.0 if region.mask.even else float(xi[inside].mean())), float(eta[inside].mean())
+    middle = (0.0 if region.even else float(xi[held].mean())), float(eta[held].mean())
     if not _inside(region, np.array(middle[:1]), np.array(middle[1:]))[0]:
         raise GeometryError(
             "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
@@ -201,12 +209,12 @@ def _centre(region: Region) -> tuple[float, float] | None:
 
 def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     """Return which points of the disc lie in the region, the iris and the obscuration included."""
-    inside, _ = region.holds(xi, eta)
+    held, _ = region.holds(xi, eta)
     for edge in region.mask.edges:
-        inside = inside & edge.lies_inside(xi, eta)
+        held = held & edge.lies_inside(xi, eta)
     if OBSCURATION in region.within:
-        inside = inside & (xi * xi + eta * eta < region.mask.obscuration**2)
-    return inside
+        held = held & (xi * xi + eta * eta < region.mask.obscuration**2)
+    return held
 
 
 def _axis_seen(region: Region, number: int) -> float | None:

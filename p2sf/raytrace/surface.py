@@ -15,6 +15,7 @@ import numpy as np
 from p2sf.conventions import FloatOrArray
 from p2sf.lens.lens import Surface
 from p2sf.lens.placement import Motion
+from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import WAVES_MM, Diffraction
 
 NEWTON_STEPS = 40
@@ -32,6 +33,16 @@ class Status(IntEnum):
     REFUSED = 4
     UNAIMED = 5
     EVANESCENT = 6
+    CLIPPED_BESIDE = 7  # on the left or right of a rectangle: apart, since the clear part has a corner where they meet
+
+
+def ended_at(status: np.ndarray, failed_surface: np.ndarray) -> np.ndarray:
+    """Return a number that tells apart what ends rays: the surface, and a side of a rectangle from what it joins."""
+    number: np.ndarray = failed_surface + BESIDE * (status == Status.CLIPPED_BESIDE)
+    return number
+
+
+BESIDE = 10_000  # more than a file has surfaces
 
 
 class Beam:
@@ -265,17 +276,29 @@ def _root(
     return root
 
 
-def clip(beam: Beam, rim: float, number: int) -> None:
-    """Stop every ray that lands outside a rim of radius ``rim`` mm."""
-    outside = beam.x * beam.x + beam.y * beam.y > rim * rim
-    outside[..., outside.shape[-1] - beam.exempt :] = False
-    if outside.any():
-        beam.fail(outside, Status.CLIPPED, number)
+def clip(beam: Beam, radius: float, rim: Rim | None, number: int) -> None:
+    """Stop every ray that lands outside the rim of a surface: a circle of ``radius`` mm, or the rectangle it is."""
+    x, y = rim.about_centre(beam.x, beam.y) if rim else (beam.x, beam.y)
+    if rim and rim.half_widths:
+        _stop(beam, np.abs(x) > rim.half_widths[0], Status.CLIPPED_BESIDE, number)
+        _stop(beam, np.abs(y) > rim.half_widths[1], Status.CLIPPED, number)
+    else:
+        _stop(beam, x * x + y * y > radius * radius, Status.CLIPPED, number)
 
 
-def clip_inside(beam: Beam, radius: float, number: int) -> None:
-    """Stop every ray that lands inside ``radius`` mm: in the hole of a mirror, or behind what stands there."""
-    inside = beam.x * beam.x + beam.y * beam.y < radius * radius
-    inside[..., inside.shape[-1] - beam.exempt :] = False
-    if inside.any():
-        beam.fail(inside, Status.CLIPPED, number)
+def clip_inside(beam: Beam, radius: float, rim: Rim | None, number: int) -> None:
+    """Stop every ray that lands in a hole or a shadow."""
+    _stop(beam, in_hole(beam, radius, rim), Status.CLIPPED, number)
+
+
+def in_hole(beam: Beam, radius: float, rim: Rim | None) -> np.ndarray:
+    """Return which rays land within ``radius`` mm of the centre of a surface's rim."""
+    x, y = rim.about_centre(beam.x, beam.y) if rim else (beam.x, beam.y)
+    within: np.ndarray = x * x + y * y < radius * radius
+    return within
+
+
+def _stop(beam: Beam, lost: np.ndarray, why: Status, number: int) -> None:
+    lost[..., lost.shape[-1] - beam.exempt :] = False
+    if lost.any():
+        beam.fail(lost, why, number)

@@ -22,6 +22,7 @@ _OUTCOMES = {
     Status.MISSED: "misses surface {surface}",
     Status.REFLECTED: "is totally reflected at surface {surface}",
     Status.CLIPPED: "is stopped by the rim of surface {surface}",
+    Status.CLIPPED_BESIDE: "is stopped by the rim of surface {surface}",
     Status.REFUSED: "meets the asphere on surface {surface} where no safe intersection was found",
     Status.EVANESCENT: "has no diffracted direction behind surface {surface}, whose phase is too steep there",
     Status.UNAIMED: "could not be aimed at its place in the stop, surface {surface}",
@@ -174,9 +175,9 @@ def _cross(
     if visit:
         visit(number)
     if rims is not None:
-        clip(beam, rims[number - 1], number)
+        clip(beam, rims[number - 1], surface.rim, number)
         if surface.inner_radius:
-            clip_inside(beam, surface.inner_radius, number)
+            clip_inside(beam, surface.inner_radius, surface.rim, number)
     if surface.ideal:
         bend_ideally(beam, surface.ideal_focal_length, before, after, object_point(lens, beam, index, number))
     elif surface.diffraction is not None:
@@ -211,11 +212,14 @@ def per_ray(index: np.ndarray) -> Index:
 def lens_rims(lens: Lens, keep_stop: bool = True) -> np.ndarray:
     """Return the rims that clip, mm, a rounding wider than written; without ``keep_stop`` the stop's is infinite.
 
-    A pencil that fills the stop needs no rim there. Raises GeometryError for a lens that states no rim.
+    A pencil that fills the stop needs no rim there, but one that stands elsewhere than the stop or is a rectangle.
+    Raises GeometryError for a lens that states no rim.
     """
     stop = lens.stop_surface or named_stop(lens)
     rims = rim_radii(lens, stop, stop_rim(lens) if keep_stop else np.inf) * (1 + RIM_TIE)
-    if not np.isfinite(rims).any() and not any(surface.inner_radius for surface in lens.surfaces):
+    if lens.surfaces[stop - 1].rim:
+        rims[stop - 1] = lens.surfaces[stop - 1].semi_diameter * (1 + RIM_TIE)
+    if not np.isfinite(rims).any() and not any(surface.inner_radius or surface.rim for surface in lens.surfaces):
         raise GeometryError(
             "the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off",
             parameter="clip",

@@ -22,6 +22,7 @@ from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes, holes
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.surface import ended_at
 
 SEARCH_RINGS = 12
 SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
@@ -162,13 +163,13 @@ def _edge(
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (up * sine - aside * cosine) ** 2) - (up * cosine + aside * sine)
     rays = pencil(lens, source, aside + outer * sine, up + outer * cosine, clip)
-    whole, rim = rays.passed, rays.failed_surface.copy()
+    whole, rim = rays.passed, ended_at(rays.status, rays.failed_surface)
     low, high = np.zeros_like(outer), outer.copy()
     for _ in range(0 if whole.all() else BISECTIONS):
         middle = (low + high) / 2
         rays = pencil(lens, source, aside + middle * sine, up + middle * cosine, clip)
         low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
-        rim = np.where(rays.passed, rim, rays.failed_surface)
+        rim = np.where(rays.passed, rim, ended_at(rays.status, rays.failed_surface))
     return np.where(whole, outer, low), np.where(whole, 0, rim)
 
 

@@ -802,6 +802,7 @@
 <message><source>a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius braucht {lines} × {samples} Pupillenproben; den Sensor dem Bild nähern oder abblenden</translation></message>
 <message><source>a blur that takes {across} pupil samples a side behind a mask; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe, die {across} Abtastwerte der Pupille je Seite braucht, hinter einer Maske; den Sensor näher an das Bild bringen oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
+<message><source>a circle</source><translation>ein Kreis</translation></message>
 <message><source>a colour PSF</source><translation>eine PSF in Farbe</translation></message>
 <message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
 <message><source>a curve over the field</source><translation>eine Kurve über das Feld</translation></message>
@@ -842,6 +843,7 @@
 <message><source>a pupil that ends at rims or where rays are lost</source><translation>eine Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
 <message><source>a question and its answer go together; give both ask: and tell:</source><translation>eine Frage und ihre Antwort gehören zusammen; ask: und tell: angeben</translation></message>
 <message><source>a radius of 0 with an index is a plane</source><translation>ein Radius 0 mit einem Index ist eine Ebene</translation></message>
+<message><source>a rectangle</source><translation>ein Rechteck</translation></message>
 <message><source>a row has {count} columns; write radius, thickness, index, diameter</source><translation>eine Zeile hat {count} Spalten; Radius, Dicke, Index, Durchmesser schreiben</translation></message>
 <message><source>a row of aspherical data needs number, radius, conic; complete it</source><translation>eine Zeile asphärischer Daten braucht Nummer, Radius, Kegelschnitt; ergänzen</translation></message>
 <message><source>a row of lens data needs number, radius and distance; complete it</source><translation>eine Zeile der Linsendaten braucht Nummer, Radius und Abstand; ergänzen</translation></message>
@@ -1016,7 +1018,7 @@
 <message><source>duration of a sweep</source><translation>Dauer eines Durchlaufs</translation></message>
 <message><source>earlier picture</source><translation>früheres Bild</translation></message>
 <message><source>earlier picture, working</source><translation>früheres Bild, in Arbeit</translation></message>
-<message><source>edge and rectangle rims, obscurations in other shapes</source><translation>Kanten- und Rechteckränder, Abschattungen anderer Form</translation></message>
+<message><source>edges, and rims and obscurations in other shapes</source><translation>Kanten sowie Ränder und Abschattungen anderer Form</translation></message>
 <message><source>edited</source><translation>bearbeitet</translation></message>
 <message><source>edited since</source><translation>seither geändert</translation></message>
 <message><source>ending "{ending}" is none of {endings}; choose one</source><translation>die Endung "{ending}" ist keine von {endings}; eine davon wählen</translation></message>
@@ -1104,6 +1106,7 @@
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
 <message><source>grade is "{grade}"; write one of {grades}</source><translation>grade ist "{grade}"; eines von {grades} schreiben</translation></message>
 <message><source>green</source><translation>Grün</translation></message>
+<message><source>half-width of a rim</source><translation>halbe Breite eines Randes</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an asphere in powers of r</source><translation>hat eine Form, die keine Kugel, kein Kegelschnitt und keine Asphäre in Potenzen von r ist</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
 <message><source>has no diffracted direction behind surface {surface}, whose phase is too steep there</source><translation>hat hinter Fläche {surface} keine gebeugte Richtung, deren Phase dort zu steil ist</translation></message>
@@ -1466,6 +1469,7 @@
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
+<message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ist eine Qbfs-Asphäre mit geraden Gliedern oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
@@ -1484,6 +1488,7 @@
 <message><source>surface {surface}: inner radius {inner} mm; give a number from 0 to below the semi-diameter</source><translation>Fläche {surface}: innerer Radius {inner} mm; eine Zahl von 0 bis unter den halben Durchmesser angeben</translation></message>
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
 <message><source>surface {surface}: ior is no table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
+<message><source>surface {surface}: its rim has the centre ({centre:g}) mm and the half-widths {widths}; give finite numbers, and positive widths</source><translation>Fläche {surface}: ihr Rand hat die Mitte ({centre:g}) mm und die halben Breiten {widths}; endliche Zahlen und positive Breiten angeben</translation></message>
 <message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
@@ -1792,6 +1797,7 @@
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
 <message><source>what-if: {alterations}</source><translation>was wäre wenn: {alterations}</translation></message>
 <message><source>wheel, drag, double-click</source><translation>Mausrad, Ziehen, Doppelklick</translation></message>
+<message><source>where rims clip, its clear rim is {kind} about ({centre:g}) mm</source><translation>wo Ränder beschneiden, ist ihr freier Rand {kind} um ({centre:g}) mm</translation></message>
 <message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
 <message><source>while something is dragged: give up, as it was before</source><translation>beim Ziehen: aufgeben, alles wie zuvor</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
@@ -1911,6 +1917,7 @@
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
+<message><source>{name} are {count} numbers; write x and y</source><translation>{name} sind {count} Zahlen; x und y schreiben</translation></message>
 <message><source>{name} are {count} numbers; write x, y and z</source><translation>{name} sind {count} Zahlen; x, y und z schreiben</translation></message>
 <message><source>{name} cannot be read ({reason}); name a picture or a .npy file</source><translation>{name} lässt sich nicht lesen ({reason}); ein Bild oder eine .npy-Datei nennen</translation></message>
 <message><source>{name} has changed on disk and was read again</source><translation>{name} hat sich auf dem Datenträger geändert und wurde neu gelesen</translation></message>
@@ -2053,7 +2060,6 @@
 <message><source>{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is</source><translation>{surface} beugt durch {command} {kind}, was nicht gelesen wird; nur DOE mit einer Phase in r (HCT R) wird gelesen</translation></message>
 <message><source>{surface} diffracts without a wavelength (HWL) of its phase; add it</source><translation>{surface} beugt ohne eine Wellenlänge (HWL) der Phase; ergänzen</translation></message>
 <message><source>{surface} has Forbes's polynomials of type {kind:g}, which is neither Qbfs (0) nor Qcon (1); correct it</source><translation>{surface} hat Forbes-Polynome vom Typ {kind:g}, der weder Qbfs (0) noch Qcon (1) ist; berichtigen</translation></message>
-<message><source>{surface} has a rim decentred by ({x:g}, {y:g}); only centred lenses are read</source><translation>{surface} hat einen um ({x:g}, {y:g}) dezentrierten Rand; nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>{surface} has a shape ({kind}) that is not round or not known; only {known} are read</source><translation>{surface} hat eine Form ({kind}), die nicht rund oder nicht bekannt ist; nur {known} werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only the types {known} are read</source><translation>{surface} hat den Typ {kind}, {description}; nur die Typen {known} werden gelesen</translation></message>
