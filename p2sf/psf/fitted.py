@@ -64,9 +64,11 @@ def psf_of_fit(
     return psf_from_intensity(intensity, window[1], wavelength_um, blur, made)
 
 
-def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
+def summed(
+    found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled", dtype: DTypeLike | None = None
+) -> tuple[np.ndarray, Message]:
     """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
-    dtype = np.float64 if quality == "settled" else np.float32
+    dtype = dtype or (np.float64 if quality == "settled" else np.float32)
     skew = skew_rows_for(found, pixels, pixel_um, quality) if found.level.skew and found.mask.clear else None
     if skew is not None:
         phase, fx = found.at_points(skew.xi, skew.eta)

@@ -17,7 +17,7 @@ from p2sf.conventions import centred_axis, protected
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of, steepest_polar, wavefront
+from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of
 from p2sf.psf._seidel_sum import (
     BATCH,
     annulus_fields,
@@ -29,17 +29,33 @@ from p2sf.psf._seidel_sum import (
     wave_number,
     whole_fields,
 )
-from p2sf.psf.plane_waves import disc_words, pupil_amplitude
+from p2sf.psf.disc_rows import takes_rows
+from p2sf.psf.fitted import summed
+from p2sf.psf.plane_waves import pupil_amplitude
 from p2sf.pupil.mask import CLEAR, EDGE_HARMONICS, PupilMask, mask_slopes
-from p2sf.pupil.mask_nodes import edge_nodes, mask_nodes
-from p2sf.pupil.quadrature import RowNodes, chord_rows, chords_for, even_count, grid_rows, nodes_for
+from p2sf.pupil.mask_nodes import vane_nodes
+from p2sf.pupil.outline_rows import quarter_rows
+from p2sf.pupil.quadrature import (
+    RowNodes,
+    chord_rows,
+    chords_for,
+    disc_nodes,
+    even_count,
+    grid_rows,
+    nodes_for,
+)
 from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.zernike import basis
+from p2sf.raytrace.fit import FittedPencil, Level
+from p2sf.raytrace.ray_field import Steepness
+from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import mapped, one_blas_thread, threads_or_default
 
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
 SORTED_AT_ONCE = 512  # PSFs whose slopes are found together, which takes some mebibytes
 NODES_TOGETHER = 2**18  # nodes of quarter pupils that a thread sums at a time: some 5 ms of work
+SEIDEL_LEVEL = Level(4, 1, 0, 0)  # of a fit that says what six coefficients do
 
 Part = tuple[slice | np.ndarray, RowNodes]
 """Indices of PSFs that are summed together, and their nodes."""
@@ -66,12 +82,12 @@ def stack_of(
 ) -> SummedStack:
     """Return the PSFs of broadcast coefficients by `_seidel_sum`; SamplingError for too many pupil samples.
 
-    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them. Of a ``mask`` without maps and phases
-    the disc and the obscuration are summed in rows, and what vanes and blades cover node by node, else all. A preview
-    of one takes settled nodes in ``dtype``, for the edge of an obscuration shows the cells of a grid.
+    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them. A ``mask`` of equal quarters is
+    summed as the disc is, over what its iris leaves open less the obscuration, and vanes node by node; others in
+    rows of their whole pupil. A preview of one takes settled nodes in ``dtype``, for edges show the cells of a grid.
     """
-    if mask.phased or mask.amplitude_map is not None:
-        return _node_by_node(coefficients, pixels, pixel_um, dtype, mask)
+    if not (mask.in_quarters and takes_rows(mask)):
+        return _in_skew_rows(coefficients, pixels, pixel_um, quality, dtype, mask)
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
     values = np.empty((len(terms), pixels, pixels), dtype)
@@ -115,7 +131,7 @@ def _masked_batch(
     even, odd, amplitude = annulus_fields(terms, pixels, pixel_um, pieces, dtype)
     reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
     slope, twist = (polar_of(terms[:, :4]).max(0) + EDGE_HARMONICS * mask_slopes(mask).amplitude).tolist()
-    nodes = edge_nodes(mask, *nodes_for(slope, reach, twist))
+    nodes = vane_nodes(mask, *nodes_for(slope, reach, twist))
     if nodes is None:
         return unfolded(even / amplitude, odd / amplitude, pixels), pieces[0][1]
     weight = nodes.weight * nodes.amplitude
@@ -129,13 +145,15 @@ def _masked_batch(
 
 
 def _pieces(terms: np.ndarray, pixels: int, pixel_um: float, mask: PupilMask) -> tuple[tuple[float, RowNodes], ...]:
-    """Return the radii of the disc and of the obscuration in it, and the rows that carry each."""
+    """Return the radii of the disc or iris and of the obscuration in it, and the rows that carry each."""
     made = []
     for radius in (1.0, mask.obscuration) if mask.obscuration else (1.0,):
         reach = corner_reach(radius * abs(float(terms[0, 4])), pixels, pixel_um)
         slopes = chords_of(terms[:, :4] * scaled_shape(radius)).max(0)
         slopes += EDGE_HARMONICS * mask_slopes(mask).amplitude * mask.shaded
-        made.append((radius, shaded_rows(_rows(slopes, reach, "settled"), mask, radius)))
+        counts = _counts(slopes, reach)
+        rows = quarter_rows(mask, *counts) if mask.iris and radius == 1 else chord_rows(*counts)
+        made.append((radius, shaded_rows(rows, mask, radius)))
     return tuple(made)
 
 
@@ -148,47 +166,53 @@ def shaded_rows(rows: RowNodes, mask: PupilMask, radius: float) -> RowNodes:
     return replace(rows, weight=protected(rows.weight * mask.amplitude(xi, eta)))
 
 
-def _node_by_node(
-    coefficients: Coefficients, pixels: int, pixel_um: float, dtype: DTypeLike, mask: PupilMask
+def _in_skew_rows(
+    coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype: DTypeLike, mask: PupilMask
 ) -> SummedStack:
-    """Return the PSFs over what a mask leaves open, one after the other."""
+    """Return the PSFs behind a mask whose quarters differ, one after the other, as those of fits with a linear map."""
     columns = [np.asarray(x, float) for x in vars(coefficients).values()]
     shape = np.broadcast_shapes(*(x.shape for x in columns))
     flat = zip(*(np.broadcast_to(x, shape).ravel() for x in columns), strict=True)
-    planes, counts = [], (0, 0)
+    planes, nodes = [], Message("no nodes")
     for one in flat:
-        plane, counts = masked_intensity(Coefficients(*one), pixels, pixel_um, mask, dtype)
+        plane, nodes = summed(as_fit(Coefficients(*one), mask), pixels, pixel_um, quality, dtype)
         planes.append(plane)
     values = np.reshape(planes, (*shape, pixels, pixels)).astype(dtype)
     total, peak = values.sum((-2, -1), dtype=float), values.max((-2, -1))
-    sampling = Message("{nodes}, {precision}", nodes=disc_words(counts), precision=values.dtype.type.__name__)
-    return SummedStack(values / total[..., None, None].astype(dtype), total, peak, sampling)
+    return SummedStack(values / total[..., None, None].astype(dtype), total, peak, nodes)
 
 
-def masked_intensity(
-    coefficients: Coefficients, pixels: int, pixel_um: float, mask: PupilMask, dtype: DTypeLike = np.float64
-) -> tuple[np.ndarray, tuple[int, int]]:
-    """Return one PSF over what a mask leaves open, in units of the unaberrated peak, and its (radial, angular) nodes.
+def as_fit(coefficients: Coefficients, mask: PupilMask) -> FittedPencil:
+    """Return one wavefront of six coefficients as a fit with a linear map, behind a mask.
 
-    The path of the mask delays the wave, so it counts with a negative sign in W. Raises SamplingError.
+    W is the conjugate of a fit's phase (`conventions`), so that phase and frequencies change their signs.
     """
-    slope, twist = (float(x) for x in steepest_polar(coefficients))
-    scale, wavelength = float(wave_number(coefficients)), float(coefficients.wavelength_um)
-    slopes, reach = mask_slopes(mask), corner_reach(abs(scale), pixels, pixel_um)
-    edges = EDGE_HARMONICS * slopes.amplitude
-    counts = nodes_for(
-        slope + slopes.path_radial_um / wavelength + edges, reach, twist + slopes.path_angular_um / wavelength + edges
+    shape, scale = shape_terms(coefficients)[:4], -float(wave_number(coefficients))
+    (along, across), (radial, angular) = chords_of(shape).tolist(), polar_of(shape).tolist()
+    phase, fx, fy = _as_polynomials()
+    found = FittedPencil(
+        SEIDEL_LEVEL,
+        -(phase @ shape),
+        scale * fx,
+        scale * fy,
+        0.0,
+        Steepness(radial, angular, across, along, abs(scale)),
+        1 / (np.pi * scale**2),
+        2,
     )
-    if counts[0] * counts[1] > 4 * LARGEST_NODES:
-        raise _too_many(slope, reach, *counts)
-    nodes, axis = mask_nodes(mask, *counts), centred_axis(pixels, pixel_um)
-    waves = wavefront(coefficients, nodes.xi, nodes.eta) - nodes.path_um / wavelength
-    weight = nodes.weight * nodes.amplitude
-    pupil = pupil_amplitude(weight / weight.sum(), waves, dtype)
-    kx, ky = ((scale * x).astype(dtype) for x in (nodes.xi, nodes.eta))
-    field = sum_plane_waves(pupil, kx, ky, axis, axis, nodes.even)
-    intensity: np.ndarray = field.real**2 + field.imag**2
-    return intensity, counts
+    wavelength = float(coefficients.wavelength_um)
+    steep = with_slopes(found.steepness, mask, wavelength)
+    return replace(found, mask=mask, wavelength_um=wavelength, steepness=steep)
+
+
+@lru_cache(maxsize=1)
+def _as_polynomials() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the coefficients of the shapes, (terms, 4), and of ξ and η, in orthonormal polynomials."""
+    nodes, (wave, maps) = disc_nodes(6, 12), (SEIDEL_LEVEL.wave_order, SEIDEL_LEVEL.map_order)
+    phase = (basis(wave, nodes.xi, nodes.eta) * nodes.weight) @ shapes(nodes.xi, nodes.eta).T
+    fx = (basis(maps, nodes.xi, nodes.eta, odd=True) * nodes.weight) @ nodes.xi
+    fy = (basis(maps, nodes.xi, nodes.eta) * nodes.weight) @ nodes.eta
+    return protected(phase), protected(fx), protected(fy)
 
 
 def _size(rows: RowNodes) -> int:
@@ -252,12 +276,19 @@ def _grid_samples(slope: float, reach: float) -> float:
 def _rows(slopes: np.ndarray, reach: float, quality: str) -> RowNodes:
     """Return the pupil samples that carry these slopes, the steepest of each kind."""
     if quality == "settled":
-        rows, columns = chords_for(slopes[0], slopes[1], reach, reach / sqrt(2))
-    else:
-        rows = columns = max(PREVIEW_GRID, even_count(_grid_samples(float(slopes[0]), reach)))
+        return chord_rows(*_counts(slopes, reach))
+    rows = max(PREVIEW_GRID, even_count(_grid_samples(float(slopes[0]), reach)))
+    if rows * rows > 4 * LARGEST_NODES:
+        raise _too_many(float(slopes.max()), reach, rows, rows)
+    return grid_rows(rows)
+
+
+def _counts(slopes: np.ndarray, reach: float) -> tuple[int, int]:
+    """Return rows and columns that carry these slopes across and along chords."""
+    rows, columns = chords_for(slopes[0], slopes[1], reach, reach / sqrt(2))
     if rows * columns > 4 * LARGEST_NODES:
         raise _too_many(float(slopes.max()), reach, rows, columns)
-    return chord_rows(rows, columns) if quality == "settled" else grid_rows(rows)
+    return rows, columns
 
 
 def _too_many(slope: float, reach: float, rows: int, columns: int) -> SamplingError:

@@ -20,6 +20,7 @@ from p2sf.conventions import protected
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import pupil_amplitude
+from p2sf.pupil.outline_rows import outline_points
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import chords_for, even_count, gauss_legendre
 from p2sf.pupil.zernike import columns as power_columns
@@ -30,6 +31,7 @@ MOST_NODES = 2**26  # some ten seconds of work
 IN_MEMORY = 2**21  # nodes at all columns at a time: some 100 MB
 PREVIEW = 0.85  # of the settled counts: 1 − R² against the settled sum is below 1e-5 on every stored row
 NEWTON_STEPS = 8
+ONE_SIDED = 4  # columns more than half as many, where a row ends in the middle
 MORE_NODES = 10  # than the order of a fit's phase: polynomials of twice as high an order along each row
 STRIDE = 4  # of the cosines that are computed; the others follow from them
 NODES_AT_ONCE = 8192  # so many that their cosines stay in the cache
@@ -42,7 +44,8 @@ class FrequencyRows:
 
     The weights are areas times the light of unit area there, and sum to 1; ``light`` is the mean of that light.
     The sum takes ``columns`` columns, those at ξ < 0 included. Functions along a row are smooth and even in ξ, so
-    where a row has fewer nodes the polynomial through them gives the values at the other columns.
+    where a row has fewer nodes the polynomial through them gives the values at the other columns. The columns of rows
+    that are ``one_sided``, whose weights count no mirror images, integrate odd functions of ξ too.
     """
 
     fy: np.ndarray
@@ -51,6 +54,7 @@ class FrequencyRows:
     weight: np.ndarray
     columns: int
     light: float = 1.0
+    one_sided: bool = False
 
     def lit(self, light: np.ndarray) -> "FrequencyRows":
         """Return the same nodes with weights times ``light``, (rows, nodes), again of unit sum."""
@@ -80,17 +84,41 @@ class FrequencyRows:
         for first in range(0, len(self.fy), together):
             some = slice(first, first + together)
             part = FrequencyRows(self.fy[some], self.xi[some], self.eta[some], self.weight[some], self.columns)
-            weight, waves, cycles = part.on_columns(phase[some], fx[some])
+            weight, waves, cycles = part._on_columns(phase[some], fx[some])
             field += sum_rows(pupil_amplitude(weight, waves, dtype), cycles, part.fy, pixels, pixel_um)
         return field
 
-    def on_columns(self, phase: np.ndarray, fx: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return weights, phases and fx at all columns, (rows, columns/2), from those at the nodes."""
+    def both_sides(self, even: np.ndarray, odd: np.ndarray, fx: np.ndarray, pixels: int, pixel_um: float) -> np.ndarray:
+        """Return the field (y, x) of a pupil that is not even in ξ: half the sum and half the difference at ±ξ.
+
+        ``even`` and ``odd``: weighted amplitudes at the columns, complex, each (rows, columns/2).
+        """
+        half, together = pixels // 2, max(1, IN_MEMORY // self.columns)
+        sides = np.zeros((2, pixels, half + 1), even.dtype)
+        for first in range(0, len(self.fy), together):
+            some = slice(first, first + together)
+            angle = 2 * np.pi * pixel_um * fx[some]
+            for side, parts in zip(sides, sum_both_sides(even[some], odd[some], angle, half + 1), strict=True):
+                side += sum_up(parts, self.fy[some], pixels, pixel_um)
+        return side_by_side(sides, pixels)
+
+    def with_every_column(self, phase: np.ndarray, fx: np.ndarray) -> "tuple[FrequencyRows, np.ndarray, np.ndarray]":
+        """Return the same rows with a node at each column, and phases and fx there."""
         few = self.xi.shape[1]
-        if 2 * few == self.columns:
+        if few == _columns(self.columns, self.one_sided)[0].size:
+            return self, phase, fx
+        weight, waves, cycles = self._on_columns(phase, fx)
+        place, wanted = _half_legendre(2 * few)[0], _columns(self.columns, self.one_sided)[0]
+        xi, eta = self.xi[:, :1] / place[0] * wanted, self.eta @ _refining(few, self.columns, self.one_sided)
+        return replace(self, xi=xi, eta=eta, weight=weight), waves, cycles
+
+    def _on_columns(self, phase: np.ndarray, fx: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return weights, phases and fx at all columns, (rows, columns/2), from those at the nodes."""
+        few, (wanted, wanted_share) = self.xi.shape[1], _columns(self.columns, self.one_sided)
+        if few == wanted.size:
             return self.weight, phase, fx
-        (place, share), (wanted, wanted_share) = _half_legendre(2 * few), _half_legendre(self.columns)
-        refine = _refining(few, self.columns)
+        place, share = _half_legendre(2 * few)
+        refine = _refining(few, self.columns, self.one_sided)
         weight = (self.weight / share) @ refine
         return weight * wanted_share, phase @ refine, (fx / place) @ refine * wanted
 
@@ -99,6 +127,12 @@ def mirrored_intensity(field: np.ndarray, pixels: int) -> np.ndarray:
     """Return |field|² on a centred grid, (pixels, pixels), from the field at x ≥ 0."""
     intensity: np.ndarray = field.real**2 + field.imag**2
     return intensity[:, np.abs(np.arange(pixels) - pixels // 2)]
+
+
+def side_by_side(sides: np.ndarray, pixels: int) -> np.ndarray:
+    """Return the field on a centred grid, (pixels, pixels), from both at x ≥ 0 and at −x, (2, pixels, count)."""
+    half = pixels // 2
+    return np.concatenate([sides[1][:, half:0:-1], sides[0][:, : pixels - half]], axis=1)
 
 
 def rows_for(
@@ -112,8 +146,13 @@ def rows_for(
     rows, columns = row_counts(found, pixels, pixel_um, quality)
     if rows * columns > MOST_NODES:
         raise too_many(rows, columns, pixels, pixel_um)
+    return frequency_rows(found, rows, columns, None if every else _enough(found, columns))
+
+
+def _enough(found: FittedPencil, columns: int) -> int | None:
+    """Return how many nodes of a row say what its columns carry; None where that is no fewer."""
     enough = found.level.wave_order + MORE_NODES
-    return frequency_rows(found, rows, columns, None if every or 2 * enough >= columns else enough)
+    return None if 2 * enough >= columns else enough
 
 
 def too_many(rows: int, columns: int, pixels: int, pixel_um: float) -> SamplingError:
@@ -145,9 +184,27 @@ def frequency_rows(found: FittedPencil, rows: int, columns: int, nodes: int | No
     sine, cosine, xi, share = _rim(rows, 2 * nodes if nodes else columns)
     form = power_columns(found.fy, found.level.map_order)
     fy, rise = _along_rim(form, sine[:, 0], cosine[:, 0])
+    if not rise.min() * rise.max() > 0:
+        return None
+    return _followed(found, form, fy, xi, cosine, share * -rise[:, None], columns)
+
+
+def _followed(
+    found: FittedPencil,
+    form: list[list[float]],
+    fy: np.ndarray,
+    xi: np.ndarray,
+    edge: np.ndarray,
+    share: np.ndarray,
+    columns: int,
+) -> FrequencyRows | None:
+    """Return rows at these ξ, from where η is ``edge``, (rows, 1), along curves of equal fy; None where they bend back.
+
+    ``form``: fy as a polynomial (`zernike.columns`); ``share``: the weights times ∂fy/∂η.
+    """
     parts = [in_square(column, xi * xi) for column in form]
     slopes = [b * part for b, part in enumerate(parts)][1:]
-    eta = np.repeat(cosine, xi.shape[1], axis=1)
+    eta = np.repeat(edge, xi.shape[1], axis=1)
     for _ in range(NEWTON_STEPS):
         slope = evaluate_in_eta(slopes, eta)
         step = evaluate_in_eta(parts, eta)
@@ -158,21 +215,50 @@ def frequency_rows(found: FittedPencil, rows: int, columns: int, nodes: int | No
             break
     else:
         return None
-    if not (rise.min() * rise.max() > 0 and slope.min() * slope.max() > 0):
+    if not slope.min() * slope.max() > 0:
         return None
-    share = share * np.abs(rise)[:, None]
-    share /= np.abs(slope)
-    even = FrequencyRows(fy, xi, eta, share, columns)
-    return even.lit(found.weight_at(xi, eta)) if found.level.weighted else even
+    rows = FrequencyRows(fy, xi, eta, share / slope, columns)
+    return rows.lit(found.weight_at(xi, eta)) if found.level.weighted else rows
+
+
+def iris_rows(found: FittedPencil, rows: int, columns: int) -> tuple[FrequencyRows, float, np.ndarray | None] | None:
+    """Return rows of the mask's iris, with weights of unit sum, and its share of the disc's area; None as above.
+
+    Each goes from ξ = 0 to a point of the outline. By Green's theorem ∫∫F dξ dfy = −∮Φ dfy with Φ = ∫F dξ from 0 to
+    the outline, taken clockwise; whether fy rises along an edge or falls does not matter. Rows of an iris that is not
+    even in ξ are one-sided; of those the third result says which side they are on, 1 or −1.
+    """
+    sided, outline = not found.mask.even, outline_points(found.mask, rows)
+    form = power_columns(found.fy, found.level.map_order)
+    fy, (across, along) = _with_slopes(form, outline.xi, outline.eta)
+    rise = across * outline.step_xi + along * outline.step_eta
+    few = _enough(found, columns)
+    place, weight = _half_legendre(2 * few) if few else _columns(columns, sided)
+    share = -(rise * outline.xi)[:, None] * (weight * ((1 if sided else 2) / np.pi))
+    xi = np.abs(outline.xi)[:, None] * place
+    made = _followed(found, form, fy, xi, outline.eta[:, None], share, columns)
+    if made is None:
+        return None
+    area = float(made.weight.sum())
+    unit = replace(made, weight=made.weight / area, one_sided=sided)
+    return unit, area, np.sign(outline.xi) if sided else None
 
 
 def _along_rim(form: list[list[float]], sine: np.ndarray, cosine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return fy at the rim points (sin φ, cos φ) and dfy/dφ there."""
-    square = sine * sine
+    fy, (across, along) = _with_slopes(form, sine, cosine)
+    return fy, cosine * across - sine * along
+
+
+def _with_slopes(
+    form: list[list[float]], xi: np.ndarray, eta: np.ndarray
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """Return Σ c[b][a]·ξ²ᵃ·ηᵇ at pupil points, with ∂/∂ξ and ∂/∂η."""
+    square = xi * xi
     by_square = [[a * c for a, c in enumerate(column)][1:] or [0.0] for column in form]
     by_eta = [[b * c for c in column] for b, column in enumerate(form)][1:]
-    across, along = evaluate(by_square, square, cosine), evaluate(by_eta, square, cosine)
-    return evaluate(form, square, cosine), sine * (2 * cosine * across - along)
+    slopes = 2 * xi * evaluate(by_square, square, eta), evaluate(by_eta, square, eta)
+    return evaluate(form, square, eta), slopes
 
 
 @lru_cache(maxsize=16)
@@ -191,12 +277,21 @@ def _half_legendre(columns: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=32)
-def _refining(few: int, columns: int) -> np.ndarray:
+def _columns(columns: int, one_sided: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return where the columns at ξ > 0 lie on (0, 1) and their weights: of the even rule, or of one of its own."""
+    if not one_sided:
+        return _half_legendre(columns)
+    node, weight = gauss_legendre(columns // 2 + ONE_SIDED)
+    return protected((1 + node) / 2), protected(weight / 2)
+
+
+@lru_cache(maxsize=32)
+def _refining(few: int, columns: int, one_sided: bool = False) -> np.ndarray:
     """Return the matrix (few, columns/2) that takes an even function from a rule's nodes to those of a finer one.
 
     f = Σ (2n + 1)/2·⟨f, Pₙ⟩·Pₙ over even n, which the rule of 2·few nodes integrates exactly (A&S 22.2.10).
     """
-    (place, share), (wanted, _) = _half_legendre(2 * few), _half_legendre(columns)
+    (place, share), (wanted, _) = _half_legendre(2 * few), _columns(columns, one_sided)
     here, there = (legvander(x, 2 * few - 2)[:, ::2] for x in (place, wanted))
     return protected((here * share[:, None] * np.arange(1, 4 * few, 4)) @ there.T)
 
@@ -230,17 +325,39 @@ def sum_across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> np.ndarr
     All follow (`_unfolding`) from the sums Q of amplitude·cos(rθ), r = 0 … 3, with every fourth cosine, which saves
     three quarters of the cosines and of the products.
     """
-    parts = np.stack([amplitude.real, amplitude.imag])[:, None]
+    return _sum_cosines(np.stack([amplitude.real, amplitude.imag]), angle, count)
+
+
+def sum_both_sides(even: np.ndarray, odd: np.ndarray, angle: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return Σ even·cos(m·angle) ± i·Σ odd·sin(m·angle) over each row's columns: (rows, 2, count) each, re and im.
+
+    The sines follow from sin((m + 1)θ) = 2 sin θ·cos(mθ) + sin((m − 1)θ), so that both share their cosines.
+    """
+    sine = np.sin(angle).astype(even.real.dtype)
+    sums = _sum_cosines(np.stack([even.real, even.imag, odd.real * sine, odd.imag * sine]), angle, count)
+    cosines, steps = sums[:, :2], sums[:, 2:]
+    sines = np.zeros_like(cosines)
+    if count > 1:
+        sines[..., 1] = steps[..., 0]
+    for m in range(2, count):
+        sines[..., m] = 2 * steps[..., m - 1] + sines[..., m - 2]
+    turned = np.stack([-sines[:, 1], sines[:, 0]], axis=1)  # times i
+    return cosines + turned, cosines - turned
+
+
+def _sum_cosines(parts: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
+    """Return Σ part·cos(m·angle) over each row's columns, (rows, parts, count); ``parts``: (parts, rows, columns)."""
+    number, parts = len(parts), parts[:, None]
     (rows, columns), steps = angle.shape, -(-count // STRIDE)
-    sums = np.empty((rows, 2 * STRIDE, steps), parts.dtype)
+    sums = np.empty((rows, number * STRIDE, steps), parts.dtype)
     size = max(1, NODES_AT_ONCE // columns)
     for start in range(0, rows, size):
         some = slice(start, start + size)
         near, far = _cosines(angle[some], steps, parts.dtype)
-        weighted = (parts[:, :, some] * near).reshape(2 * STRIDE, -1, columns)
+        weighted = (parts[:, :, some] * near).reshape(number * STRIDE, -1, columns)
         np.matmul(weighted.swapaxes(0, 1), np.moveaxis(far, 0, -1), out=sums[some])  # both are views
     unfolded: np.ndarray = sums.reshape(-1, STRIDE * steps) @ _unfolding(steps, parts.dtype)[:, :count]
-    return unfolded.reshape(rows, 2, count)
+    return unfolded.reshape(rows, number, count)
 
 
 @lru_cache(maxsize=16)

@@ -14,7 +14,16 @@ from numpy.typing import DTypeLike
 
 from p2sf.messages import Message
 from p2sf.psf.plane_waves import pupil_amplitude
-from p2sf.psf.separable_sum import MOST_NODES, NEWTON_STEPS, SETTLED, row_counts, sum_across, sum_up, too_many
+from p2sf.psf.separable_sum import (
+    MOST_NODES,
+    NEWTON_STEPS,
+    SETTLED,
+    row_counts,
+    side_by_side,
+    sum_both_sides,
+    sum_up,
+    too_many,
+)
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.zernike import columns as power_columns
 from p2sf.pupil.zernike import evaluate_in_eta, in_square
@@ -51,28 +60,12 @@ class SkewRows:
         for first in range(0, len(self.fy), together):
             some = slice(first, first + together)
             amplitude = pupil_amplitude(weight[some], phase[some], dtype)
-            right, left = _across(amplitude, 2 * np.pi * pixel_um * fx[some], half + 1)
+            right, left = sum_both_sides(amplitude, amplitude, 2 * np.pi * pixel_um * fx[some], half + 1)
             sides[0] += sum_up(right, self.fy[some], pixels, pixel_um)
             sides[1] += sum_up(left, self.fy[some], pixels, pixel_um)
-        field = np.concatenate([sides[1][:, half:0:-1], sides[0][:, : pixels - half]], axis=1)
+        field = side_by_side(sides, pixels)
         intensity: np.ndarray = field.real**2 + field.imag**2
         return intensity
-
-
-def _across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return Σ amplitude·exp(±im·angle) over each row's columns, m = 0 … count − 1: (rows, 2, count), re and im.
-
-    The sines follow from sin((m + 1)θ) = 2 sin θ·cos(mθ) + sin((m − 1)θ).
-    """
-    even = sum_across(amplitude, angle, count)
-    steps = sum_across(amplitude * np.sin(angle).astype(amplitude.real.dtype), angle, max(count - 1, 1))
-    odd = np.zeros_like(even)
-    if count > 1:
-        odd[..., 1] = steps[..., 0]
-    for m in range(2, count):
-        odd[..., m] = 2 * steps[..., m - 1] + odd[..., m - 2]
-    turned = np.stack([-odd[:, 1], odd[:, 0]], axis=1)  # times i
-    return even + turned, even - turned
 
 
 def skew_rows_for(found: FittedPencil, pixels: int, pixel_um: float, quality: str) -> SkewRows | None:

@@ -25,7 +25,7 @@ from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.separable_sum import FrequencyRows
 from p2sf.psf.skew_rows import SkewRows, skew_rows_for
-from p2sf.pupil.mask_nodes import edge_nodes
+from p2sf.pupil.mask_nodes import vane_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.fit import FittedPencil, fit, levels_for
@@ -131,7 +131,7 @@ def _edges(
     lens: Lens, source: Source, found: FittedPencil, window: tuple[int, float], dtype: DTypeLike
 ) -> EdgeField | None:
     """Return the field of what vanes and blades cover, by exact rays; None where there are none."""
-    nodes = edge_nodes(found.mask, *counts_for(found.steepness, *window))
+    nodes = vane_nodes(found.mask, *counts_for(found.steepness, *window))
     if nodes is None:
         return None
     rays = ray_data(pencil(lens, source, nodes.xi, nodes.eta, aim_error=SUM_AIM_ERROR))

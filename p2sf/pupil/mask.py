@@ -226,9 +226,10 @@ class PupilMask:
         )
 
     @cached_property
-    def smoothly_even(self) -> bool:
-        """Return whether the mask without its vanes and blades is even: what the disc in front of them lets through."""
-        return replace(self, vanes=0, blades=0).even
+    def in_quarters(self) -> bool:
+        """Return whether all quarters of the mask, without its vanes, are mirror images and have no phase."""
+        upright = not self.iris or (self.blades % 2 == 0 and replace(self, vanes=0).even)
+        return upright and self.amplitude_map is None and not self.phased
 
     @cached_property
     def round(self) -> bool:
@@ -349,6 +350,29 @@ class BladeEdge:
         inner = -2 * np.minimum(c, 0)
         distance: np.ndarray = np.divide(inner, below, where=below > 0, out=np.full(np.shape(below), inf))
         return distance
+
+    @property
+    def half_length(self) -> float:
+        """Return half the length of the chord between the corners."""
+        return sin(pi / self.blades)
+
+    def points(self, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return ξ and η of the edge where its chord is ``place`` from its middle, towards larger angles, and slopes.
+
+        The slopes are those of ξ and η with ``place``. The edge stands κ(c² − u²)/(√(1 − κ²u²) + √(1 − κ²c²)) above
+        its chord, which is the difference of both roots over κ.
+        """
+        kappa, half = self.roundness, self.half_length
+        root, end = np.sqrt(1 - (kappa * place) ** 2), sqrt(1 - (kappa * half) ** 2)
+        out = cos(pi / self.blades) + kappa * (half**2 - place**2) / (root + end)
+        rise = -kappa * place / root
+        sine, cosine = sin(self.angle), cos(self.angle)
+        return (
+            out * sine + place * cosine,
+            out * cosine - place * sine,
+            rise * sine + cosine,
+            rise * cosine - sine,
+        )
 
     def crossing(self, radius: float) -> float | None:
         """Return how far from its middle, in radians about the centre, the edge crosses a circle; None if not."""

@@ -20,7 +20,8 @@ from p2sf.pupil.quadrature import MOST_KEPT, gauss_legendre
 
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 EDGE_NODES = 5  # more in each sector, for an outline that is smooth but no circle
-FEWEST_ACROSS = 4  # nodes across half a vane
+FEWEST_ACROSS = 4  # nodes across a vane, or across a part of it between corners
+UPRIGHT = 1e-9  # sine of the angle of a vane along η
 THINNEST = 1e-12  # share of the disc that is nothing
 
 
@@ -84,12 +85,23 @@ def edge_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
     Their weights are negative shares of the disc's area: added to those of the disc less the obscuration, they leave
     what the mask leaves open. So little of the disc lies there that a sum node by node costs little.
     """
-    return (_kept_edges if radial * angular <= MOST_KEPT else _kept_edges.__wrapped__)(mask, radial, angular)
+    return _covered(mask, radial, angular, True)
+
+
+def vane_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
+    """Return those of `edge_nodes` over vanes, which are to be taken from the iris; None where there are none."""
+    return _covered(mask, radial, angular, False)
+
+
+def _covered(mask: PupilMask, radial: int, angular: int, blades: bool) -> ClearNodes | None:
+    return (_kept_covered if radial * angular <= MOST_KEPT else _kept_covered.__wrapped__)(
+        mask, radial, angular, blades
+    )
 
 
 @lru_cache(maxsize=16)
-def _kept_edges(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
-    pieces = [_segments(mask, radial, angular)] if mask.iris else []
+def _kept_covered(mask: PupilMask, radial: int, angular: int, blades: bool) -> ClearNodes | None:
+    pieces = [_segments(mask, radial, angular)] if mask.iris and blades else []
     for angle in mask.vane_angles:
         pieces += _vane(mask, angle, radial)
     if mask.even:
@@ -206,7 +218,10 @@ def _across(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
     half = mask.vane_width
     meeting = mask.obscuration * (sin(pi / mask.vanes) if mask.vanes > 2 else 1.0)
     corners = [sin(corner - angle) for corner in mask.corner_angles if cos(corner - angle) > 0]
-    breaks = [x for x in (0.0, meeting, -meeting, *corners) if abs(x) < half]
+    # A vane that meets its neighbours outside the obscuration starts with a corner in its middle; one on the line of
+    # symmetry is halved by it.
+    middle = [0.0] if half > meeting or (mask.even and abs(sin(angle)) < UPRIGHT) else []
+    breaks = [x for x in (*middle, meeting, -meeting, *corners) if abs(x) < half]
     ends = np.unique(np.round([-half, *breaks, half], 14))
     return ends[:-1], ends[1:]
 
@@ -215,13 +230,13 @@ def _strip(mask: PupilMask, angle: float, low: float, high: float, radial: int) 
     """Return the nodes of one interval across a vane."""
     sine, cosine = sin(angle), cos(angle)
     node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * (high - low) / 2))
+    place, share = gauss_legendre(ring_count(radial, 1 - mask.obscuration))
     aside = (low + high + (high - low) * node) / 2
     foot_xi, foot_eta = aside * cosine, -aside * sine
     meeting = np.abs(aside) / tan(pi / mask.vanes) if mask.vanes > 2 else np.zeros_like(aside)
     start = np.maximum(np.sqrt(np.maximum(mask.obscuration**2 - aside**2, 0)), meeting)
     one = np.ones_like(aside)
     end = np.maximum(exit_distance(mask, foot_xi, foot_eta, sine * one, cosine * one), start)
-    place, share = gauss_legendre(radial)
     along = (start + end + (end - start) * place[:, None]) / 2
     area = -share[:, None] * (end - start) / 2 * weight * (high - low) / 2 / pi
     return (foot_xi + along * sine).ravel(), (foot_eta + along * cosine).ravel(), area.ravel()

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.errors import SamplingError
+from p2sf.pupil.phasors import cosine_sine
 
 # Nodes per block of the direct sum: large enough for BLAS, small enough to stay in the cache.
 BLOCK = 4096
@@ -37,10 +38,8 @@ def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nd
     """Return the block's sum from one real product at |x|, |y|: a(c + is)(c' + is') with the signs of x and y."""
     columns, from_column = np.unique(np.abs(x), return_inverse=True)
     rows, from_row = np.unique(np.abs(y), return_inverse=True)
-    across = _radians(kx[..., :, None] * columns)
-    up = _radians(rows[:, None] * ky[..., None, :])
-    both = np.concatenate([np.cos(up), np.sin(up)], axis=-2)
-    waves = np.cos(across), np.sin(across)
+    waves = cosine_sine(kx[..., :, None] * columns, kx.dtype)
+    both = np.concatenate([*cosine_sine(rows[:, None] * ky[..., None, :], ky.dtype)], axis=-2)
     parts = [part[..., None] * wave for wave in waves for part in (amplitude.real, amplitude.imag)]
     product = both @ np.concatenate(parts, axis=-1)
     high, wide = rows.size, columns.size
@@ -58,9 +57,8 @@ def _even_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nda
     """Return the block's sum from one real product at |x|, |y| only: half the kernels and half the products."""
     columns, from_column = np.unique(np.abs(x), return_inverse=True)
     rows, from_row = np.unique(np.abs(y), return_inverse=True)
-    across = np.cos(_radians(kx[..., :, None] * columns))
-    phase = _radians(rows[:, None] * ky[..., None, :])
-    both = np.concatenate([np.cos(phase), np.sin(phase)], axis=-2)
+    across = cosine_sine(kx[..., :, None] * columns, kx.dtype)[0]
+    both = np.concatenate([*cosine_sine(rows[:, None] * ky[..., None, :], ky.dtype)], axis=-2)
     parts = np.concatenate([part[..., None] * across for part in (amplitude.real, amplitude.imag)], axis=-1)
     product, wide = both @ parts, columns.size
     halves = product[..., : rows.size, :], product[..., rows.size :, :]
@@ -71,15 +69,9 @@ def _even_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nda
     return mirrored
 
 
-def _radians(cycles: np.ndarray) -> np.ndarray:
-    """Return 2π times the cycles less their whole part, which keeps float32 accurate for large phases."""
-    radians: np.ndarray = (2 * np.pi) * (cycles - np.rint(cycles))
-    return radians
-
-
 def _wave(cycles: np.ndarray) -> np.ndarray:
-    phase = _radians(cycles)
-    wave: np.ndarray = np.cos(phase) + 1j * np.sin(phase)
+    cosine, sine = cosine_sine(np.array(cycles, dtype=float), np.float64)
+    wave: np.ndarray = cosine + 1j * sine
     return wave
 
 

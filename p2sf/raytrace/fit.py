@@ -192,7 +192,7 @@ class FittedPencil:
 
     def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
-        return determinant(self.fx, self.fy, *_map_slopes(self.level, xi, eta))
+        return determinant(self.fx, self.fy, *map_slopes(self.level, xi, eta))
 
 
 def fit(
@@ -210,13 +210,18 @@ def fit(
     Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
     """
     mask = mask_seen(lens, source)
-    judges = None if mask.clear else judging_rays(lens, source, mask, stop)
-    traced, rays, sampling, found = 0 if judges is None else judges.data.phase.size, None, None, None
+    judges: Judges | None = None
+    traced, rays, sampling, found = 0, None, None, None
     for place, level in enumerate(levels_for(lens)[first:], first):
         if numbers not in (None, level.numbers, *_counts_of(place)):
             continue
         if rays is None or sampling != (level.radii, level.directions):
-            rays, sampling = _trace(lens, source, level, stop), (level.radii, level.directions)
+            if judges is None and not mask.clear:
+                rays, judges = _trace_both(lens, source, level, mask, stop)
+                traced += judges.share.size
+            else:
+                rays = _trace(lens, source, level, stop)
+            sampling = level.radii, level.directions
             traced += level.rays
         found = fit_rays(rays, level, traced)
         if judges is not None:
@@ -248,11 +253,17 @@ class Judges:
 
 def judging_rays(lens: Lens, source: Source, mask: PupilMask, stop: Stop | None = None) -> Judges:
     """Return rays through the open part of the pupil; GeometryError where one does not reach the sensor."""
+    xi, eta, share = _judges_of(mask, lens.misaligned)
+    return Judges(mask, float(source.wavelength_um), xi, eta, share, _reaching(lens, source, xi, eta, stop))
+
+
+@lru_cache(maxsize=16)
+def _judges_of(mask: PupilMask, whole: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return points of the open part, over the half ξ > 0 or the ``whole`` disc, and shares of the light."""
     nodes = mask_nodes(replace(mask, vanes=0), *JUDGES)
-    nodes = nodes.unfolded() if lens.misaligned else nodes
+    nodes = nodes.unfolded() if whole else nodes
     share: np.ndarray = nodes.weight * np.square(nodes.amplitude)
-    data = _reaching(lens, source, nodes.xi, nodes.eta, stop)
-    return Judges(mask, float(source.wavelength_um), nodes.xi, nodes.eta, share / share.sum(), data)
+    return nodes.xi, nodes.eta, protected(share / share.sum())
 
 
 def behind(found: FittedPencil, judges: Judges) -> FittedPencil:
@@ -281,6 +292,16 @@ def behind(found: FittedPencil, judges: Judges) -> FittedPencil:
 def _trace(lens: Lens, source: Source, level: Level, stop: Stop | None) -> RayData:
     xi, eta, _ = level_rays(level)
     return _reaching(lens, source, xi, eta, stop)
+
+
+def _trace_both(lens: Lens, source: Source, level: Level, mask: PupilMask, stop: Stop | None) -> tuple[RayData, Judges]:
+    """Return the rays of a level and those that judge it, traced together, which takes as long as either."""
+    (xi, eta, _), (own_xi, own_eta, share) = level_rays(level), _judges_of(mask, lens.misaligned)
+    data = _reaching(lens, source, np.append(xi, own_xi), np.append(eta, own_eta), stop)
+    rays, judging = (
+        RayData(*(column[some] for column in vars(data).values())) for some in (slice(xi.size), slice(xi.size, None))
+    )
+    return rays, Judges(mask, float(source.wavelength_um), own_xi, own_eta, share, judging)
 
 
 def _reaching(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray, stop: Stop | None) -> RayData:
@@ -412,10 +433,10 @@ def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> np.ndarra
 def _slope_basis(level: Level) -> tuple[Gradient, Gradient]:
     """Return (∂/∂ξ, ∂/∂η) of the terms of fx and of fy at a level's own rays."""
     xi, eta, weight = level_rays(level)
-    return _map_slopes(level, xi[: weight.size], eta[: weight.size])
+    return map_slopes(level, xi[: weight.size], eta[: weight.size])
 
 
-def _map_slopes(level: Level, xi: ArrayLike, eta: ArrayLike) -> tuple[Gradient, Gradient]:
+def map_slopes(level: Level, xi: ArrayLike, eta: ArrayLike) -> tuple[Gradient, Gradient]:
     """Return (∂/∂ξ, ∂/∂η) of the terms of fx and of fy at pupil points."""
     if level.skew is None:
         return gradient(level.map_order, xi, eta, odd=True), gradient(level.map_order, xi, eta)

@@ -16,10 +16,11 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes, holes_of, piece_nodes
-from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.fit import FittedPencil, Gradient, Level, determinant, fit, map_slopes
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.surface import ended_at
@@ -185,19 +186,26 @@ def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, pupil: FittedPenc
     plain = pupil is None and isinstance(nodes.amplitude, float)
     if nodes.share == 1.0 and plain:
         return found.blur_um2
-    return _blur(found, nodes, pupil is not None)
+    return _blur(found, nodes, np.abs(found.jacobian(nodes.xi, nodes.eta)), pupil is not None)
 
 
 def masked_blur(found: FittedPencil) -> float:
     """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
     if found.mask.clear:
         return found.blur_um2
-    nodes = mask_nodes(found.mask, *BLUR_NODES)
-    return _blur(found, nodes.unfolded() if found.level.skew else nodes)
+    nodes, slopes = _kept_slopes(found.level, found.mask)
+    return _blur(found, nodes, np.abs(determinant(found.fx, found.fy, *slopes)))
 
 
-def _blur(found: FittedPencil, nodes: ClearNodes, radiometrically: bool = False) -> float:
-    area = np.abs(found.jacobian(nodes.xi, nodes.eta))
+@lru_cache(maxsize=16)
+def _kept_slopes(level: Level, mask: PupilMask) -> tuple[ClearNodes, tuple[Gradient, Gradient]]:
+    """Return BLUR_NODES over the open part, and the slopes of the terms of fx and fy there."""
+    nodes = mask_nodes(mask, *BLUR_NODES)
+    nodes = nodes.unfolded() if level.skew else nodes
+    return nodes, map_slopes(level, nodes.xi, nodes.eta)
+
+
+def _blur(found: FittedPencil, nodes: ClearNodes, area: np.ndarray, radiometrically: bool = False) -> float:
     light = found.weight_at(nodes.xi, nodes.eta)
     field = nodes.amplitude * (radiometric(light, area) if radiometrically else light)
     field = field / ((nodes.weight * field).sum() / nodes.weight.sum())

@@ -20,7 +20,7 @@ from p2sf.psf.separable_sum import MOST_NODES as MOST_IN_ROWS
 from p2sf.psf.separable_sum import row_counts
 from p2sf.psf.traced import in_rows, traced_psf
 from p2sf.pupil.mask import EDGE_HARMONICS, PupilMask, mask_slopes
-from p2sf.pupil.mask_nodes import edge_nodes
+from p2sf.pupil.mask_nodes import vane_nodes
 from p2sf.pupil.quadrature import chords_for, nodes_for
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.seen_mask import mask_seen
@@ -33,7 +33,8 @@ FEW_SAMPLES = 128
 MOST_IN_PRODUCTS = 2**31  # nodes × samples a side of a sum in rows: some seconds
 MOST_ONE_BY_ONE = 2**32  # nodes × samples of a sum ray by ray: some ten seconds
 ONE_BY_ONE = 0.012  # of a product in rows: what a product of a sum node by node takes, which is of large matrices
-FEW_NODES = 16, 48  # radii and directions over the disc at which the nodes over vanes and blades are counted
+BOTH_SIDES = 3  # what a pupil costs whose halves differ, in pupils that are even
+FEW_NODES = 16, 48  # radii and directions over the disc at which the nodes over vanes are counted
 KEPT = 8
 KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64
 
@@ -121,7 +122,7 @@ class Size:
     """How many ``nodes`` a sum has, the mirror half not counted; 0 where that is not known beforehand.
 
     ``in_rows``: it separates into products; ``most``: the largest number of nodes that is summed at all; ``edges``:
-    nodes over what vanes and blades cover, which a sum in rows takes away one by one.
+    nodes over what vanes cover, which a sum in rows takes away one by one.
     """
 
     nodes: float
@@ -146,19 +147,21 @@ def size(request: SumRequest, fitted: FittedPencil | None) -> Size:
         radii, directions = counts_for(fitted.steepness, *request.window)
         return Size(radii * directions / 2, False, MOST_RAYS)
     counts = counts_for(fitted.steepness, *request.window)
-    if not takes_rows(mask):
+    if not takes_rows(mask) or (request.lens.misaligned and not mask.clear):
         return Size(counts[0] * counts[1] / (1 + mask.even), False, MOST_FITTED)
-    nodes = row_nodes(fitted, request.window) * (1 + mask.obscuration)
+    nodes = row_nodes(fitted, request.window) * (1 + mask.obscuration) * (1 if mask.even else BOTH_SIDES)
     return Size(nodes, True, MOST_IN_ROWS / 2, covered_nodes(mask, counts))
 
 
 def coefficient_size(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> Size:
-    """Return the size of a settled sum of six coefficients behind a mask: node by node with phases and maps."""
+    """Return the size of a settled sum of six coefficients behind a mask: larger where its quarters differ."""
     if mask.clear:
         return Size(coefficient_nodes(six, window), True, LARGEST_NODES)
     counts = coefficient_counts(six, window, mask)
-    if mask.phased or mask.amplitude_map is not None:
-        return Size(counts[0] * counts[1] / (1 + mask.even), False, 4 * LARGEST_NODES)
+    if not takes_rows(mask):
+        return Size(counts[0] * counts[1] / (1 + mask.even), False, MOST_FITTED)
+    if not mask.in_quarters:
+        return Size(counts[0] * counts[1] / BOTH_SIDES, True, MOST_IN_ROWS / 2, covered_nodes(mask, counts))
     return Size(
         coefficient_nodes(six, window) * (1 + mask.obscuration), True, LARGEST_NODES, covered_nodes(mask, counts)
     )
@@ -173,8 +176,8 @@ def coefficient_counts(six: Coefficients, window: tuple[int, float], mask: Pupil
 
 
 def covered_nodes(mask: PupilMask, counts: tuple[int, int]) -> float:
-    """Return about how many nodes cover the vanes and blades of a mask, as dense as ``counts`` are over the disc."""
-    few = edge_nodes(mask, *FEW_NODES)
+    """Return about how many nodes cover the vanes of a mask, as dense as ``counts`` are over the disc."""
+    few = vane_nodes(mask, *FEW_NODES)
     return 0.0 if few is None else few.xi.size * max(1.0, counts[0] * counts[1] / (FEW_NODES[0] * FEW_NODES[1]))
 
 
@@ -226,7 +229,8 @@ def moving_nodes(fitted: FittedPencil, window: tuple[int, float]) -> float:
     counts, worth = counts_for(fitted.steepness, *window), window[0] * ONE_BY_ONE
     if not takes_rows(fitted.mask):
         return worth * counts[0] * counts[1] / (1 + fitted.mask.even)
-    rows = row_nodes(fitted, window, "preview") * (1 + fitted.mask.obscuration)
+    sides = 1 if fitted.mask.even else BOTH_SIDES
+    rows = row_nodes(fitted, window, "preview") * (1 + fitted.mask.obscuration) * sides
     return rows + worth * covered_nodes(fitted.mask, counts)
 
 
