@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, check_output
 from p2sf.cli.screen import Row, print_json, print_table, warn
+from p2sf.cli.spots import Clip
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
@@ -55,6 +56,7 @@ def measure(
     read_noise: Annotated[float | None, Parameter(help="Of a dark pixel in counts; estimated otherwise.")] = None,
     full_scale: Annotated[float | None, Parameter(help="Counts from which a pixel is saturated.")] = None,
     channel: Annotated[str, Parameter(help="Of a colour picture: red, green or blue.")] = "green",
+    clip: Clip = False,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -76,6 +78,7 @@ def measure(
         lens=design,
         depth_mm=request.depth_mm,
         unknowns=unknowns or (*FOCUS, *FIELD),
+        clip=clip,
     )
     if output:
         write_measurement(found, output)

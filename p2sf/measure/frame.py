@@ -58,12 +58,17 @@ class Noise:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """Counts (rows, columns), row 0 the top, with dark and flat field already applied; ``bad``: pixels not to use."""
+    """Counts (rows, columns), row 0 the top, with dark and flat field already applied; ``bad``: pixels not to use.
+
+    ``psf``: the whole frame is the intensity of one point, at points and not over pixels, its chief ray at the sample
+    of row (rows − 1)//2 and column columns//2.
+    """
 
     values: np.ndarray
     geometry: FrameGeometry
     noise: Noise = field(default_factory=Noise)
     bad: np.ndarray | None = None
+    psf: bool = False
 
     def __post_init__(self) -> None:
         if self.values.ndim != 2 or self.values.shape != (self.geometry.rows, self.geometry.columns):

@@ -11,7 +11,7 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
-from p2sf.measure.lens_pupil import lens_nodes
+from p2sf.measure.lens_pupil import clear_part, lens_nodes
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import turned
@@ -66,7 +66,7 @@ class FrameModel:
     ``w40``, ``w31``, ``w22``, ``w20``, waves at ``height_mm``, growing with the field as 1, h, h² and h²; and
     ``spacing_um:k``, of the space behind surface k, the sensor staying at its distance from the last surface. Without a
     lens the pupil is the paraxial one of the numerical aperture, and W has no other terms. ``alone``: the model is of
-    one point, and field polynomials are waves at it, wherever it lies.
+    one point, and field polynomials are waves at it, wherever it lies. ``clip``: the lens's rims end pupils.
     """
 
     optics: Optics
@@ -75,6 +75,7 @@ class FrameModel:
     lens: Lens | None = None
     depth_mm: float = float("inf")
     alone: bool = False
+    clip: bool = False
 
     def __post_init__(self) -> None:
         surfaces = len(self.lens.surfaces) if self.lens is not None else 0
@@ -115,7 +116,8 @@ class FrameModel:
         assert self.lens is not None
         found, moved = self.fits(height)
         counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
-        nodes = lens_nodes(found, azimuth, counts)
+        clear = clear_part(self.lens, self.source(height, azimuth), counts) if self.clip else None
+        nodes = lens_nodes(found, azimuth, counts, clear)
         forms = np.stack([found.phase, *(change for change in moved.values())])
         phase, focus, *others = -(forms @ basis(found.level.wave_order, nodes.xi, nodes.eta))
         spacings = dict(zip(tuple(moved)[1:], others, strict=True))
@@ -182,6 +184,11 @@ class FrameModel:
         surfaces = list(self.lens.surfaces)
         surfaces[surface - 1] = replace(surfaces[surface - 1], thickness=surfaces[surface - 1].thickness + step_mm)
         return replace(self.lens, surfaces=tuple(surfaces))
+
+    def source(self, height_mm: float, azimuth: float) -> Source:
+        """Return the source whose chief ray lands at a height, at ``azimuth`` radians from +y towards +x."""
+        seen = self._map().source(height_mm, self.optics.wavelength_um)
+        return replace(seen, azimuth_deg=float(np.rad2deg(azimuth)))
 
     def _map(self) -> SensorMap:
         assert self.lens is not None

@@ -5,20 +5,62 @@ even in anything. Row j follows fy(u, v) = c_j between two points of the rim, c_
 Gauss–Chebyshev quadrature as in `separable_sum`, for any map that rises steadily.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from p2sf.errors import SamplingError
-from p2sf.measure.pupil_model import turned
-from p2sf.measure.pupil_nodes import PupilNodes, PupilRows, counts_of, open_nodes
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.measure.pupil_model import PupilModel, turned
+from p2sf.measure.pupil_nodes import FEWEST, PupilNodes, PupilRows, counts_for, counts_of, open_nodes, placed_nodes
 from p2sf.psf.disc_rows import scaled
+from p2sf.pupil.mask_nodes import ClearNodes, throughput
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.zernike import basis, gradient
-from p2sf.raytrace.fit import FittedPencil
+from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.vignetting import pupil_nodes
 
 NEWTON_STEPS = 10
 SETTLED = 1e-9
+SAME_SHARE = 1e-6  # of the pupil's area
+
+
+@dataclass(frozen=True, eq=False)
+class DesignedPupil:
+    """What a lens as designed says of one point: a model's numbers, and the tilt in waves that they lack.
+
+    ``clear``: nodes over what rims leave open, None where they end nothing.
+    """
+
+    numbers: np.ndarray
+    tilt: float
+    clear: ClearNodes | None = None
+
+
+def designed_pupil(
+    lens: Lens, source: Source, model: PupilModel, cycles: float, half_um: float, clip: bool
+) -> DesignedPupil:
+    """Return the numbers of a model with a map of a lens's pencil, its field along +y; windows are ±``half_um``.
+
+    A fit's phase has the other sign than W, and its frequencies run the other way. ``clip``: the lens's rims end the
+    pupil. Raises GeometryError where rays do not reach the sensor.
+    """
+    found = fit(lens, source, int(model.name))
+    maps = -found.fx / cycles, -found.fy[1:] / cycles
+    counts = counts_for(found.steepness.radial, cycles, half_um)
+    clear = clear_part(lens, source, counts) if clip else None
+    return DesignedPupil(np.concatenate([-found.phase[2:], *maps]), float(-2 * found.phase[1]), clear)  # Z(1, 1) = 2η
+
+
+def clear_part(lens: Lens, source: Source, counts: tuple[int, int]) -> ClearNodes | None:
+    """Return nodes over what the rims of a lens leave open, None where they end nothing; ``counts``: rows, columns."""
+    rows, columns = counts
+    nodes = pupil_nodes(lens, source, (columns // 3 + FEWEST, 4 * rows // 3), clip=True)
+    open_share = throughput(mask_seen(lens, source)).amplitude
+    ends = not isinstance(nodes.amplitude, float) or abs(nodes.share - open_share) > SAME_SHARE
+    return nodes if ends else None
 
 
 class TurnedMap:
@@ -54,10 +96,13 @@ class TurnedMap:
         return x.reshape(shape), y.reshape(shape)
 
 
-def lens_nodes(found: FittedPencil, azimuth: float, counts: tuple[int, int]) -> PupilNodes:
+def lens_nodes(
+    found: FittedPencil, azimuth: float, counts: tuple[int, int], clear: ClearNodes | None = None
+) -> PupilNodes:
     """Return nodes of the open pupil of a fit, turned by ``azimuth`` radians from +y towards +x.
 
     ``fx`` and ``fy`` are relative to the chief ray, ξ across the field's plane and η in it; the mask stays as it is.
+    ``clear``: the nodes to take, where rims end the pupil, in the field's own axes (`clear_part`).
     Raises SamplingError where fy does not rise across the pupil.
     """
     whole = TurnedMap(found, azimuth)
@@ -68,6 +113,8 @@ def lens_nodes(found: FittedPencil, azimuth: float, counts: tuple[int, int]) -> 
     def place(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return *whole.at(u, v), found.weight_at(*turned(u, v, azimuth))
 
+    if clear is not None:
+        return placed_nodes(clear, found.wavelength_um, lambda xi, eta: place(*turned(xi, eta, -azimuth)))
     nodes = open_nodes(found.mask, found.wavelength_um, counts, disc, place)
     xi, eta = turned(nodes.xi, nodes.eta, azimuth)
     return replace(nodes, xi=xi, eta=eta)

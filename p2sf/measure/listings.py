@@ -21,7 +21,8 @@ class Listing:
 
     ``kind``: "psf", relative intensity at points, or "wavefront", waves over a square about the pupil, 0 outside.
     ``pitch_um``: between samples of a PSF. ``centre``: row and column of the chief ray or the pupil's centre.
-    ``strehl``, ``peak_to_valley`` and ``rms``, waves, as listed; None where the head does not say so.
+    ``chief_mm``: x and y on the sensor where the chief ray of a PSF lands. ``strehl``, ``peak_to_valley`` and ``rms``,
+    waves, as listed; None where the head does not say so.
     """
 
     kind: str
@@ -30,6 +31,7 @@ class Listing:
     field: tuple[float, float]
     pitch_um: float | None
     centre: tuple[int, int]
+    chief_mm: tuple[float, float] | None = None
     strehl: float | None = None
     peak_to_valley: float | None = None
     rms: float | None = None
@@ -95,6 +97,7 @@ def listing_of(text: str, path: str) -> Listing:
         (float(place[3]), float(place[4])),
         pitch,
         (rows // 2, columns // 2),
+        _chief(head),
         _stated(head, r"Strehl ratio:\s*"),
         _stated(head, r"Peak to valley =\s*"),
         _stated(head, r"RMS =\s*"),
@@ -131,6 +134,12 @@ def _parted(text: str) -> tuple[str, np.ndarray]:
 def _stated(head: str, before: str) -> float | None:
     found = re.search(rf"{before}({NUMBER})", head)
     return float(found[1]) if found else None
+
+
+def _chief(head: str) -> tuple[float, float] | None:
+    """Return where a head says that the middle of a PSF's grid lies on the sensor, mm."""
+    found = re.search(rf"Center coordinates\s*:\s*({NUMBER}),\s*({NUMBER})\s*Millimeters", head)
+    return (float(found[1]), float(found[2])) if found else None
 
 
 def _damaged(path: str) -> RequestError:

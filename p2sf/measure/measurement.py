@@ -17,6 +17,7 @@ from p2sf.measure.frame import Frame
 from p2sf.measure.frame_fit import FrameFit, fit_frame
 from p2sf.measure.frame_start import six_of_unknowns
 from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint
+from p2sf.measure.lens_pupil import designed_pupil
 from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
@@ -25,6 +26,8 @@ from p2sf.measure.pupil_model import SIX, pupil_model
 from p2sf.messages import Message
 
 FEWEST = 5  # points of a frame whose field is fitted too
+STRAIGHT = 0.017  # radians by which a field may miss an axis of the sensor
+LEAST_HEIGHT_MM = 1e-3  # of the farthest point
 WHOLE = 0.5  # of the time, as progress is told
 
 
@@ -74,6 +77,7 @@ def measured(
     depth_mm: float = float("inf"),
     unknowns: Sequence[str] = (*FOCUS, *FIELD),
     singly: bool = True,
+    clip: bool = False,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurement:
@@ -81,8 +85,8 @@ def measured(
 
     ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself.
     ``lens``: as designed, from which the whole frame departs by ``unknowns``, and every point by four coefficients,
-    which are added to the lens's own. A frame of fewer than five usable points is fitted point by point only, without
-    the lens. Raises RequestError where no point can be used.
+    which are added to the lens's own; a model with a map starts from the lens's. ``clip``: its rims end pupils. A frame
+    of fewer than five usable points is fitted point by point only. Raises RequestError where no point can be used.
     """
     if len(frames) != len(focus_um):
         raise RequestError(
@@ -91,6 +95,8 @@ def measured(
     pupil_model(model)  # refuses a name that is none
     points = in_grid(find_points(frames[0]))
     half = window_half(points)
+    if frames[0].psf:
+        half, optics = points[0].half, replace(optics, fill=0.0)
     waves_per_um = optics.na**2 / (2 * optics.wavelength_um)
     windows = [_windows(frames, point, half, np.asarray(focus_um) * waves_per_um) for point in points]
     placed = [
@@ -99,9 +105,9 @@ def measured(
         for one in _placed(frames[0], point, pictures, focus_um)
     ]
     whole = None
+    height = max([float(np.hypot(point.x_mm, point.y_mm)) for point in placed] + [LEAST_HEIGHT_MM])
     if sum(bool(pictures) for pictures in windows) >= FEWEST:
-        height = max(float(np.hypot(point.x_mm, point.y_mm)) for point in placed)
-        known = FrameModel(optics, height, tuple(unknowns), lens, depth_mm)
+        known = FrameModel(optics, height, tuple(unknowns), lens, depth_mm, clip=clip)
         told = (lambda share: progress(WHOLE * share)) if progress else None
         whole = fit_frame(placed, known, progress=told, cancelled=cancelled)
         if lens is not None:  # centroids lie a pixel or so from where chief rays land, which coma moves them by
@@ -116,7 +122,8 @@ def measured(
                 if whole is not None and lens is not None and model == SIX:
                     fits[k] = _departure(whole, _placed(frames[0], point, pictures, focus_um), point)
                 else:
-                    fits[k] = _fit(point, pictures, optics, model, _expected(whole, point))
+                    design = FrameModel(optics, height, (), lens, depth_mm, clip=clip)
+                    fits[k] = _fit(point, pictures, design, model, _expected(whole, point))
             except P2SFError as error:
                 failures[k] = error.message
         if progress:
@@ -134,16 +141,22 @@ def _windows(frames: Sequence[Frame], point: FoundPoint, half: int, waves: np.nd
 
 
 def _fit(
-    point: FoundPoint, pictures: Sequence[PointPicture], optics: Optics, model: str, near: np.ndarray | None
+    point: FoundPoint, pictures: Sequence[PointPicture], design: FrameModel, model: str, near: np.ndarray | None
 ) -> PointFit:
     """Return the fit of a point; for a model with a map its window is turned so that the field lies along +y."""
-    azimuth = float(np.rad2deg(np.arctan2(point.x_mm, point.y_mm))) if np.hypot(point.x_mm, point.y_mm) else 0.0
+    optics, azimuth = design.optics, float(np.arctan2(point.x_mm, point.y_mm))
     if model == SIX:
-        return fit_point(pictures, optics, model, azimuth, near=near)
-    quarter = round(azimuth / 90)
-    if abs(azimuth - 90 * quarter) > 1.0:
+        return fit_point(pictures, optics, model, float(np.rad2deg(azimuth)), near=near)
+    quarter = round(azimuth / (np.pi / 2))
+    if abs(azimuth - quarter * np.pi / 2) > STRAIGHT:
         raise RequestError("a model with a pupil map is fitted to points straight above, below or beside the axis only")
-    return fit_point([_turned(picture, quarter) for picture in pictures], optics, model)
+    turned = replace(optics, mask=optics.mask.turned(-90.0 * quarter))
+    own = None
+    if design.lens is not None:
+        half_um = max(pictures[0].values.shape) / 2 * optics.pixel_um
+        source = design.source(float(np.hypot(point.x_mm, point.y_mm)), azimuth)
+        own = designed_pupil(design.lens, source, pupil_model(model), optics.cycles, half_um, design.clip)
+    return fit_point([_turned(picture, quarter) for picture in pictures], turned, model, design=own)
 
 
 def _placed(

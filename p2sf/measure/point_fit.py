@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from p2sf.errors import RequestError
+from p2sf.measure.lens_pupil import DesignedPupil
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PER_FRAME, PointPicture, Problem
 from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model
@@ -91,6 +92,20 @@ class PointFit:
         enlarged: np.ndarray = self.bounds * max(1.0, self.chi2) ** 0.5
         return enlarged
 
+    def waves(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the wavefront at points of the pupil, waves, on the sphere about the window's middle pixel.
+
+        Tilts are those by which the point lies beside it, in the first picture.
+        """
+        waves, across, along = self.model.split(self.numbers)
+        fx, fy = xi, eta
+        if self.model.mapped:
+            odd, even = self.model.maps(xi, eta)
+            fx, fy = across @ odd, along @ even
+        x, y = self.frames[0, :2] * self.optics.cycles
+        found: np.ndarray = waves @ self.model.waves(xi, eta, self.azimuth) - fx * x - fy * y
+        return found
+
 
 @dataclass(frozen=True, eq=False)
 class _Minimum:
@@ -108,6 +123,7 @@ def fit_point(
     azimuth_deg: float = 0.0,
     loss: Loss = "linear",
     near: np.ndarray | None = None,
+    design: DesignedPupil | None = None,
 ) -> PointFit:
     """Return the wavefront that explains one or several pictures of one point, taken at known differences of focus.
 
@@ -115,15 +131,17 @@ def fit_point(
     the field's direction on the sensor from +y towards +x; models with a map take 0 only, so turn the picture.
     ``loss``: other than "linear", outliers count less (`scipy.optimize.least_squares`). ``near``: W40, W31, W22 and
     W20 + Wd expected, such as those of the lens as designed: tried too, and of solutions that explain the pictures as
-    well the nearest is taken. One focus leaves the twin open (`PointFit.others`). Raises RequestError for pictures in
-    which no point is, or too few pixels.
+    well the nearest is taken. ``design``: where the fit of a model with a map starts, and where rims end the pupil.
+    One focus leaves the twin open (`PointFit.others`). Raises RequestError for pictures in which no point is, or too
+    few pixels.
     """
     azimuth = float(np.deg2rad(azimuth_deg))
     wanted = pupil_model(model)
     _check(pictures, wanted, azimuth, loss)
-    found = _six(pictures, optics, azimuth, loss, near) if wanted.six else _with_map(pictures, optics, wanted, loss)
-    problem = Problem(pictures, optics, wanted, azimuth)
-    return _result(problem, found, near if wanted.six else None)
+    if wanted.six:
+        return _result(Problem(pictures, optics, wanted, azimuth), _six(pictures, optics, azimuth, loss, near), near)
+    problem = Problem(pictures, optics, wanted, 0.0, clear=design.clear if design else None)
+    return _result(problem, _with_map(problem, loss, design), design.numbers if design else None)
 
 
 def _check(pictures: Sequence[PointPicture], model: PupilModel, azimuth: float, loss: str) -> None:
@@ -206,12 +224,16 @@ def _descended(
     return _Minimum(float(found.cost), unknowns)
 
 
-def _with_map(pictures: Sequence[PointPicture], optics: Optics, model: PupilModel, loss: Loss) -> list[_Minimum]:
-    """Return minima of a model with a map: its wavefront is fitted first, with the paraxial map."""
+def _with_map(problem: Problem, loss: Loss, design: DesignedPupil | None) -> list[_Minimum]:
+    """Return minima of a model with a map: its wavefront is fitted first, with the paraxial map, unless designed."""
+    pictures, optics, model = problem.pictures, problem.optics, problem.model
     waves, count = replace(model, map_order=1), len(model.wave_names)
-    six, free = (Problem(pictures, optics, part, 0.0, coarse=True) for part in (pupil_model(SIX), waves))
-    every = starts(pictures, optics, 0.0, WIDE[-1])
-    problem = Problem(pictures, optics, model, 0.0)
+    six, free = (Problem(pictures, optics, part, 0.0, True, problem.clear) for part in (pupil_model(SIX), waves))
+    every = starts(pictures, optics, 0.0, 1 if design else WIDE[-1])
+    if design is not None:
+        frames = every[0].frames.copy()
+        frames[:, :2] = 0.0, -design.tilt / optics.cycles
+        return [_descended(problem, np.concatenate([design.numbers, frames.ravel()]), loss, rtol=MAP_RTOL)]
     out: list[_Minimum] = []
     for some in (slice(0, WIDE[0]), slice(*WIDE)):
         near = [_descended(six, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]

@@ -13,7 +13,6 @@ import numpy as np
 
 from p2sf.measure.pupil_nodes import PupilNodes
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import gauss_legendre
 
 DTYPE = np.complex64  # errors of 1e-6 of the peak, where noise is hardly below 1e-3
@@ -81,7 +80,7 @@ class PixelSum:
             for size, some in self._blocks()
         ]
         # Of all the light, a pixel's part: ∫|E|²dx = ⟨A²⟩/⟨A⟩²/(π·cycles²) for weights of unit sum (Parseval).
-        self.scale = pi * (optics.cycles * optics.pixel_um) ** 2 / throughput(optics.mask).spreading
+        self.scale = pi * (optics.cycles * optics.pixel_um) ** 2 / nodes.spreading
 
     def _blocks(self) -> Iterator[tuple[tuple[int, int], slice]]:
         """Yield rows and columns of each group of nodes in rows, and where they lie."""

@@ -9,6 +9,7 @@ from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.pupil_model import PupilModel
 from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
 from p2sf.pupil.mask import mask_slopes
+from p2sf.pupil.mask_nodes import ClearNodes
 
 PER_FRAME = 4  # x and y of the point, all of its light, background
 # A map that moves pupil points along the rim's inside, areas unchanged, leaves every PSF as it is; what is known of
@@ -43,7 +44,8 @@ class PointPicture:
 class Problem:
     """Residuals over the noise of all pictures and their derivatives, as functions of one vector of unknowns.
 
-    Unknowns: the model's numbers, then x, y (µm), all light and background of every picture.
+    Unknowns: the model's numbers, then x, y (µm), all light and background of every picture. ``clear``: nodes over the
+    open pupil, where rims end it; the optics' mask does otherwise.
     """
 
     def __init__(
@@ -53,8 +55,9 @@ class Problem:
         model: PupilModel,
         azimuth: float,
         coarse: bool = False,
+        clear: ClearNodes | None = None,
     ):
-        self.pictures, self.optics, self.model, self.azimuth = pictures, optics, model, azimuth
+        self.pictures, self.optics, self.model, self.azimuth, self.clear = pictures, optics, model, azimuth, clear
         self.parts = optics.coarse_parts if coarse else optics.parts
         self.numbers = len(model.even)
         self.good = [picture.usable for picture in pictures]
@@ -110,7 +113,7 @@ class Problem:
         self.counts, self._at = counts_for(MARGIN * slope, self.optics.cycles, self.half_um), np.empty(0)
         if not self.model.mapped:
             optics = self.optics
-            self._take(paraxial_nodes(self.counts, optics.cycles, optics.mask, optics.wavelength_um))
+            self._take(paraxial_nodes(self.counts, optics.cycles, optics.mask, optics.wavelength_um, self.clear))
 
     def needs_more(self, unknowns: np.ndarray) -> bool:
         """Return whether the wavefront has become too steep for its nodes."""
@@ -155,8 +158,9 @@ class Problem:
         if np.array_equal(unknowns, self._at):
             return self._found
         if self.model.mapped:
-            mask, wave = self.optics.mask, self.optics.wavelength_um
-            nodes = mapped_nodes(self.model, unknowns[: self.numbers], self.counts, self.optics.cycles, mask, wave)
+            optics, numbers = self.optics, unknowns[: self.numbers]
+            known = optics.mask, optics.wavelength_um, self.clear
+            nodes = mapped_nodes(self.model, numbers, self.counts, optics.cycles, *known)
             if nodes is None:  # a step that no pupil follows: refused, as it makes all worse
                 return np.full_like(self._found[0], FOLDED), self._found[1]
             self._take(nodes)

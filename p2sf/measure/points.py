@@ -62,10 +62,12 @@ class FoundPoint:
 def find_points(frame: Frame) -> list[FoundPoint]:
     """Return the points of a frame, the brightest first, those that cannot be used flagged.
 
-    Raises RequestError where nothing stands out of the noise.
+    Of a PSF, its one point, wherever its light lies. Raises RequestError where nothing stands out of the noise.
     """
     from scipy import ndimage
 
+    if frame.psf:
+        return [_of_psf(frame)]
     labels, _ = _labels(frame)
     boxes = ndimage.find_objects(labels)
     measured = (_measured(frame, box, labels[box] == k) for k, box in enumerate(boxes, 1) if box is not None)
@@ -77,6 +79,14 @@ def find_points(frame: Frame) -> list[FoundPoint]:
         )
     points.sort(key=lambda point: -point.flux)
     return _flagged(frame, points)
+
+
+def _of_psf(frame: Frame) -> FoundPoint:
+    rows, columns = frame.values.shape
+    row, column = (rows - 1) // 2, columns // 2
+    half = min(row, rows - 1 - row, column, columns - 1 - column)
+    total, peak = float(np.nansum(frame.values)), float(np.nanmax(frame.values))
+    return FoundPoint(row, column, *frame.geometry.place_of(row, column), total, peak, half)
 
 
 def _labels(frame: Frame) -> tuple[np.ndarray, int]:

@@ -14,7 +14,7 @@ from p2sf.measure.pupil_model import PupilModel
 from p2sf.psf.disc_rows import scaled
 from p2sf.psf.separable_sum import frequency_rows
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import edge_nodes
+from p2sf.pupil.mask_nodes import ClearNodes, edge_nodes, throughput
 from p2sf.pupil.quadrature import chord_rows, chords_for, disc_nodes, even_count
 from p2sf.raytrace.fit import FittedPencil, Level
 from p2sf.raytrace.ray_field import Steepness
@@ -43,6 +43,7 @@ class PupilNodes:
     """Nodes of the open pupil, (nodes,), weights of unit sum; ``waves``: the phase of a filter in front of them.
 
     ``blocks``: rows and columns of each group of nodes that lie in rows of equal fy, one after another.
+    ``spreading``: mean A² over (mean A)², by which more of the light goes astray than from the clear disc.
     """
 
     fx: np.ndarray
@@ -52,6 +53,7 @@ class PupilNodes:
     weight: np.ndarray
     waves: np.ndarray
     blocks: tuple[tuple[int, int], ...]
+    spreading: float = 1.0
 
 
 def open_nodes(
@@ -76,7 +78,20 @@ def open_nodes(
     weight = found.weight * mask.amplitude(found.xi, found.eta) if mask.shaded else found.weight
     # The mask's path is longer where light comes later: W counts what it is ahead.
     waves = -mask.path_um(found.xi, found.eta) / wavelength_um if mask.phased else found.waves
-    return replace(found, weight=weight / weight.sum(), waves=waves)
+    return replace(found, weight=weight / weight.sum(), waves=waves, spreading=throughput(mask).spreading)
+
+
+def placed_nodes(clear: ClearNodes, wavelength_um: float, place: Place) -> PupilNodes:
+    """Return nodes of a pupil that ends elsewhere than at a disc, such as at rims; each is a row of its own."""
+    whole = clear.unfolded()
+    fx, fy, light = place(whole.xi, whole.eta)
+    amplitude = whole.amplitude + np.zeros_like(fx)
+    weight = whole.weight * amplitude * light
+    filtered = isinstance(whole.path_um, np.ndarray)
+    waves = -whole.path_um / wavelength_um if filtered else np.zeros_like(fx)
+    spreading = float(whole.weight @ amplitude**2 / (whole.weight @ amplitude) ** 2) / whole.share
+    sizes = ((fx.size, 1),)
+    return PupilNodes(fx, fy, whole.xi, whole.eta, weight / weight.sum(), waves, sizes, spreading)
 
 
 def _joined(blocks: Sequence[PupilRows]) -> PupilNodes:
@@ -90,9 +105,13 @@ def _joined(blocks: Sequence[PupilRows]) -> PupilNodes:
 
 
 def paraxial_nodes(
-    counts: tuple[int, int], cycles: float, mask: PupilMask = CLEAR, wavelength_um: float = 1.0
+    counts: tuple[int, int],
+    cycles: float,
+    mask: PupilMask = CLEAR,
+    wavelength_um: float = 1.0,
+    clear: ClearNodes | None = None,
 ) -> PupilNodes:
-    """Return nodes (Gauss–Chebyshev × Gauss–Legendre) whose frequencies are NA/λ·(ξ, η)."""
+    """Return nodes (Gauss–Chebyshev × Gauss–Legendre) whose frequencies are NA/λ·(ξ, η); ``clear``: take these."""
 
     def disc(radius: float) -> PupilRows:
         quarter = chord_rows(*counts_of(radius, counts))
@@ -106,6 +125,8 @@ def paraxial_nodes(
     def place(xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return cycles * xi, cycles * eta, np.ones_like(xi)
 
+    if clear is not None:
+        return placed_nodes(clear, wavelength_um, place)
     return open_nodes(mask, wavelength_um, counts, disc, place)
 
 
@@ -116,8 +137,12 @@ def mapped_nodes(
     cycles: float,
     mask: PupilMask = CLEAR,
     wavelength_um: float = 1.0,
+    clear: ClearNodes | None = None,
 ) -> PupilNodes | None:
-    """Return nodes for the pupil map of these numbers, None where the map folds the pupil over."""
+    """Return nodes for the pupil map of these numbers, None where the map folds the pupil over.
+
+    ``clear``: the nodes to take, of a pupil that ends elsewhere than at the disc's rim and the mask.
+    """
     _, across, along = model.split(numbers)
     level = Level(model.wave_order, model.map_order, 1, 2)
     fx, fy = cycles * across, cycles * np.append(0.0, along)
@@ -141,6 +166,8 @@ def mapped_nodes(
         odd, even = model.maps(xi, eta)
         return fx @ odd, fy[1:] @ even, np.ones_like(xi)
 
+    if clear is not None:
+        return placed_nodes(clear, wavelength_um, place)
     try:
         return open_nodes(mask, wavelength_um, counts, disc, place)
     except _FoldedError:

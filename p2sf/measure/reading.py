@@ -2,10 +2,12 @@
 
 import os
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.raster_size import OversizedError, check_samples
@@ -18,6 +20,22 @@ FITS = (".fits", ".fit", ".fts")
 ENDINGS = (*READABLE, *FITS, ".npy", ".npz", ".txt")
 CHANNELS = {"red": 0, "green": 1, "blue": 2}
 FULL = {"8": 255.0, "16": 65535.0}
+PSF_NOISE = 1e-3  # of the peak: what residuals of a computed PSF, which has no noise, are measured by
+
+
+@dataclass(frozen=True, eq=False)
+class Counts:
+    """What a file holds: counts (rows, columns), row 0 the top, and what it says of them.
+
+    ``pixel_um``: None where it does not say. ``full``: the largest count. ``psf``: intensity of one point, at points;
+    ``chief_mm``: where its chief ray lands.
+    """
+
+    values: np.ndarray
+    pixel_um: float | None = None
+    full: float = np.inf
+    psf: bool = False
+    chief_mm: tuple[float, float] | None = None
 
 
 def read_frame(
@@ -35,27 +53,30 @@ def read_frame(
     counts, and saturate at their largest value unless ``noise`` says so; of a colour picture one ``channel`` is taken.
     Raises RequestError for a file that cannot be read, and for fields of another size.
     """
-    values, own_pitch, full = read_counts(path, channel)
-    pitch = pixel_um or own_pitch
+    found = read_counts(path, channel)
+    pitch = pixel_um or found.pixel_um
     if pitch is None:
         raise RequestError(
             "{path} does not say how large its pixels are; give {parameter}", path=str(path), parameter="pixel_um"
         )
     check_positive("pixel_um", pitch)
-    saturated = values >= min(full, noise.full_scale if noise else np.inf)
-    fields = [None if other is None else read_counts(other, channel)[0] for other in (dark, flat)]
-    counts = calibrated(values, *fields)
+    saturated = found.values >= min(found.full, noise.full_scale if noise else np.inf)
+    fields = [None if other is None else read_counts(other, channel).values for other in (dark, flat)]
+    counts = calibrated(found.values, *fields)
     kept = noise or Noise()
-    return Frame(
-        counts, FrameGeometry(len(counts), counts.shape[1], pitch), Noise(kept.gain, kept.read_noise), saturated
-    )
+    read_noise = kept.read_noise
+    if found.psf and read_noise is None:
+        read_noise = PSF_NOISE * float(counts.max())
+    rows, columns = counts.shape
+    axis = None
+    if found.psf:
+        x, y = (mm * UM_PER_MM / pitch for mm in found.chief_mm or (0.0, 0.0))
+        axis = (rows - 1) // 2 + y, columns // 2 - x
+    return Frame(counts, FrameGeometry(rows, columns, pitch, axis), Noise(kept.gain, read_noise), saturated, found.psf)
 
 
-def read_counts(path: str | os.PathLike[str], channel: str = "green") -> tuple[np.ndarray, float | None, float]:
-    """Return counts (rows, columns), row 0 the top, the pixel in µm if the file says it, and the largest count.
-
-    Raises RequestError.
-    """
+def read_counts(path: str | os.PathLike[str], channel: str = "green") -> Counts:
+    """Return what a file holds. Raises RequestError."""
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
         raise RequestError(
@@ -68,34 +89,34 @@ def read_counts(path: str | os.PathLike[str], channel: str = "green") -> tuple[n
         listing = read_listing(path)
         if listing.kind != "psf":
             raise RequestError("{path} lists a wavefront, not a PSF; list the PSF of the same point", path=str(path))
-        return listing.values[::-1], listing.pitch_um, np.inf
+        return Counts(listing.values[::-1], listing.pitch_um, psf=True, chief_mm=listing.chief_mm)
     if ending in (".npy", ".npz"):
-        values, pitch = _arrays(path, ending)
-        return _plane(values, path, channel), pitch, np.inf
+        values, pitch, psf = _arrays(path, ending)
+        return Counts(_plane(values, path, channel), pitch, psf=psf)
     if ending in FITS:
-        return _plane(_from_fits(path), path, channel), None, np.inf
+        return Counts(_plane(_from_fits(path), path, channel))
     photo = read_photo(path, "linear")
     full = FULL.get(photo.depth, np.inf)
     scale = full if np.isfinite(full) else 1.0
-    return _plane(photo.values.astype(float) * scale, path, channel), None, full
+    return Counts(_plane(photo.values.astype(float) * scale, path, channel), full=full)
 
 
-def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, float | None]:
-    """Return the picture in an array file, and its pixel in µm; a PSF of this program has rows towards +y."""
+def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, float | None, bool]:
+    """Return the picture in an array file, its pixel in µm, and whether it is a PSF, whose rows run towards +y."""
     try:
         if ending == ".npy":
             with warnings.catch_warnings(action="ignore"):
-                return np.load(path, allow_pickle=False), None
+                return np.load(path, allow_pickle=False), None, False
         found = read_arrays(path)
     except (OSError, ValueError, *DAMAGED) as error:
         raise _unreadable(path) from error
     if "psf" in found and "y_um" in found and found["y_um"].size > 1:
-        return found["psf"][..., ::-1, :], float(np.diff(found["y_um"]).mean())
+        return found["psf"][..., ::-1, :], float(np.diff(found["y_um"]).mean()), True
     planes = [values for name, values in found.items() if values.ndim >= 2]
     if not planes:
         raise _unreadable(path)
     pitch = found.get("pixel_um")
-    return found.get("values", planes[0]), None if pitch is None or pitch.size != 1 else float(pitch)
+    return found.get("values", planes[0]), None if pitch is None or pitch.size != 1 else float(pitch), False
 
 
 def _from_fits(path: str | os.PathLike[str]) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Measuring what was simulated: ``python -m tests.long.measure points 200``; free, rdmpy, frames, coverage, deblur.
+"""Measuring what was simulated: ``python -m tests.long.measure points 200``, and others of ``main``.
 
 Pictures of points come from a sum over other pupil nodes, with other points across a pixel, than a fit takes; frames go
 the whole way from the picture: points are found, cut out and fitted. Every table states its counts. CPU seconds.
@@ -6,6 +6,7 @@ the whole way from the picture: points are found, cut out and fitted. Every tabl
 
 import sys
 from dataclasses import dataclass
+from pathlib import Path
 from time import process_time
 
 import numpy as np
@@ -16,17 +17,21 @@ from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import psnr, wiener
 from p2sf.lens.lens import Lens, with_f_number, with_sensor
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
+from p2sf.measure.listings import read_listing
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import PointFit, fit_point
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import PupilModel, pupil_model
+from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.studies import validate
 
 OPTICS = Optics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 PIXELS = 40
@@ -34,6 +39,8 @@ SECOND_FOCUS = 1.5  # waves
 NOISE, PEAK = 0.01, 1000.0
 MOST_WAVES = 3.0
 NODES = 48, 144
+LISTED = Path(__file__).parents[1] / "data" / "opticstudio"
+CELLS = 15  # of a listed wavefront, from the middle to the rim
 PARTS = 6  # points across a pixel
 # RDMPy's calibration of its own simulated lens, as published: spherical, coma, astigmatism, field curvature, waves.
 RDMPY_GIVEN, RDMPY_FOUND = np.array([1.58, -1.12, -2.1, 1.6]), np.array([0.72, 0.11, 1.78, 1.60])
@@ -184,6 +191,23 @@ def rdmpy() -> None:
             )
 
 
+def listing() -> None:
+    """Print the statistics of a wavefront fitted to a PSF that OpticStudio listed, beside those that it listed."""
+    psf, wavefront = LISTED / "huygens_psf_0_1.75.txt", read_listing(LISTED / "wavefront_0_1.75.txt")
+    frame, lens = read_frame(psf), read_toml(Path(validate.__file__).with_name("telescope.toml"))
+    optics = lens_optics(lens, np.inf, 0.5, frame.geometry.pixel_um)
+    began = process_time()
+    (found,) = measured([frame], optics, lens=lens, model="46", clip=True).fits
+    took = process_time() - began
+    rows, columns = np.nonzero(wavefront.inside)
+    eta, xi = ((part - middle) / CELLS for part, middle in zip((rows, columns), wavefront.centre, strict=True))
+    waves, listed = found.waves(xi, eta), wavefront.values[wavefront.inside]
+    print(f"listed PSF: R² {found.r2[0]:.5f}, CPU {took:.1f} s")
+    for name, one, other in (("peak to valley", np.ptp(waves), np.ptp(listed)), ("RMS", waves.std(), listed.std())):
+        print(f"  {name}: fitted {one:.4f}, listed {other:.4f} waves, {one / other - 1:+.2%}")
+    print(f"  RMS difference {(waves - listed).std():.4f} waves, of the opposite sign {(waves + listed).std():.4f}")
+
+
 def frames(trials: int, columns: int = 9, rows: int = 7, size_mm: tuple[float, float] = (12.0, 9.0)) -> None:
     """Print what points through the Cooke triplet at f/4 tell of the sensor and the field, 1 % noise."""
     lens, pitch = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45
@@ -248,6 +272,7 @@ def main(arguments: list[str]) -> None:
         "points": lambda: six_coefficients(count),
         "free": lambda: free_pupils(count),
         "rdmpy": rdmpy,
+        "listing": listing,
         "frames": lambda: frames(count),
         "coverage": lambda: frames(count, 3, 3, (6.0, 4.5)),
         "deblur": deblur,

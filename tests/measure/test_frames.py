@@ -18,7 +18,7 @@ from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import measured, read_measurement, write_measurement
 from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture
-from p2sf.measure.points import find_points, in_grid, window_half
+from p2sf.measure.points import find_points, in_grid, window_half, window_of
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
 from p2sf.pixel_kernels.frequency_grid import pupil_map
@@ -243,6 +243,16 @@ def test_listings_of_opticstudio_are_read_in_either_encoding(tmp_path):
     again = read_listing(tmp_path / "again.txt")
     assert np.array_equal(again.values, waves.values) and again.rms == waves.rms
     assert read_frame(LISTED / "huygens_psf_0_1.75.txt").geometry.pixel_um == 0.289
+
+
+def test_a_listed_psf_is_one_point_where_its_chief_ray_lands():
+    """Its light reaches the window's edge, at which points of a photograph would be cut."""
+    frame = read_frame(LISTED / "huygens_psf_0_1.75.txt")
+    (point,) = find_points(frame)
+    assert point.good and (point.x_mm, point.y_mm) == pytest.approx((0.0, 315.173136), abs=1e-9)
+    window = window_of(frame, point, point.half)
+    assert window.values.shape == (63, 63)
+    assert window.values[31, 31] == read_listing(LISTED / "huygens_psf_0_1.75.txt").values[32, 32]
 
 
 def test_the_centroid_of_a_listed_psf_lies_where_its_head_says():

@@ -9,7 +9,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_terms import lens_optics
-from p2sf.measure.lens_pupil import lens_nodes
+from p2sf.measure.lens_pupil import clear_part, lens_nodes
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import fit_point
 from p2sf.measure.point_model import Optics, PixelSum
@@ -78,26 +78,45 @@ def test_light_of_a_pupil_map_behind_a_mask_is_that_of_a_plain_sum(mask):
     assert light / light.sum() == pytest.approx(plain, abs=1e-3 * plain.max())
 
 
+def light_along_the_field(nodes, found, azimuth):
+    """Return the intensity at points of a lens's nodes, unit sum, with the field turned back to +y."""
+    waves = nodes.waves - found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
+    fx = nodes.fx * np.cos(azimuth) - nodes.fy * np.sin(azimuth)
+    fy = nodes.fx * np.sin(azimuth) + nodes.fy * np.cos(azimuth)
+    axis = centred_axis(11, PIXEL)
+    amplitude = nodes.weight * np.exp(2j * np.pi * waves)
+    light = np.abs(amplitude * np.exp(2j * np.pi * np.outer(axis, fy)) @ np.exp(2j * np.pi * np.outer(fx, axis))) ** 2
+    return light / light.sum()
+
+
 @pytest.mark.parametrize("azimuth_deg", [0.0, 50.0])
 @MASKS
 def test_light_of_a_lens_behind_a_mask_is_that_of_its_rays(mask, azimuth_deg):
     """A mask stays where it is while the field turns: rays of a field along +y meet it turned the other way."""
     lens = with_mask(with_f_number(find_lens("cooke_triplet"), 5.0), mask)
-    source = Source(field_deg=8.0)
+    source, azimuth = Source(field_deg=8.0), np.deg2rad(azimuth_deg)
     found = fit(lens, source)
-    azimuth = np.deg2rad(azimuth_deg)
-    nodes = lens_nodes(found, azimuth, (48, 48))
-    waves = nodes.waves - found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
-    # What the sensor sees along the field: frequencies turned back.
-    fx = nodes.fx * np.cos(azimuth) - nodes.fy * np.sin(azimuth)
-    fy = nodes.fx * np.sin(azimuth) + nodes.fy * np.cos(azimuth)
-    axis = centred_axis(11, PIXEL)
-    field = (nodes.weight * np.exp(2j * np.pi * waves) * np.exp(2j * np.pi * np.outer(axis, fy))) @ np.exp(
-        2j * np.pi * np.outer(fx, axis)
-    )
-    light = np.abs(field) ** 2
+    light = light_along_the_field(lens_nodes(found, azimuth, (48, 48)), found, azimuth)
     plain = masked_sum(lens, source, mask.turned(-azimuth_deg), 11, PIXEL, 600)
-    assert light / light.sum() == pytest.approx(plain, abs=2e-3 * plain.max())
+    assert light == pytest.approx(plain, abs=2e-3 * plain.max())
+
+
+@pytest.mark.parametrize(("mask", "azimuth_deg"), [(PupilMask(), 0.0), (SPIDER, 50.0)], ids=["clear", "spider"])
+def test_rims_end_the_pupil_in_the_field_s_direction(mask, azimuth_deg):
+    """A twelfth of the pupil is lost, and a point is another one without that."""
+    lens, azimuth = with_mask(find_lens("cooke_triplet"), mask), np.deg2rad(azimuth_deg)
+    source = Source(field_deg=20.0, azimuth_deg=azimuth_deg)
+    found = fit(lens, Source(field_deg=20.0))
+    clear = clear_part(lens, source, (64, 64))
+    light = light_along_the_field(lens_nodes(found, azimuth, (64, 64), clear), found, azimuth)
+    plain = masked_sum(lens, Source(field_deg=20.0), mask.turned(-azimuth_deg), 11, PIXEL, 400, clip=True)
+    assert light == pytest.approx(plain, abs=5e-3 * plain.max())
+    whole = light_along_the_field(lens_nodes(found, azimuth, (64, 64)), found, azimuth)
+    assert np.abs(whole - plain).max() > 0.05 * plain.max()
+
+
+def test_rims_that_end_nothing_leave_the_disc_as_it_is():
+    assert clear_part(find_lens("cooke_triplet"), Source(), (32, 32)) is None
 
 
 @MASKS
