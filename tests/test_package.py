@@ -27,7 +27,7 @@ LAYERS = (
     "p2sf_explorer.compute p2sf_explorer.store",
     "p2sf_explorer.charts p2sf_explorer.files p2sf_explorer.workers p2sf.notebook_widget",
     "p2sf_explorer.results p2sf_explorer.layout_view p2sf_explorer.handbook",
-    "p2sf_explorer.matrix p2sf_explorer.measuring p2sf_explorer.widgets",
+    "p2sf_explorer.matrix p2sf_explorer.measuring p2sf_explorer.tolerancing p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d p2sf_explorer.exactness",
     "p2sf_explorer.panels p2sf_explorer.playback p2sf_explorer.exporting",
     "p2sf_explorer.crash p2sf_explorer.docking",
@@ -45,6 +45,7 @@ WITHOUT_QT = (
     "p2sf_explorer.results",
     "p2sf_explorer.matrix",
     "p2sf_explorer.measuring",
+    "p2sf_explorer.tolerancing",
 )
 
 

@@ -37,6 +37,7 @@ WHY = {
     "import": Message("This is A: it is what was read from its file."),
     "image": Message("This is A: light that A has less of than B cannot be shown as a photograph."),
     "measured": Message("This is A: a picture is measured beside one lens."),
+    "tolerances": Message("This is A: a build is opened as A beside the lens as designed, and both have one yield."),
     "database": Message("This is A: a database belongs to one lens."),
     "accuracy": Message("This is A: each lens is measured against its own rays."),
 }

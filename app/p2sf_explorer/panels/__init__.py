@@ -72,7 +72,7 @@ GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
 
 def tab(group: str, key: str, title: str, handbook: str, panel: str, view: str = "") -> PanelEntry:
     """Return the entry of a tab; panel and view are module:name in their folders."""
-    own = view.startswith(("matrix.", "measuring."))
+    own = view.startswith(("matrix.", "measuring.", "tolerancing."))
     view = view and f"p2sf_explorer.{view if own else 'results.' + view}"
     return PanelEntry(key, title, f"p2sf_explorer.panels.{panel}", handbook, view, group)
 
@@ -119,6 +119,7 @@ REGISTRY = (
     tab("Lens", "import", "Import", "1.1", "import_report:ImportReportPanel", "import_report:report"),
     tab("Tools", "image", "Image", "10.1", "image:ImagePanel", "image:question"),
     tab("Tools", "measured", "Measured", "11.3", "measured:MeasuredPanel", "measuring.measurement:question"),
+    tab("Tools", "tolerances", "Tolerances", "8.8", "tolerances:TolerancesPanel", "tolerancing.analysis:question"),
     tab("Tools", "database", "Database", "7.1", "database:DatabasePanel", "database:question"),
     tab("Tools", "accuracy", "Accuracy", "6.1", "accuracy:AccuracyPanel"),
 )

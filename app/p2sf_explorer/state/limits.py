@@ -5,6 +5,8 @@ from math import inf
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
 from p2sf.pupil.mask import LARGEST_OBSCURATION, MOST_BLADES, MOST_POWER, MOST_VANES, NARROWEST_APODISATION, WIDEST_VANE
+from p2sf.tolerance.criteria import CRITERIA
+from p2sf.tolerance.errors_of_build import GRADES
 from p2sf_explorer.state.terms import TERMS
 
 CHOICES = {
@@ -24,6 +26,8 @@ CHOICES = {
     "colours": ("standard", "viridis", "cividis", "grey"),
     "matrix_what": ("psf", "spot", "ray_fan", "opd_fan", "mtf", "pupil"),
     "matrix_across": ("wavelength_nm", "depth_mm", "sensor_shift_um", "side"),
+    "tolerances_grade": tuple(GRADES),
+    "tolerances_criterion": CRITERIA,
     "curves_of": ("fields", "colours", "field", "focus", "lateral", "distortion", "illumination"),
 }
 MOST_LISTED = 5  # values of a list
@@ -60,6 +64,10 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "matrix_rows": (2, MOST_LISTED, Message("number of rows"), ""),
     "matrix_columns": (2, MOST_LISTED, Message("number of columns"), ""),
     "frequency_per_mm": (1e-3, 1e5, Message("spatial frequency"), "1/mm"),
+    "tolerances_frequency_per_mm": (1e-3, 1e5, Message("spatial frequency"), "1/mm"),
+    "tolerances_limit": (0.0, 1e6, Message("limit of the criterion"), ""),
+    "tolerances_draw": (0, 10**6, Message("number of the draw"), ""),
+    "tolerances_build": (0, 10**6, Message("number of the build"), ""),
     "camera_turn_deg": (-360.0, 360.0, Message("turn of the 3D view"), "°"),
     "camera_tilt_deg": (-89.0, 89.0, Message("tilt of the 3D view"), "°"),
     "camera_zoom": (0.2, 50.0, Message("enlargement of the 3D view"), ""),
@@ -92,7 +100,7 @@ LINKABLE = (*SLIDERS, "method", "added_waves")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a whole number")}
-OPTIONAL = ("focus_mm", "f_number", *RINGS, *MASK, "photo_pixel_um", "scale_percent")
+OPTIONAL = ("focus_mm", "f_number", *RINGS, *MASK, "photo_pixel_um", "scale_percent", "tolerances_limit")
 PLAIN: dict[str, type] = {
     "clip": bool,
     "vanes": int,
@@ -115,4 +123,6 @@ PLAIN: dict[str, type] = {
     "matrix_rows": int,
     "matrix_columns": int,
     "matrix_shared": bool,
+    "tolerances_draw": int,
+    "tolerances_build": int,
 }

@@ -13,6 +13,7 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMask
+from p2sf.tolerance.errors_of_build import UNITS
 from p2sf_explorer.state.limits import (
     CHOICES,
     KINDS,
@@ -372,6 +373,50 @@ class CurvesView:
 
 
 @dataclass(frozen=True)
+class ToleranceView:
+    """Tolerances of built lenses: those of a ``grade``, and ``own`` ones in their place.
+
+    ``own``: (kind, first, last, amount) as in `p2sf.tolerance.Tolerance`; ``first`` 0 stands for all of a kind.
+    ``compensators``: (kind, first, last) of what is set at assembly; ``first`` 0 is the last surface. ``limit``: what
+    every field of a good lens keeps by the ``criterion``, None for what four lenses of five keep. ``draw`` tells one
+    draw of random lenses from another. ``build``: which of them, from 1, was opened as A; 0 for none.
+    """
+
+    PREFIX: ClassVar[str] = "tolerances_"
+
+    grade: str = "precision"
+    criterion: str = "rms_waves"
+    limit: float | None = None
+    frequency_per_mm: float = 10.0
+    own: tuple[tuple[str, int, int, float], ...] = ()
+    compensators: tuple[tuple[str, int, int], ...] = (("thickness", 0, 0),)
+    draw: int = 0
+    build: int = 0
+
+    def __post_init__(self) -> None:
+        _check_entries(self)
+        for name, kinds in (("own", (str, int, int, float)), ("compensators", (str, int, int))):
+            _check_rows(getattr(self, name), self.PREFIX + name, kinds)
+
+
+def _check_rows(rows: object, name: str, kinds: tuple[type, ...]) -> None:
+    """Raise P2SFError unless the rows name errors of a lens, each with as many numbers as there are kinds."""
+    words = "kind, first surface, last surface, amount".split(", ")[: len(kinds)]
+    for row in rows if isinstance(rows, tuple) else (rows,):
+        if isinstance(row, tuple) and len(row) == len(kinds) and row[0] in UNITS:
+            if all(type(x) is kind or (kind is float and type(x) is int) for x, kind in zip(row, kinds, strict=True)):
+                if all(0 <= x < inf for x in row[1:]):
+                    continue
+        raise P2SFError(
+            "{name} has {row}; give {words}, of one of {kinds}",
+            name=name,
+            row=repr(row)[:MOST_LETTERS],
+            words=tuple(words),
+            kinds=tuple(UNITS),
+        )
+
+
+@dataclass(frozen=True)
 class LessonPlace:
     """The lesson under way by ``name``, "" for none, its ``step``, and whether the step's answer is ``told``."""
 
@@ -415,6 +460,7 @@ class State:
     camera: Cameras = Cameras()
     matrix: MatrixView = MatrixView()
     curves: CurvesView = CurvesView()
+    tolerances: ToleranceView = ToleranceView()
 
 
 FIRST = State()

@@ -69,6 +69,8 @@
 <message><source>Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 a Gaussian, larger even numbers a super-Gaussian.</source><translation>Potenz p der Amplitude exp(−(ρ/Breite)ᵖ): 2 eine Gauß-Funktion, größere gerade Zahlen eine Super-Gauß-Funktion.</translation></message>
 <message><source>Apodisation: where the amplitude has fallen to 1/e and the intensity to 1/e², over the rim's radius; ∞: even light. It dims the rings and widens the core.</source><translation>Apodisation: wo die Amplitude auf 1/e und die Intensität auf 1/e² gefallen ist, über dem Radius des Randes; ∞: gleichmäßiges Licht. Sie schwächt die Ringe und verbreitert den Kern.</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
+<message><source>As designed</source><translation>Wie entworfen</translation></message>
+<message><source>As the grade</source><translation>Wie die Klasse</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
 <message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
 <message><source>Aspheric terms A4·r⁴ + A6·r⁶ + …, with spaces between.</source><translation>Asphärische Glieder A4·r⁴ + A6·r⁶ + …, mit Leerzeichen dazwischen.</translation></message>
@@ -98,6 +100,7 @@
 <message><source>Both halves move apart as it comes closer: sharp from infinity to more than half of life size</source><translation>Beide Hälften rücken beim Nahen auseinander: scharf von unendlich bis über die halbe Lebensgröße</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
+<message><source>Build ten thousand other lenses</source><translation>Zehntausend andere Objektive bauen</translation></message>
 <message><source>By which the sensor recedes from the lens towards +x.</source><translation>Um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
 <message><source>By which the sensor recedes from the lens towards +y.</source><translation>Um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
@@ -124,6 +127,7 @@
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
 <message><source>Close the explorer</source><translation>Explorer schließen</translation></message>
+<message><source>Close the build, and show the lens as designed</source><translation>Das Exemplar schließen und das Objektiv wie entworfen zeigen</translation></message>
 <message><source>Close the window</source><translation>Fenster schließen</translation></message>
 <message><source>Coarse</source><translation>Grob</translation></message>
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
@@ -135,6 +139,8 @@
 <message><source>Coma, 3 λ</source><translation>Koma, 3 λ</translation></message>
 <message><source>Coma, ½ λ</source><translation>Koma, ½ λ</translation></message>
 <message><source>Compare</source><translation>Vergleich</translation></message>
+<message><source>Compensators</source><translation>Kompensatoren</translation></message>
+<message><source>Compensators: {count}</source><translation>Kompensatoren: {count}</translation></message>
 <message><source>Conic K</source><translation>Konik K</translation></message>
 <message><source>Conic constant K = −e²: 0 a sphere, −1 a paraboloid.</source><translation>Kegelschnittkonstante K = −e²: 0 eine Kugel, −1 ein Paraboloid.</translation></message>
 <message><source>Contents</source><translation>Inhalt</translation></message>
@@ -174,7 +180,9 @@
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
 <message><source>Drag or use the arrow keys to turn the surface; a double-click goes back</source><translation>Ziehen oder die Pfeiltasten drehen die Fläche; ein Doppelklick führt zurück</translation></message>
 <message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
+<message><source>Draw again</source><translation>Neu ziehen</translation></message>
 <message><source>Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF.</source><translation>Ein Bild von Punkten hier ablegen oder eines wählen: ein Schirm heller Punkte, Sterne oder eine PSF.</translation></message>
+<message><source>Drop all values of one's own</source><translation>Alle eigenen Werte verwerfen</translation></message>
 <message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
@@ -187,6 +195,7 @@
 <message><source>English</source><translation>English</translation></message>
 <message><source>Entrance pupil</source><translation>Eintrittspupille</translation></message>
 <message><source>Error</source><translation>Fehler</translation></message>
+<message><source>Errors by their harm</source><translation>Fehler nach ihrem Schaden</translation></message>
 <message><source>Escape</source><translation>Escape</translation></message>
 <message><source>Every panel by its group (Alt+0)</source><translation>Jede Ansicht nach ihrer Gruppe (Alt+0)</translation></message>
 <message><source>ExP</source><translation>ExP</translation></message>
@@ -238,6 +247,7 @@
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
 <message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
+<message><source>Frequency on the sensor</source><translation>Frequenz auf dem Sensor</translation></message>
 <message><source>Fringe, peak waves</source><translation>Fringe, Spitzenwellen</translation></message>
 <message><source>From fast to exact</source><translation>Von schnell bis genau</translation></message>
 <message><source>From fast to exact: which error auto may make, or how long a picture may take. Now: {asked}</source><translation>Von schnell bis genau: welchen Fehler auto machen darf, oder wie lange ein Bild dauern darf. Jetzt: {asked}</translation></message>
@@ -470,10 +480,13 @@
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
+<message><source>RMS wavefront</source><translation>RMS-Wellenfront</translation></message>
+<message><source>RMS wavefront, waves</source><translation>RMS-Wellenfront, Wellen</translation></message>
 <message><source>RMS {rms} λ</source><translation>RMS {rms} λ</translation></message>
 <message><source>RMS {r} λ</source><translation>RMS {r} λ</translation></message>
 <message><source>RMS {r} λ · PV {p} λ</source><translation>RMS {r} λ · PV {p} λ</translation></message>
 <message><source>RMS {value} µm</source><translation>RMS {value} µm</translation></message>
+<message><source>RMS ≤ {limit} λ</source><translation>RMS ≤ {limit} λ</translation></message>
 <message><source>RMS, waves</source><translation>RMS, Wellen</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
@@ -585,9 +598,12 @@
 <message><source>Stop measuring</source><translation>Das Messen anhalten</translation></message>
 <message><source>Stop radius</source><translation>Blendenradius</translation></message>
 <message><source>Stop shift: the stop's distance behind the surface before it, within its air gap; the f-number stays.</source><translation>Blendenverschiebung: der Abstand der Blende hinter der Fläche davor, in ihrem Luftabstand; die Blendenzahl bleibt.</translation></message>
+<message><source>Stop the computation</source><translation>Die Rechnung anhalten</translation></message>
 <message><source>Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
+<message><source>Stopped. Draw again starts anew.</source><translation>Angehalten. Neu ziehen beginnt von vorn.</translation></message>
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
+<message><source>Strehl ratio ≥ {limit}</source><translation>Strehl-Verhältnis ≥ {limit}</translation></message>
 <message><source>Strehl {strehl}</source><translation>Strehl {strehl}</translation></message>
 <message><source>Strehl {value}</source><translation>Strehl {value}</translation></message>
 <message><source>Surfaces of the lens</source><translation>Flächen des Objektivs</translation></message>
@@ -629,6 +645,7 @@
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The rear-stop landscape lens turned around: its stop stands before the meniscus</source><translation>Die Landschaftslinse mit hinterer Blende, umgedreht: ihre Blende steht vor dem Meniskus</translation></message>
 <message><source>The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.</source><translation>Das gewählte Element: seitlich ziehen biegt es durch, seine Brechkraft als dünne Linse bleibt. Ein Klick wählt seine Gruppe.</translation></message>
+<message><source>The sensitivities are computed from exact rays.</source><translation>Die Empfindlichkeiten werden aus exakten Strahlen berechnet.</translation></message>
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its sides are cut off, {percent:.0f} % of its width.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist seitlich abgeschnitten, {percent:.0f} % seiner Breite.</translation></message>
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its top and bottom are cut off, {percent:.0f} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {percent:.0f} % seiner Höhe.</translation></message>
 <message><source>The sensor: drag it along the axis to shift it.</source><translation>Der Sensor: entlang der Achse ziehen, um ihn zu verschieben.</translation></message>
@@ -654,6 +671,7 @@
 <message><source>Theory: conventions, formulas, sources</source><translation>Theorie: Konventionen, Formeln, Quellen</translation></message>
 <message><source>These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.</source><translation>Diese PSFs sind die Dichte der Strahlen; das meiste, was Beugung zu so breiten beiträgt, verbergen die Pixel.</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
+<message><source>This is A: a build is opened as A beside the lens as designed, and both have one yield.</source><translation>Dies ist A: Ein Exemplar öffnet sich als A neben dem Objektiv wie entworfen, und beide haben eine Ausbeute.</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
 <message><source>This is A: a picture is measured beside one lens.</source><translation>Das ist A: Ein Bild wird neben einem Objektiv vermessen.</translation></message>
 <message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
@@ -687,7 +705,10 @@
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
 <message><source>To the previous part of the window</source><translation>Zum vorigen Teil des Fensters</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
+<message><source>Tolerance of all errors of this kind</source><translation>Toleranz aller Fehler dieser Art</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
+<message><source>Tolerances</source><translation>Toleranzen</translation></message>
+<message><source>Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Kippung und Dezentrierung weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
 <message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
@@ -750,10 +771,13 @@
 <message><source>Wd added</source><translation>Wd hinzu</translation></message>
 <message><source>Wd defocus</source><translation>Wd Defokus</translation></message>
 <message><source>Wd is muted</source><translation>Wd ist stumm</translation></message>
+<message><source>What a lens is judged by, in the worst of three fields: axis, seven tenths and edge.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand.</translation></message>
 <message><source>What changes from column to column</source><translation>Was sich von Spalte zu Spalte ändert</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
+<message><source>What every field of a good lens keeps; at first, what four lenses of five keep.</source><translation>Was jedes Feld eines guten Objektivs einhält; anfangs, was vier von fünf Objektiven einhalten.</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
 <message><source>What is selected: drag it along the axis. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen. Ein Klick hebt die Auswahl auf.</translation></message>
+<message><source>What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What stands in the stop: an obscuration, the blades of an iris, the vanes of a spider, a filter, a phase plate; phases and amplitudes of a lens file stay.</source><translation>Was in der Blende steht: eine Abschattung, die Lamellen einer Iris, die Streben einer Spinne, ein Filter, eine Phasenplatte; Phasen und Amplituden einer Objektivdatei bleiben.</translation></message>
@@ -761,6 +785,7 @@
 <message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
 <message><source>What the plot at the right shows: every method at this point, or every representation of all the lens's PSFs</source><translation>Was das rechte Diagramm zeigt: alle Verfahren an diesem Punkt, oder alle Darstellungen aller PSFs des Objektivs</translation></message>
 <message><source>What the slider is about: an error, or the time of a picture</source><translation>Worum es beim Regler geht: einen Fehler oder die Zeit eines Bildes</translation></message>
+<message><source>What workshops offer under this name; ± values below are typed over.</source><translation>Was Werkstätten unter diesem Namen anbieten; die ±-Werte unten lassen sich überschreiben.</translation></message>
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
@@ -780,6 +805,7 @@
 <message><source>Workspace</source><translation>Arbeitsbereich</translation></message>
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
 <message><source>You can go on. If something looks wrong, undo the last step (Ctrl+Z), or close the explorer and start it again.</source><translation>Es kann weitergehen. Sieht etwas falsch aus, den letzten Schritt zurücknehmen (Strg+Z) oder den Explorer schließen und neu starten.</translation></message>
+<message><source>Worst builds: click to see one as A beside the lens as designed, B</source><translation>Schlechteste Exemplare: ein Klick zeigt eines als A neben dem Objektiv wie entworfen, B</translation></message>
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
@@ -864,6 +890,7 @@
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
 <message><source>a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; 8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
+<message><source>adds, λ</source><translation>fügt hinzu, λ</translation></message>
 <message><source>agf_formula is {formula}; write a number from 1 to 13</source><translation>agf_formula ist {formula}; eine Zahl von 1 bis 13 schreiben</translation></message>
 <message><source>aim "{aim}" is unknown; choose "stop" or "paraxial"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "stop" oder "paraxial" wählen</translation></message>
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
@@ -892,6 +919,8 @@
 <message><source>apodisation</source><translation>Apodisation</translation></message>
 <message><source>apodisation power</source><translation>Potenz der Apodisation</translation></message>
 <message><source>apodised</source><translation>apodisiert</translation></message>
+<message><source>as designed</source><translation>wie entworfen</translation></message>
+<message><source>as designed {value}</source><translation>wie entworfen {value}</translation></message>
 <message><source>as in the file</source><translation>laut Datei</translation></message>
 <message><source>as it is</source><translation>wie es ist</translation></message>
 <message><source>ask for {mirror:.6g} {unit}, whose PSF is the same upside down, or build one that reaches there</source><translation>{mirror:.6g} {unit} verlangen, wo die PSF dieselbe kopfüber ist, oder eine bauen, die dorthin reicht</translation></message>
@@ -904,6 +933,7 @@
 <message><source>at infinity</source><translation>im Unendlichen</translation></message>
 <message><source>at {wavelength} nm</source><translation>bei {wavelength} nm</translation></message>
 <message><source>auto</source><translation>auto</translation></message>
+<message><source>back focus</source><translation>Schnittweite zum Sensor</translation></message>
 <message><source>back to the lens's own value</source><translation>zurück zum Wert des Objektivs</translation></message>
 <message><source>barrel {part} at {field}</source><translation>Tonne {part} bei {field}</translation></message>
 <message><source>begins a non-sequential part</source><translation>beginnt einen nicht sequentiellen Teil</translation></message>
@@ -921,6 +951,8 @@
 <message><source>blurred</source><translation>unscharf</translation></message>
 <message><source>brightness</source><translation>Helligkeit</translation></message>
 <message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
+<message><source>build</source><translation>Exemplar</translation></message>
+<message><source>builds</source><translation>Exemplare</translation></message>
 <message><source>by R²</source><translation>nach R²</translation></message>
 <message><source>by field</source><translation>nach Feld</translation></message>
 <message><source>by hand</source><translation>von Hand</translation></message>
@@ -966,14 +998,19 @@
 <message><source>column {name} is missing</source><translation>die Spalte {name} fehlt</translation></message>
 <message><source>columns is {found}; write at least two names, as in ["wide", "tele"]</source><translation>columns ist {found}; mindestens zwei Namen schreiben, etwa ["wide", "tele"]</translation></message>
 <message><source>coma</source><translation>Koma</translation></message>
+<message><source>commercial grade</source><translation>Klasse handelsüblich</translation></message>
 <message><source>compensators {places} are not among the {count} tolerances</source><translation>Kompensatoren {places} sind nicht unter den {count} Toleranzen</translation></message>
+<message><source>computing</source><translation>rechnet</translation></message>
 <message><source>computing settings</source><translation>Recheneinstellungen</translation></message>
+<message><source>computing, {percent} %</source><translation>rechnet, {percent} %</translation></message>
 <message><source>configuration</source><translation>Konfiguration</translation></message>
 <message><source>configurations differ in {names}, which are not read; all have those of the surfaces</source><translation>Konfigurationen unterscheiden sich in {names}, was nicht gelesen wird; alle haben das der Flächen</translation></message>
 <message><source>conic constant</source><translation>Kegelschnittkonstante</translation></message>
 <message><source>contour</source><translation>Höhenlinien</translation></message>
 <message><source>contours</source><translation>Höhenlinien</translation></message>
 <message><source>contrast</source><translation>Kontrast</translation></message>
+<message><source>contrast (MTF)</source><translation>Kontrast (MTF)</translation></message>
+<message><source>contrast ≥ {limit}</source><translation>Kontrast ≥ {limit}</translation></message>
 <message><source>control codes of the optimiser</source><translation>Steuerzeichen der Optimierung</translation></message>
 <message><source>corner {field}</source><translation>Ecke {field}</translation></message>
 <message><source>correct the line</source><translation>die Zeile berichtigen</translation></message>
@@ -983,6 +1020,9 @@
 <message><source>curvature</source><translation>Krümmung</translation></message>
 <message><source>cut by the frame's edge</source><translation>vom Rand der Aufnahme angeschnitten</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
+<message><source>decentre</source><translation>Dezentrierung</translation></message>
+<message><source>decentre x, surface {where}</source><translation>Dezentrierung x, Fläche {where}</translation></message>
+<message><source>decentre y, surface {where}</source><translation>Dezentrierung y, Fläche {where}</translation></message>
 <message><source>decimal separator</source><translation>,</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
 <message><source>defocus grows with 1/distance, so nodes stand at equal steps of it</source><translation>die Defokussierung wächst mit 1/Abstand, daher stehen die Knoten in gleichen Schritten davon</translation></message>
@@ -1111,6 +1151,7 @@
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
 <message><source>has no diffracted direction behind surface {surface}, whose phase is too steep there</source><translation>hat hinter Fläche {surface} keine gebeugte Richtung, deren Phase dort zu steil ist</translation></message>
 <message><source>heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Höhen × Abstände × Wellenlängen: {heights} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
+<message><source>high precision grade</source><translation>Klasse hochpräzise</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
 <message><source>ideal lens</source><translation>ideale Linse</translation></message>
@@ -1126,6 +1167,7 @@
 <message><source>in</source><translation>in</translation></message>
 <message><source>index</source><translation>Index</translation></message>
 <message><source>index 0 behind a curved surface is read as air, as PBRT does</source><translation>Index 0 hinter einer gekrümmten Fläche wird als Luft gelesen, wie in PBRT</translation></message>
+<message><source>index behind surface {where}</source><translation>Brechzahl hinter Fläche {where}</translation></message>
 <message><source>infinity</source><translation>unendlich</translation></message>
 <message><source>inner radius</source><translation>Innenradius</translation></message>
 <message><source>interpolant "{interpolant}" is unknown; choose {interpolants}</source><translation>die Interpolation "{interpolant}" ist unbekannt; {interpolants} wählen</translation></message>
@@ -1166,6 +1208,7 @@
 <message><source>lens unit "{unit}" is none of MM, CM, IN, M; correct it</source><translation>die Längeneinheit "{unit}" ist keine von MM, CM, IN, M; berichtigen</translation></message>
 <message><source>lens unit "{unit}" is none of {units}; correct it</source><translation>Die Längeneinheit „{unit}“ ist keine von {units}; bitte berichtigen</translation></message>
 <message><source>lens unit "{unit}" is not in mm; correct it</source><translation>Die Längeneinheit „{unit}“ ist nicht in mm angegeben; bitte berichtigen</translation></message>
+<message><source>limit of the criterion</source><translation>Grenze des Kriteriums</translation></message>
 <message><source>line every {step} λ</source><translation>Linie alle {step} λ</translation></message>
 <message><source>line {line}: {message}</source><translation>Zeile {line}: {message}</translation></message>
 <message><source>linear</source><translation>linear</translation></message>
@@ -1242,6 +1285,7 @@
 <message><source>not used because</source><translation>nicht verwendet, weil</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
+<message><source>nothing of this lens can be off; give it a surface with power</source><translation>an diesem Objektiv kann nichts abweichen; ihm eine Fläche mit Brechkraft geben</translation></message>
 <message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
 <message><source>number of blades</source><translation>Zahl der Lamellen</translation></message>
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
@@ -1250,6 +1294,8 @@
 <message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
 <message><source>number of rows</source><translation>Anzahl der Zeilen</translation></message>
+<message><source>number of the build</source><translation>Nummer des Exemplars</translation></message>
+<message><source>number of the draw</source><translation>Nummer der Ziehung</translation></message>
 <message><source>number of vanes</source><translation>Zahl der Streben</translation></message>
 <message><source>number of wavelengths</source><translation>Anzahl der Wellenlängen</translation></message>
 <message><source>numerical aperture {value:g} is impossible in index {index:g}; correct it</source><translation>die numerische Apertur {value:g} ist im Index {index:g} unmöglich; berichtigen</translation></message>
@@ -1316,6 +1362,7 @@
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
 <message><source>points {depth} away blur over {size:.2g} mm, which takes {side}² samples of {most}² at most; bring the depths nearer to the focus or stop down</source><translation>Punkte in {depth} Entfernung verschwimmen über {size:.2g} mm, das braucht {side}² Proben von höchstens {most}²; die Abstände näher an den Fokus bringen oder abblenden</translation></message>
 <message><source>position {number} of {count} lacks a distance; those before it are read</source><translation>Stellung {number} von {count} fehlt ein Abstand; die davor werden gelesen</translation></message>
+<message><source>precision grade</source><translation>Klasse präzise</translation></message>
 <message><source>predicted 1 − R² ≤ {error}</source><translation>vorhergesagt 1 − R² ≤ {error}</translation></message>
 <message><source>predicted R² ≥ {r}</source><translation>vorhergesagt R² ≥ {r}</translation></message>
 <message><source>present field</source><translation>jetziges Feld</translation></message>
@@ -1338,6 +1385,7 @@
 <message><source>quaternary trefoil</source><translation>quartärer Dreiblattfehler</translation></message>
 <message><source>radius</source><translation>Radius</translation></message>
 <message><source>radius {number}: {radius} mm</source><translation>Radius {number}: {radius} mm</translation></message>
+<message><source>radius, surface {where}</source><translation>Radius, Fläche {where}</translation></message>
 <message><source>radius, µm</source><translation>Radius, µm</translation></message>
 <message><source>rail_shares is {value}; give a list of numbers</source><translation>rail_shares ist {value}; geben Sie eine Liste von Zahlen an</translation></message>
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
@@ -1408,6 +1456,10 @@
 <message><source>sharpened</source><translation>geschärft</translation></message>
 <message><source>sharpened by its PSFs</source><translation>mit seinen PSFs geschärft</translation></message>
 <message><source>sharpened wrongly</source><translation>falsch geschärft</translation></message>
+<message><source>shift of the image</source><translation>Verschiebung des Bildes</translation></message>
+<message><source>shift of the image, µm</source><translation>Verschiebung des Bildes, µm</translation></message>
+<message><source>shift ≤ {limit} µm</source><translation>Verschiebung ≤ {limit} µm</translation></message>
+<message><source>shifts, µm</source><translation>verschiebt, µm</translation></message>
 <message><source>shown is "{side}" and nothing is pinned as B; pin a state first (Ctrl+B)</source><translation>gezeigt wird "{side}", und nichts ist als B gemerkt; zuerst einen Zustand merken (Strg+B)</translation></message>
 <message><source>side by side</source><translation>nebeneinander</translation></message>
 <message><source>sides of the photo cut off</source><translation>Foto seitlich abgeschnitten</translation></message>
@@ -1509,6 +1561,7 @@
 <message><source>table 1 of the paper</source><translation>Tabelle 1 des Aufsatzes</translation></message>
 <message><source>table1 {error} λ</source><translation>Tabelle 1 {error} λ</translation></message>
 <message><source>taken differently from the file</source><translation>anders genommen als in der Datei</translation></message>
+<message><source>takes</source><translation>nimmt</translation></message>
 <message><source>tangential</source><translation>tangential</translation></message>
 <message><source>tangential T</source><translation>tangential T</translation></message>
 <message><source>tangential T, third order</source><translation>tangential T, dritte Ordnung</translation></message>
@@ -1723,6 +1776,7 @@
 <message><source>thick exact rays, fine third order</source><translation>dick exakt, fein 3. Ordnung</translation></message>
 <message><source>thick tangential, fine sagittal</source><translation>dick tangential, fein sagittal</translation></message>
 <message><source>thickness</source><translation>Dicke</translation></message>
+<message><source>thickness behind surface {where}</source><translation>Dicke hinter Fläche {where}</translation></message>
 <message><source>thickness {number}: {thickness} mm</source><translation>Dicke {number}: {thickness} mm</translation></message>
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rays} Strahlen; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
@@ -1744,6 +1798,8 @@
 <message><source>tilt or decentre</source><translation>Kippung oder Dezentrierung</translation></message>
 <message><source>tilt to +x</source><translation>Kippung nach +x</translation></message>
 <message><source>tilt to +y</source><translation>Kippung nach +y</translation></message>
+<message><source>tilt x, surface {where}</source><translation>Kippung x, Fläche {where}</translation></message>
+<message><source>tilt y, surface {where}</source><translation>Kippung y, Fläche {where}</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
@@ -1751,6 +1807,7 @@
 <message><source>titles, sessions and computing settings</source><translation>Titel, Sitzungen und Recheneinstellungen</translation></message>
 <message><source>to</source><translation>bis</translation></message>
 <message><source>to the next or the previous control</source><translation>zum nächsten oder vorigen Bedienteil</translation></message>
+<message><source>tolerance</source><translation>Toleranz</translation></message>
 <message><source>tolerance "{kind}" is unknown; choose one of {kinds}</source><translation>die Toleranz "{kind}" ist unbekannt; eine von {kinds} wählen</translation></message>
 <message><source>tolerance R²</source><translation>Toleranz R²</translation></message>
 <message><source>tolerances and merit function</source><translation>Toleranzen und Gütefunktion</translation></message>
@@ -1806,6 +1863,7 @@
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
 <message><source>with wheel, arrows or a dragged number: ten times as coarse, ten times as fine</source><translation>mit Rad, Pfeilen oder beim Ziehen an einer Zahl: zehnmal so grob, zehnmal so fein</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
+<message><source>worst</source><translation>schlechteste</translation></message>
 <message><source>worst R² ≥ {r}</source><translation>kleinstes R² ≥ {r}</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
@@ -1834,6 +1892,7 @@
 <message><source>y, µm</source><translation>y, µm</translation></message>
 <message><source>y, µm (towards the axis)</source><translation>y, µm (zur Achse hin)</translation></message>
 <message><source>y, µm (towards the field)</source><translation>y, µm (zum Feld hin)</translation></message>
+<message><source>yield, %</source><translation>Ausbeute, %</translation></message>
 <message><source>y–ȳ</source><translation>y–ȳ</translation></message>
 <message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
@@ -1924,6 +1983,7 @@
 <message><source>{name} has changed on disk; your edits are kept, Back to file takes the new one</source><translation>{name} hat sich auf dem Datenträger geändert; Ihre Änderungen bleiben, „Zurück zur Datei“ nimmt die neue</translation></message>
 <message><source>{name} has one list, and the lens has two rings; write {{ zoom = […] }} or {{ focus = […] }}, or a list of lists</source><translation>{name} hat eine Liste, und das Objektiv zwei Ringe; {{ zoom = […] }} oder {{ focus = […] }} schreiben, oder eine Liste von Listen</translation></message>
 <message><source>{name} has the ending "{ending}"; give the scene a name in {names}</source><translation>{name} hat die Endung "{ending}"; der Szene einen Namen mit {names} geben</translation></message>
+<message><source>{name} has {row}; give {words}, of one of {kinds}</source><translation>{name} hat {row}; {words} angeben, aus {kinds}</translation></message>
 <message><source>{name} is "{value}"; choose one of {choices}</source><translation>{name} ist "{value}"; eines von {choices} wählen</translation></message>
 <message><source>{name} is "{word}"; give a number</source><translation>{name} ist "{word}"; eine Zahl angeben</translation></message>
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
@@ -2054,6 +2114,7 @@
 <message><source>{sampling}; the lens set straight, without its tilts and decentres</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen und Dezentrierungen</translation></message>
 <message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
+<message><source>{share} % ± {error} % keep {limit}</source><translation>{share} % ± {error} % halten {limit}</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
 <message><source>{surface} diffracts ({kind}) and not by a phase in powers of r²; only such phases are read</source><translation>{surface} beugt ({kind}), und nicht mit einer Phase in Potenzen von r²; nur solche Phasen werden gelesen</translation></message>

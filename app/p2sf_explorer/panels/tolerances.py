@@ -1,0 +1,623 @@
+"""Tolerances: which error hurts, what share of ten thousand built lenses is good enough, and the worst of them."""
+
+from functools import partial
+from math import inf
+
+import numpy as np
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QAction, QColor, QPainter, QResizeEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QDoubleSpinBox,
+    QGridLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QMenu,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTableWidget,
+    QTableWidgetItem,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
+from p2sf.messages import Message
+from p2sf.tolerance import GRADES, Tolerance
+from p2sf.tolerance.criteria import LARGE_IS_GOOD
+from p2sf.tolerance.errors_of_build import UNITS, Kind
+from p2sf_explorer.charts.overlay import Overlay
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.state.scales import read_number, significant
+from p2sf_explorer.state.state import ToleranceView
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.tolerancing.analysis import (
+    Analyst,
+    Figures,
+    ToleranceQuestion,
+    ToleranceRequest,
+    ToleranceResult,
+    figures,
+    opened_build,
+    with_build,
+    with_own,
+    without_build,
+)
+from p2sf_explorer.widgets.card import Card, chooser, select
+from p2sf_explorer.widgets.chart_card import NotedChart
+from p2sf_explorer.widgets.plan_note import small_button
+from p2sf_explorer.workers.worker import LatestWins
+
+TIP = (
+    "Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within "
+    "its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew."
+)
+GRADE_TIP = "What workshops offer under this name; ± values below are typed over."
+CRITERION_TIP = "What a lens is judged by, in the worst of three fields: axis, seven tenths and edge."
+LIMIT_TIP = "What every field of a good lens keeps; at first, what four lenses of five keep."
+COMPENSATOR_TIP = "What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least."
+GRADE_WORDS = (("commercial", "commercial grade"), ("precision", "precision grade"), ("high", "high precision grade"))
+CRITERION_WORDS = (
+    ("rms_waves", "RMS wavefront"),
+    ("strehl", "Strehl ratio"),
+    ("mtf", "contrast (MTF)"),
+    ("boresight_um", "shift of the image"),
+)
+AXES = {
+    "rms_waves": "RMS wavefront, waves",
+    "strehl": "Strehl ratio",
+    "mtf": "contrast",
+    "boresight_um": "shift of the image, µm",
+}
+SIGNS = {"rms_waves": "RMS ≤ {limit} λ", "strehl": "Strehl ratio ≥ {limit}", "mtf": "contrast ≥ {limit}"} | {
+    "boresight_um": "shift ≤ {limit} µm"
+}
+HARMS = {"rms_waves": "adds, λ", "strehl": "takes", "mtf": "takes", "boresight_um": "shifts, µm"}
+SUFFIXES = {"rms_waves": " λ", "strehl": "", "mtf": "", "boresight_um": " µm"}
+ERROR_WORDS: dict[Kind, str] = {
+    "decentre_x": "decentre x, surface {where}",
+    "decentre_y": "decentre y, surface {where}",
+    "tilt_x": "tilt x, surface {where}",
+    "tilt_y": "tilt y, surface {where}",
+    "radius": "radius, surface {where}",
+    "thickness": "thickness behind surface {where}",
+    "index": "index behind surface {where}",
+}
+# What one value of a grade is for: name and kinds.
+OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
+    ("decentre", ("decentre_x", "decentre_y")),
+    ("tilt", ("tilt_x", "tilt_y")),
+    ("radius", ("radius",)),
+    ("thickness", ("thickness",)),
+    ("index", ("index",)),
+)
+WIDE, LOW = 720, 320  # pixels at scale 1 from which the parts stand side by side, and below which the list has no room
+
+
+class TolerancesPanel:
+    """Settings in two rows; below them errors by their harm, histogram and yield, and the worst builds."""
+
+    def __init__(self, store: Store):
+        self._store = store
+        self.widget = Card("Tolerances", TIP)
+        self.grade = chooser(GRADE_WORDS, GRADE_TIP, self.widget)
+        self.criterion = chooser(CRITERION_WORDS, CRITERION_TIP, self.widget)
+        self.stop_button = small_button("Stop", "Stop the computation", self._stop)
+        self.again = small_button("Draw again", "Build ten thousand other lenses", self._draw_again)
+        self.back = small_button("As designed", "Close the build, and show the lens as designed", self._close_build)
+        self.as_grade = small_button("As the grade", "Drop all values of one's own", self._drop_own)
+        self.limit, self.frequency = _number_box(LIMIT_TIP, 4, 1e6), _number_box("Frequency on the sensor", 1, 1e5)
+        self.compensate = QToolButton()
+        self.kinds = {
+            name: _number_box("Tolerance of all errors of this kind", 4 if name == "index" else 3, 999.0)
+            for name, _ in OF_KINDS
+        }
+        self.errors, self.worst = ErrorTable(), BuildList()
+        self.histogram, self.yields = Histogram(), NotedChart("", "yield, %")
+        self.share = self.yields.add_curve("chief", 2)
+        self.band = [self.yields.add_curve("line") for _ in range(2)]
+        self.share.name = tr("yield, %")
+        self._theme = LIGHT
+        self._lay_out()
+        self.overlay = Overlay(self.body)
+        self._asked: ToleranceQuestion | None = None
+        self._request: ToleranceRequest | None = None
+        self._found: ToleranceResult | None = None
+        self._refusal, self._opened = "", 0
+        self.analyst, self.worker = Analyst(), LatestWins(self.widget)
+        self._connect()
+
+    def _lay_out(self) -> None:
+        self.widget.add_tool(self.grade)
+        self.widget.add_tool(self.criterion)
+        self.compensate.setObjectName("small")
+        self.compensate.setText(tr("Compensators"))
+        self.compensate.setToolTip(tr(COMPENSATOR_TIP))
+        self.compensate.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.compensate.setMenu(QMenu(self.compensate))
+        self.frequency.setSuffix(" /mm")
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        first = (self.limit, self.frequency, self.compensate, self.again, self.stop_button, self.back)
+        column.addWidget(_row(first))
+        self.kind_row = KindRow(self.kinds, self.as_grade)
+        column.addWidget(self.kind_row)
+        self.body = TolerancesBody(self.errors, (self.histogram, self.yields), self.worst, self.kind_row)
+        column.addWidget(self.body, 1)
+        self.widget.set_body(whole)
+
+    def _connect(self) -> None:
+        store = self._store
+        self.grade.activated.connect(lambda: store.update(tolerances_grade=self.grade.currentData()))
+        self.criterion.activated.connect(
+            lambda: store.update(tolerances_criterion=self.criterion.currentData(), tolerances_limit=None)
+        )
+        self.limit.valueChanged.connect(lambda value: store.update(tolerances_limit=value))
+        self.frequency.valueChanged.connect(
+            lambda value: store.update(tolerances_frequency_per_mm=value, tolerances_limit=None)
+        )
+        for (_, kinds), box in zip(OF_KINDS, self.kinds.values(), strict=True):
+            box.valueChanged.connect(partial(self._set_own, kinds, 0, 0))
+        self.errors.typed.connect(lambda one, value: self._set_own((one.kind,), one.piece[0], one.piece[1], value))
+        self.worst.opened.connect(self._open_build)
+        self.worker.finished.connect(self._on_answer)
+        self.worker.failed.connect(self._on_failure)
+        self.worker.progressed.connect(self._on_progress)
+
+    def show(self, live: Live) -> None:
+        """Follow settings and lens; the builds are drawn anew where these have changed and nothing is dragged."""
+        asked: ToleranceQuestion = live.views["tolerances"]
+        self._asked, self._opened = asked, opened_build(live.state)
+        self._show_settings(asked.view, asked.request.lens)
+        if asked.request != self._request and live.quality == "settled":
+            self._request, self._refusal = asked.request, ""
+            request = asked.request
+            self.worker.submit(
+                request, lambda cancelled, progress: self.analyst.answer(request, cancelled.is_set, progress)
+            )
+        self._paint()
+
+    def _show_settings(self, view: ToleranceView, lens: Lens) -> None:
+        select(self.grade, view.grade)
+        select(self.criterion, view.criterion)
+        self.frequency.setVisible(view.criterion == "mtf")
+        self.back.setVisible(bool(self._opened))
+        self.as_grade.setEnabled(bool(view.own))
+        _put(self.frequency, view.frequency_per_mm)
+        self.limit.setSuffix(SUFFIXES[view.criterion])
+        for (_, kinds), box in zip(OF_KINDS, self.kinds.values(), strict=True):
+            own = [amount for kind, first, _, amount in view.own if not first and kind == kinds[0]]
+            _put(box, own[-1] if own else GRADES[view.grade][kinds[0]])  # type: ignore[index]  # one of its choices
+        self._fill_compensators(view, lens)
+
+    def _fill_compensators(self, view: ToleranceView, lens: Lens) -> None:
+        """Offer the back focus, every other distance, and the sensor's tilts."""
+        menu, last = self.compensate.menu(), len(lens.surfaces)
+        menu.clear()
+        rows = [("thickness", 0, 0), *(("thickness", k, 0) for k in range(1, last))]
+        rows += [(kind, k, 0) for kind in ("tilt_x", "tilt_y") for k in (1, last)]
+        for row in rows:
+            action = QAction(_compensator_words(row), menu)
+            action.setCheckable(True)
+            action.setChecked(row in view.compensators)
+            action.triggered.connect(lambda _=False, row=row: self._turn_compensator(row))
+            menu.addAction(action)
+        self.compensate.setText(tr("Compensators: {count}", count=len(view.compensators)))
+
+    def _turn_compensator(self, row: tuple[str, int, int]) -> None:
+        have = self._store.state.tolerances.compensators
+        kept = tuple(one for one in have if one != row)
+        self._store.update(tolerances_compensators=kept if row in have else (*have, row))
+
+    def _set_own(self, kinds: tuple[Kind, ...], first: int, last: int, value: float) -> None:
+        made = with_own(self._store.state.tolerances, kinds, first, last, value)
+        self._store.update(tolerances_own=made.own)
+
+    def _drop_own(self) -> None:
+        self._store.update(tolerances_own=())
+
+    def _draw_again(self) -> None:
+        self._request = None
+        self._store.update(tolerances_draw=self._store.state.tolerances.draw + 1)
+
+    def _open_build(self, number: int) -> None:
+        if self._asked is None or self._found is None or self._stale():
+            return
+        try:
+            self._store.replace(with_build(self._asked, self._found, number))
+        except P2SFError as error:
+            self._store.refused.emit(error)
+
+    def _close_build(self) -> None:
+        self._store.replace(without_build(self._store.state))
+
+    def _stop(self) -> None:
+        self.worker.cancel()
+        self._refusal = tr("Stopped. Draw again starts anew.")
+        self._paint()
+
+    def _stale(self) -> bool:
+        return self._found is None or self._asked is None or self._found.request != self._asked.request
+
+    def _on_progress(self, key: ToleranceRequest, share: float) -> None:
+        if key == self._request and not self._refusal:
+            self.widget.set_readout(local(tr("computing, {percent} %", percent=f"{100 * share:.0f}")))
+
+    def _on_answer(self, key: ToleranceRequest, found: ToleranceResult) -> None:
+        if key == self._request:
+            self._found, self._refusal = found, ""
+            self._paint()
+
+    def _on_failure(self, key: ToleranceRequest, why: Message) -> None:
+        if key == self._request:
+            self._found, self._refusal = None, said(why)
+            self._paint()
+
+    def _paint(self) -> None:
+        """Paint the figures of the last result, if it is of these settings."""
+        stale = self._stale()
+        self.stop_button.setVisible(self.worker.busy)
+        self.again.setVisible(not self.worker.busy)
+        waiting = tr("The sensitivities are computed from exact rays.")
+        self.overlay.say(self._refusal or (waiting if self._found is None else ""), 0)
+        if self._asked is None or self._found is None:
+            return
+        if stale:
+            self.widget.set_readout(tr("computing"))
+            return
+        view = figures(self._found, self._asked.view)
+        self.errors.show_errors(view, self._asked.view)
+        self.worst.show_builds(view, self._opened)
+        self._paint_charts(view)
+        _put(self.limit, view.limit, view.places)
+        self.widget.set_readout(_sentence(view))
+
+    def _paint_charts(self, view: Figures) -> None:
+        limits, share, error = view.yields
+        self.share.set_data(limits, 100 * share)
+        for sign, curve in zip((-1, 1), self.band, strict=True):
+            curve.set_data(limits, 100 * (share + sign * error))
+        ends = float(view.edges[0]), float(view.edges[-1])
+        self.histogram.show_counts(view)
+        self.histogram.name_axes(AXES[view.criterion], "builds")
+        self.yields.name_axes(AXES[view.criterion], "yield, %")
+        self.histogram.set_range(ends, (0.0, 1.1 * float(view.counts.max())))
+        self.yields.set_range(ends, (0.0, 104.0))
+        marks = ((view.limit, "accent"), (view.nominal, "muted"))
+        note = (view.nominal, inf, f" {tr('as designed')}", "muted", -1)
+        self.histogram.show_notes((note,) if ends[0] <= view.nominal <= ends[1] else (), marks)
+        self.yields.show_notes((), marks)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._theme = theme
+        for part in (self.histogram, self.yields, self.errors, self.worst, self.body):
+            part.restyle(theme)
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+
+def _number_box(tip: str, places: int, most: float) -> QDoubleSpinBox:
+    box = QDoubleSpinBox()
+    box.setRange(0.0, most)
+    box.setDecimals(places)
+    box.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
+    box.setKeyboardTracking(False)
+    box.setToolTip(tr(tip))
+    box.setAccessibleName(tr(tip))
+    return box
+
+
+def _put(box: QDoubleSpinBox, value: float, places: int | None = None) -> None:
+    """Show a value, with so many decimals, without telling that it has changed."""
+    with QSignalBlocker(box):
+        box.setDecimals(box.decimals() if places is None else places)
+        box.setValue(value)
+
+
+def _row(parts: tuple[QWidget, ...]) -> QWidget:
+    body = QWidget()
+    row = QHBoxLayout(body)
+    row.setContentsMargins(0, 0, 0, 0)
+    row.setSpacing(4)
+    for part in parts:
+        row.addWidget(part)
+    row.addStretch(1)
+    return body
+
+
+def error_words(one: Tolerance) -> str:
+    """Return how an error is named."""
+    first, last = one.piece
+    return tr(ERROR_WORDS[one.kind], where=str(first) if first == last else f"{first}–{last}")
+
+
+def _compensator_words(row: tuple[str, int, int]) -> str:
+    kind, first, _ = row
+    return error_words(Tolerance(kind, first, 0.0)) if first else tr("back focus")  # type: ignore[arg-type]  # known
+
+
+def _sentence(view: Figures) -> str:
+    limit = tr(SIGNS[view.criterion], limit=local(f"{view.limit:.{view.places}f}"))
+    share, error = (local(f"{100 * value:.1f}") for value in (view.share, view.error))
+    nominal = tr("as designed {value}", value=local(f"{view.nominal:.{view.places}f}"))
+    return f"{tr('{share} % ± {error} % keep {limit}', share=share, error=error, limit=limit)} · {nominal}"
+
+
+class KindRow(QWidget):
+    """One value for all errors of a kind, each under its name; two lines where one has no room."""
+
+    def __init__(self, boxes: dict[str, QDoubleSpinBox], end: QWidget):
+        super().__init__()
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(4)
+        self._parts: list[QWidget] = []
+        for (name, kinds), box in zip(OF_KINDS, boxes.values(), strict=True):
+            unit = UNITS[kinds[0]]
+            box.setPrefix("± ")
+            box.setSuffix(f" {unit}" if unit not in ("", "°") else unit)
+            part, label = QWidget(), QLabel(tr(name))
+            label.setObjectName("muted")
+            line = QHBoxLayout(part)
+            line.setContentsMargins(0, 0, 0, 0)
+            line.setSpacing(4)
+            line.addWidget(label)
+            line.addWidget(box)
+            self._parts.append(part)
+        self._parts.append(end)
+        self._columns = 0
+        self._arrange(len(self._parts))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take as many columns as fit."""
+        super().resizeEvent(event)
+        widest = max(part.sizeHint().width() for part in self._parts) + self._grid.spacing()
+        self._arrange(max(1, min(len(self._parts), self.width() // widest)))
+
+    def _arrange(self, columns: int) -> None:
+        if columns == self._columns:
+            return
+        self._columns = columns
+        for number, part in enumerate(self._parts):
+            self._grid.addWidget(part, number // columns, number % columns, Qt.AlignmentFlag.AlignLeft)
+        for column in range(len(self._parts)):
+            self._grid.setColumnStretch(column, 0)
+        self._grid.setColumnStretch(columns, 1)
+
+
+class TolerancesBody(QWidget):
+    """Errors, charts and builds side by side; where that is too narrow, one above the other.
+
+    Where it is too low, errors alone, without charts, builds and the values of ``kinds``.
+    """
+
+    def __init__(self, errors: QWidget, charts: tuple[QWidget, QWidget], worst: QWidget, kinds: QWidget):
+        super().__init__()
+        self._errors, self._charts, self._worst, self._kinds = errors, QWidget(), worst, kinds
+        self._chart_box = QGridLayout(self._charts)
+        self._grid = QGridLayout(self)
+        for grid in (self._grid, self._chart_box):
+            grid.setContentsMargins(0, 0, 0, 0)
+            grid.setSpacing(6)
+        self._both, self._scale, self._arranged = charts, 1.0, ""
+        self._arrange("wide")
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the scale of a theme."""
+        self._scale = theme.scale
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Turn to where there is room."""
+        super().resizeEvent(event)
+        high = self.height() + (0 if self._kinds.isHidden() else self._kinds.height())
+        if high < LOW * self._scale:
+            self._arrange("low")
+        else:
+            self._arrange("wide" if self.width() >= WIDE * self._scale else "tall")
+
+    def _arrange(self, how: str) -> None:
+        if how == self._arranged:
+            return
+        self._arranged = how
+        wide, low = how == "wide", how == "low"
+        for number, chart in enumerate(self._both):
+            self._chart_box.addWidget(chart, number if wide else 0, 0 if wide else number)
+        places = {"wide": ((0, 0), (0, 1), (0, 2)), "tall": ((1, 0), (0, 0), (2, 0)), "low": ((0, 0), (0, 1), (1, 0))}
+        for part, place in zip((self._errors, self._charts, self._worst), places[how], strict=True):
+            self._grid.addWidget(part, *place)
+        stretches = {"wide": (4, 5, 2), "tall": (1, 0, 0), "low": (1, 0, 0)}[how]
+        for column, stretch in enumerate(stretches):
+            self._grid.setColumnStretch(column, stretch)
+        for row, stretch in enumerate((4, 5, 3) if how == "tall" else (1, 0, 0)):
+            self._grid.setRowStretch(row, stretch)
+        self._worst.setVisible(not low)
+        self._kinds.setVisible(not low)
+        self._charts.setVisible(not low)
+
+
+class Histogram(NotedChart):
+    """How many builds have which value; those that keep the limit in another colour than those that do not."""
+
+    def __init__(self) -> None:
+        super().__init__("", "builds")
+        self._view: Figures | None = None
+
+    def show_counts(self, view: Figures) -> None:
+        """Show a histogram."""
+        self._view = view
+        self.update()
+
+    def rows_of_data(self) -> list[list[str]]:
+        """Return the bars as rows."""
+        view = self._view
+        if view is None:
+            return []
+        rows = zip(view.edges[:-1], view.edges[1:], view.counts, strict=True)
+        return [["from", "to", "builds"], *([f"{low:.9g}", f"{high:.9g}", str(count)] for low, high, count in rows)]
+
+    def paint_over(self, painter: QPainter) -> None:
+        """Paint the bars, then lines and text."""
+        if self._view is not None:
+            edges, _ = self.to_pixels(self._view.edges, np.zeros(1))
+            _, tops = self.to_pixels(np.zeros(1), np.asarray(self._view.counts, float))
+            floor = self.area.bottom()
+            good = self._view.criterion in LARGE_IS_GOOD
+            for left, right, top, start in zip(edges[:-1], edges[1:], tops, self._view.edges, strict=False):
+                kept = (start >= self._view.limit) == good
+                colour = QColor(self.theme.positive if kept else self.theme.negative)
+                painter.fillRect(QRectF(float(left), float(top), float(right - left), floor - float(top)), colour)
+        super().paint_over(painter)
+
+
+class _Table(QTableWidget):
+    """A table of rows that are chosen whole, in the look of the theme."""
+
+    def __init__(self, heads: tuple[str, ...], name: str):
+        super().__init__(0, len(heads))
+        self.setHorizontalHeaderLabels([tr(head) for head in heads])
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setTabKeyNavigation(False)
+        self.setShowGrid(False)
+        self.verticalHeader().hide()
+        self.horizontalHeader().setStretchLastSection(True)
+        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.setAccessibleName(tr(name))
+        self.setMinimumHeight(60)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the scale of a theme."""
+        self.verticalHeader().setDefaultSectionSize(theme.px(22))
+        self.viewport().update()
+
+    def put(self, row: int, column: int, text: str, right: bool = False) -> QTableWidgetItem:
+        """Write a cell."""
+        item = QTableWidgetItem(text)
+        side = Qt.AlignmentFlag.AlignRight if right else Qt.AlignmentFlag.AlignLeft
+        item.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+        item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
+        self.setItem(row, column, item)
+        return item
+
+
+SHARE_ROLE = Qt.ItemDataRole.UserRole
+
+
+class BarDelegate(QStyledItemDelegate):
+    """Paints a bar behind a number, as long as its share of the largest."""
+
+    def __init__(self, table: QTableWidget):
+        super().__init__(table)
+        self.colour = QColor(LIGHT.marginal)
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        """Paint bar and number."""
+        share = index.data(SHARE_ROLE) or 0.0
+        room = QRectF(option.rect).adjusted(2, 3, -2, -3)
+        painter.fillRect(QRectF(room.left(), room.top(), room.width() * min(share, 1.0), room.height()), self.colour)
+        super().paint(painter, option, index)
+
+
+class ErrorTable(_Table):
+    """Errors, the most harmful first; a ± value may be typed over (``typed``: which, and its new amount)."""
+
+    typed = Signal(object, float)
+
+    def __init__(self) -> None:
+        super().__init__(("error", "±", HARMS["rms_waves"]), "Errors by their harm")
+        self.setEditTriggers(
+            QAbstractItemView.EditTrigger.DoubleClicked
+            | QAbstractItemView.EditTrigger.EditKeyPressed
+            | QAbstractItemView.EditTrigger.AnyKeyPressed
+        )
+        self._bars = BarDelegate(self)
+        self.setItemDelegateForColumn(2, self._bars)
+        self._rows: tuple[Tolerance, ...] = ()
+        self.itemChanged.connect(self._on_typed)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours of a theme."""
+        self._bars.colour = QColor(theme.marginal)
+        self._bars.colour.setAlpha(90)
+        super().restyle(theme)
+
+    def show_errors(self, view: Figures, settings: ToleranceView) -> None:
+        """Show a row for each error; own values are in bold."""
+        own = {(kind, first, max(first, last)) for kind, first, last, _ in settings.own}
+        most = max((abs(harm) for _, _, harm in view.errors), default=0.0) or 1.0
+        with QSignalBlocker(self):
+            self.setHorizontalHeaderItem(2, QTableWidgetItem(tr(HARMS[view.criterion])))
+            self.setRowCount(len(view.errors))
+            self._rows = tuple(one for one, _, _ in view.errors)
+            for row, (one, _, harm) in enumerate(view.errors):
+                self.put(row, 0, error_words(one))
+                amount = self.put(row, 1, local(_written_amount(one)), right=True)
+                amount.setFlags(amount.flags() | Qt.ItemFlag.ItemIsEditable)
+                font = amount.font()
+                font.setBold((one.kind, *one.piece) in own or (one.kind, 0, 0) in own)
+                amount.setFont(font)
+                digits = significant(harm, 2) if abs(harm) >= 1e-3 * most else "0"
+                self.put(row, 2, local(digits), right=True).setData(SHARE_ROLE, max(harm, 0.0) / most)
+
+    def _on_typed(self, item: QTableWidgetItem) -> None:
+        one = self._rows[item.row()]
+        try:
+            unit = UNITS[one.kind]
+            value = read_number(item.text(), "tolerance", {"": 1.0, unit: 1.0})
+        except P2SFError:
+            value = -1.0
+        if value >= 0:
+            self.typed.emit(one, value)
+        else:
+            with QSignalBlocker(self):
+                item.setText(local(_written_amount(one)))
+
+
+def _written_amount(one: Tolerance) -> str:
+    unit = UNITS[one.kind]
+    return f"{one.amount:g}{unit}" if unit in ("", "°") else f"{one.amount:g} {unit}"
+
+
+class BuildList(_Table):
+    """The worst builds; a click, or Enter, opens one (``opened``: its number from 0)."""
+
+    opened = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__(("build", "worst"), "Worst builds: click to see one as A beside the lens as designed, B")
+        self.setToolTip(tr("Worst builds: click to see one as A beside the lens as designed, B"))
+        self._numbers: tuple[int, ...] = ()
+        self.cellClicked.connect(lambda row, _: self._open(row))
+        self.cellActivated.connect(lambda row, _: self._open(row))
+
+    def show_builds(self, view: Figures, opened: int) -> None:
+        """List builds, the one on screen chosen."""
+        with QSignalBlocker(self):
+            self.setHorizontalHeaderItem(1, QTableWidgetItem(tr(AXES[view.criterion])))
+            self._numbers = tuple(number for number, _ in view.worst)
+            self.setRowCount(len(view.worst))
+            for row, (number, value) in enumerate(view.worst):
+                self.put(row, 0, str(number + 1), right=True)
+                self.put(row, 1, local(f"{value:.{view.places}f}"), right=True)
+            if opened - 1 in self._numbers:
+                self.selectRow(self._numbers.index(opened - 1))
+            else:
+                self.clearSelection()
+
+    def _open(self, row: int) -> None:
+        if row < len(self._numbers):
+            self.opened.emit(self._numbers[row])

@@ -1,0 +1,253 @@
+"""Sensitivities and ten thousand builds of the lens on screen: what they depend on, and the figures the panel shows.
+
+They take seconds: only `question` runs on the live path, and a worker runs `Analyst.answer`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import floor, log10
+
+import numpy as np
+
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.lensfile.toml import lens_to_toml
+from p2sf.tolerance import (
+    Builds,
+    Differentials,
+    Tolerance,
+    build,
+    differentials,
+    harms,
+    of_worst_field,
+    sensitivities,
+    simulate,
+    usual_sources,
+    usual_tolerances,
+)
+from p2sf.tolerance.criteria import LARGE_IS_GOOD, Criterion, best_first, keeps, share_of
+from p2sf.tolerance.errors_of_build import Kind
+from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.state.limits import MASK
+from p2sf_explorer.state.pinning import pin, side_b, unpin
+from p2sf_explorer.state.state import State, ToleranceView, changed
+
+BUILDS = 10_000
+PREPARATION = 0.5  # of the time, as progress is told
+LISTED = 50  # worst builds
+BINS, LIMITS = 60, 121
+MOST_PLACES = 9
+MOST_SHOWN = 99.5  # per cent of the builds that histogram and yield reach
+USUAL_SHARE = 80.0  # per cent of builds that keep the limit where none is asked for
+TILTING_DEG = 0.05  # over which the effect of a tilt as a compensator is looked at
+
+
+@dataclass(frozen=True)
+class ToleranceRequest:
+    """Everything sensitivities and builds depend on; ``places``: which of the tolerances are compensators."""
+
+    lens: Lens
+    sources: tuple[Source, ...]
+    tolerances: tuple[Tolerance, ...]
+    places: tuple[int, ...]
+    frequency_per_mm: float | None
+    draw: int
+
+
+@dataclass(frozen=True)
+class ToleranceQuestion:
+    """What is asked of the lens as designed, its ``state``, and how the panel shows it."""
+
+    request: ToleranceRequest
+    view: ToleranceView
+    state: State
+
+
+@dataclass(frozen=True, eq=False)
+class ToleranceResult:
+    """The lens with one error at a time, and random builds."""
+
+    request: ToleranceRequest
+    known: Differentials
+    alone: Builds
+    builds: Builds
+
+
+@dataclass(frozen=True, eq=False)
+class Figures:
+    """What the panel shows, by its criterion in the worst field, which is written with ``places`` decimals.
+
+    ``errors``: each tolerance, its place and by how much it makes the lens worse, the largest first. ``edges`` and
+    ``counts`` of the histogram. ``yields``: (3, limits) limit, share of the builds that keep it and its standard error.
+    ``share`` and ``error``: of ``limit``. ``worst``: number, from 0, and value of builds, the worst first.
+    """
+
+    criterion: Criterion
+    places: int
+    nominal: float
+    errors: tuple[tuple[Tolerance, int, float], ...]
+    edges: np.ndarray
+    counts: np.ndarray
+    yields: np.ndarray
+    limit: float
+    share: float
+    error: float
+    worst: tuple[tuple[int, float], ...]
+
+
+def question(live: Live) -> ToleranceQuestion:
+    """Return what is asked of the lens on screen, or of the one a build on screen was made from."""
+    state, setup = live.state, live.setup
+    if opened_build(state):
+        state = side_b(state)
+        setup = paraxial_setup(state)
+    return ToleranceQuestion(request_of(setup.lens, setup.source, state.tolerances), state.tolerances, unpin(state))
+
+
+def opened_build(state: State) -> int:
+    """Return which build A is, from 1, with the lens that it was made from as B; 0 where that is not so."""
+    b = state.compare.pinned
+    made = b is not None and state.optics.lens_text is not None and b.optics.lens == state.optics.lens
+    return state.tolerances.build if made else 0
+
+
+def request_of(lens: Lens, source: Source, view: ToleranceView) -> ToleranceRequest:
+    """Return the request for a lens; GeometryError for own values of surfaces that it does not have."""
+    last = len(lens.surfaces)
+    compensators = [compensator(kind, first or last, to) for kind, first, to in view.compensators]
+    tolerances, places = with_compensators(chosen_tolerances(lens, view), compensators)
+    frequency = view.frequency_per_mm if view.criterion == "mtf" else None
+    return ToleranceRequest(lens, usual_sources(lens, source), tolerances, places, frequency, view.draw)
+
+
+def compensator(kind: str, first: int, last: int) -> Tolerance:
+    """Return what is set at assembly, with the amount over which its effect is looked at."""
+    tilts = kind.startswith("tilt")
+    return Tolerance(kind, first, TILTING_DEG if tilts else COMPENSATING_MM, last)  # type: ignore[arg-type]  # checked
+
+
+def chosen_tolerances(lens: Lens, view: ToleranceView) -> tuple[Tolerance, ...]:
+    """Return the tolerances of the grade, with own values of kinds, and of single ones, in their place."""
+    of_kinds = {kind: amount for kind, first, _, amount in view.own if not first}
+    single = {(kind, first, max(first, last)): amount for kind, first, last, amount in view.own if first}
+    found = []
+    for one in usual_tolerances(lens, view.grade):  # type: ignore[arg-type]  # one of the state's choices
+        amount = single.pop((one.kind, *one.piece), of_kinds.get(one.kind, one.amount))
+        found.append(replace(one, amount=amount))
+    for (kind, first, last), amount in single.items():
+        if last <= len(lens.surfaces):
+            found.append(Tolerance(kind, first, amount, last))  # type: ignore[arg-type]  # checked by the state
+    return tuple(found)
+
+
+def with_own(view: ToleranceView, kinds: tuple[Kind, ...], first: int, last: int, amount: float) -> ToleranceView:
+    """Return the view with own amounts of a piece, or with ``first`` 0 of all of these kinds, single ones included."""
+    kept = [row for row in view.own if row[0] not in kinds or (first and row[1:3] != (first, last))]
+    return replace(view, own=(*kept, *((kind, first, last, amount) for kind in kinds)))
+
+
+class Analyst:
+    """Answers requests, and keeps the differentials of the last one: other draws and criteria take them again."""
+
+    def __init__(self) -> None:
+        self._last: Differentials | None = None
+
+    def answer(
+        self, asked: ToleranceRequest, cancelled: Callable[[], bool], progress: Callable[[float], None]
+    ) -> ToleranceResult:
+        """Return the answer. Raises P2SFError where a ray is lost, and Cancelled."""
+        if not asked.tolerances:
+            raise GeometryError("nothing of this lens can be off; give it a surface with power")
+        known = self._last
+        if known is None or (known.lens, known.sources, known.tolerances) != (
+            asked.lens,
+            asked.sources,
+            asked.tolerances,
+        ):
+            known = differentials(
+                asked.lens, asked.sources, asked.tolerances, lambda share: progress(PREPARATION * share), cancelled
+            )
+            self._last = known
+        alone = sensitivities(known, asked.places, asked.frequency_per_mm)
+        builds = simulate(
+            known,
+            BUILDS,
+            asked.places,
+            asked.draw,
+            asked.frequency_per_mm,
+            lambda share: progress(PREPARATION + (1 - PREPARATION) * share),
+            cancelled,
+        )
+        return ToleranceResult(asked, known, alone, builds)
+
+
+def figures(found: ToleranceResult, view: ToleranceView) -> Figures:
+    """Return what the panel shows of a result by its criterion and limit."""
+    criterion: Criterion = view.criterion  # type: ignore[assignment]  # one of the state's choices
+    values, alone = of_worst_field(found.builds, criterion), of_worst_field(found.alone, criterion)
+    good = criterion in LARGE_IS_GOOD
+    limit, places = view.limit, _places(values)
+    if limit is None:
+        limit = round(float(np.percentile(values, 100 - USUAL_SHARE if good else USUAL_SHARE)), places)
+    low, high = _reach(values, limit, criterion)
+    counts, edges = np.histogram(values, BINS, (low, high))
+    limits = np.linspace(low, high, LIMITS)
+    yields = [share_of(keeps(values, criterion, one)) for one in limits]
+    worse = harms(found.alone, criterion, found.request.places)
+    rows = [
+        (one, place, float(worse[place]))
+        for place, one in enumerate(found.known.tolerances)
+        if place not in found.request.places
+    ]
+    rows.sort(key=lambda row: -row[2])
+    order = best_first(values, criterion)[::-1][:LISTED]
+    return Figures(
+        criterion,
+        places,
+        float(alone[-1]),
+        tuple(rows),
+        edges,
+        counts,
+        np.stack([limits, *np.transpose(yields)]),
+        limit,
+        *share_of(keeps(values, criterion, limit)),
+        tuple((int(number), float(values[number])) for number in order),
+    )
+
+
+def _places(values: np.ndarray) -> int:
+    """Return with how many decimals values are written, that round by little of what they differ by."""
+    spread = float(values.std()) or float(abs(values).max()) or 1.0
+    return min(max(0, 2 - floor(log10(spread))), MOST_PLACES)
+
+
+def _reach(values: np.ndarray, limit: float, criterion: Criterion) -> tuple[float, float]:
+    """Return from where to where values are shown: all but the worst, and the limit."""
+    good = criterion in LARGE_IS_GOOD
+    ends = np.percentile(values, (100 - MOST_SHOWN, 100.0) if good else (0.0, MOST_SHOWN))
+    low, high = min(float(ends[0]), limit), max(float(ends[1]), limit)
+    air = 0.02 * (high - low) or max(abs(low), 1e-6)
+    return max(0.0, low - air), high + air
+
+
+def with_build(asked: ToleranceQuestion, found: ToleranceResult, number: int) -> State:
+    """Return the state that shows a build, from 0, as A and the designed lens as B; P2SFError without a picture."""
+    request = found.request
+    built = build(
+        request.lens, request.tolerances, found.builds.errors[number].tolist(), request.sources[0].wavelength_um
+    )
+    named = replace(built, title=built.title or built.name)
+    as_filed = dict.fromkeys(("focus_mm", "f_number", *MASK), None)
+    made = changed(
+        pin(asked.state), lens_text=lens_to_toml(named), sensor_shift_um=0.0, tolerances_build=number + 1, **as_filed
+    )
+    paraxial_setup(made)
+    return made
+
+
+def without_build(state: State) -> State:
+    """Return the state with the lens as designed, which was B, and nothing beside it."""
+    return changed(side_b(state), tolerances_build=0)

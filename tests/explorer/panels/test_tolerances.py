@@ -1,0 +1,117 @@
+"""The Tolerances panel: what hurts, the yield, own values, and builds beside the lens as designed."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import P2SFError
+from p2sf.lensfile.library import find_lens
+from p2sf.tolerance import Tolerance, usual_tolerances
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.state.state import ToleranceView, changed, new_state
+from p2sf_explorer.tolerancing import analysis
+from p2sf_explorer.widgets.copying import data_of
+
+LENS = "achromat_f6"
+BUILDS = 400  # enough for what is told apart here
+
+
+@pytest.fixture(autouse=True)
+def few_builds(monkeypatch):
+    monkeypatch.setattr(analysis, "BUILDS", BUILDS)
+
+
+@pytest.fixture
+def panel(window, qtbot):
+    window.store.update(lens=LENS, lens_text=None, field_deg=0.0, tab="tolerances")
+    made = window.panels["tolerances"]
+    qtbot.waitUntil(lambda: not made._stale(), timeout=60000)
+    yield made
+    window.store.update(tab="profiles")
+
+
+def wait(panel, qtbot):
+    qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy, timeout=60000)
+
+
+def test_errors_yield_and_worst_builds_are_shown(panel):
+    state = new_state(lens=LENS)
+    assert panel.errors.rowCount() == len(usual_tolerances(find_lens(LENS)))
+    view = analysis.figures(panel._found, state.tolerances)
+    assert view.counts.sum() >= 0.99 * BUILDS, "all but the worst are in the histogram"
+    assert view.share == pytest.approx(0.8, abs=0.01), "four lenses of five keep the limit"
+    assert (np.diff(view.yields[1]) >= 0).all()
+    values = [value for _, value in view.worst]
+    assert values == sorted(values, reverse=True)
+    assert values[0] == panel._found.builds.rms_waves.max()
+    harms = [harm for _, _, harm in view.errors]
+    assert harms == sorted(harms, reverse=True) and harms[0] > 0
+    data = data_of(panel.widget)
+    assert "decentre y, surface 1" in data and "build" in data and "yield, %" in data
+
+
+def test_a_criterion_or_a_limit_is_another_look_at_the_same_builds(panel, window, qtbot):
+    found = panel._found
+    window.store.update(tolerances_criterion="strehl", tolerances_limit=0.5)
+    assert panel._found is found and "Strehl ratio ≥ 0.50" in panel.widget.readout.text()
+    kept = (found.builds.strehl.min(1) >= 0.5).mean()
+    assert panel.widget.readout.text().startswith(f"{100 * kept:.1f} %")
+    window.store.update(tolerances_criterion="mtf", tolerances_limit=None)
+    wait(panel, qtbot)
+    assert panel._found is not found and np.isfinite(panel._found.builds.mtf).all()
+
+
+def test_an_own_value_is_typed_and_undone(panel, window, qtbot):
+    row = next(k for k, one in enumerate(panel.errors._rows) if one.kind == "radius")
+    one = panel.errors._rows[row]
+    panel.errors.item(row, 1).setText("0.7")
+    assert window.store.state.tolerances.own == (("radius", one.first, one.first, 0.7),)
+    wait(panel, qtbot)
+    assert (
+        panel.errors._rows[[r.kind == "radius" and r.first == one.first for r in panel.errors._rows].index(True)].amount
+        == 0.7
+    )
+    panel.errors.item(0, 1).setText("nonsense")
+    assert "±" not in panel.errors.item(0, 1).text() and "nonsense" not in panel.errors.item(0, 1).text()
+    window.store.undo()
+    assert window.store.state.tolerances.own == ()
+    panel.kinds["tilt"].setValue(0.2)
+    assert {row[0] for row in window.store.state.tolerances.own} == {"tilt_x", "tilt_y"}
+
+
+def test_own_values_stand_in_place_of_the_grade():
+    lens = find_lens(LENS)
+    view = ToleranceView(own=(("radius", 0, 0, 0.3), ("radius", 2, 2, 0.4), ("decentre_y", 1, 2, 0.05)))
+    found = analysis.chosen_tolerances(lens, view)
+    assert {one.first: one.amount for one in found if one.kind == "radius"} == {1: 0.3, 2: 0.4, 3: 0.3}
+    assert found[-1] == Tolerance("decentre_y", 1, 0.05, 2)
+    again = analysis.with_own(view, ("radius",), 0, 0, 0.1)
+    assert [row for row in again.own if row[0] == "radius"] == [("radius", 0, 0, 0.1)], "it is of all of them"
+
+
+def test_the_sensor_can_be_tilted_at_assembly(window):
+    state = new_state(lens=LENS, tolerances_compensators=(("thickness", 0, 0), ("tilt_x", 3, 0)))
+    found = analysis.question(live(state, "settled", {})).request
+    assert [found.tolerances[place].kind for place in found.places] == ["thickness", "tilt_x"]
+    assert found.tolerances[found.places[0]].first == len(found.lens.surfaces)
+
+
+def test_the_field_on_screen_does_not_matter(window):
+    states = [new_state(lens=LENS, field_deg=field) for field in (0.0, 1.0)]
+    one, two = (analysis.question(live(state, "settled", {})).request for state in states)
+    assert one == two
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"tolerances_own": (("radius", 1, 1),)},
+        {"tolerances_own": (("colour", 1, 1, 0.1),)},
+        {"tolerances_own": (("radius", 1, 1, float("nan")),)},
+        {"tolerances_compensators": "thickness"},
+        {"tolerances_limit": -1.0},
+        {"tolerances_grade": "best"},
+    ],
+)
+def test_what_cannot_be_is_refused(wrong):
+    with pytest.raises(P2SFError):
+        changed(new_state(), **wrong)
