@@ -1,8 +1,8 @@
 """Compare first-order data of every lens file in a folder with a paraxial trace of numbers read by another road.
 
 ``python -m tests.long.first_order_by_hand FOLDER [CATALOGUE.agf …]`` reads curvatures, distances and r² terms of Zemax,
-CODE V, OSLO and ray-optics files by patterns of its own, takes the indices from the lens that the program read, and
-traces in 50 digits. Focal length and back focus have to agree to 1e-12. Exit code 1 where one does not.
+CODE V, OSLO and ray-optics files, and powers of ideal lenses, by patterns of its own, takes the indices from the lens
+that the program read, and traces in 50 digits. Focal length and back focus have to agree to 1e-12. Exit code 1 where one does not.
 """
 
 import json
@@ -11,7 +11,7 @@ import sys
 from math import inf, pi
 from pathlib import Path
 
-from mpmath import mpf
+from mpmath import mp, mpf
 
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens, indices
@@ -21,7 +21,9 @@ from p2sf.paraxial.first_order import cardinal_points
 from tests.support.paraxial_by_hand import first_order
 
 AGREEMENT = 1e-12
-Rows = list[tuple[mpf, mpf]]  # curvature and thickness in the file's unit, object and image left out
+mp.dps = 50
+Row = tuple[mpf, mpf, mpf]  # curvature, thickness and the power of an ideal lens in the file's unit
+Rows = list[Row]  # object and image left out
 UNITS = {"MM": "1", "M": "1", "CM": "10", "C": "10", "IN": "25.4", "I": "25.4", "INCH": "25.4"}
 
 
@@ -33,8 +35,50 @@ def zemax(text: str) -> Rows:
         square = re.search(r"TYPE EVENASPH.*?\bPARM 1 (\S+)", block, re.S)
         thickness = re.search(r"\bDISZ (\S+)", block)[1]
         plain = mpf(0) if "INF" in thickness.upper() else mpf(thickness)
-        rows.append((curvature + (2 * mpf(square[1]) if square else 0), plain))
+        ideal = re.search(r"TYPE PARAXIAL.*?\bPARM 1 (\S+)", block, re.S)
+        power = 1 / mpf(ideal[1]) if ideal else mpf(0)
+        rows.append((curvature + (2 * mpf(square[1]) if square else 0) + forbes(block), plain, power))
     return rows[1:-1]
+
+
+def forbes(block: str) -> mpf:
+    """Return what Qbfs adds to the curvature at the vertex, 2Σ aₘQₘ(0)/R²."""
+    numbers = [mpf(x) for x in re.findall(r"\bXDAT \d+ (\S+)", block)]
+    if "TYPE QED_TYPE" not in block or numbers[0]:
+        return mpf(0)
+    terms = numbers[3 : 3 + int(numbers[1])]
+    return 2 * sum(a * q for a, q in zip(terms, at_vertex(len(terms)), strict=True)) / numbers[2] ** 2
+
+
+def at_vertex(count: int) -> list[mpf]:
+    """Return Qₘ(0) of Qbfs: the slopes of u²(1 − u²)Qₘ(u²) are orthonormal with the weight 2/π√(1 − u²) (Forbes 2007).
+
+    By Gram and Schmidt from powers of u², whose moments are (2j − 1)!!/(2j)!!; Qₘ(0) is positive.
+    """
+    moment = [mpf(1)]
+    for j in range(1, 2 * count + 4):
+        moment.append(moment[-1] * (2 * j - 1) / (2 * j))
+
+    def product(p: list[mpf], q: list[mpf]) -> mpf:
+        slopes = [(2 * k + 2, -(2 * k + 4)) for k in range(count)]
+        parts = (
+            (a * b * s * t, k + i + other + j + 1)
+            for k, a in enumerate(p)
+            for other, b in enumerate(q)
+            for i, s in enumerate(slopes[k])
+            for j, t in enumerate(slopes[other])
+        )
+        return sum(value * moment[power] for value, power in parts)
+
+    found: list[list[mpf]] = []
+    for m in range(count):
+        new = [mpf(k == m) for k in range(count)]
+        for old in found:
+            share = product(new, old)
+            new = [a - share * b for a, b in zip(new, old, strict=True)]
+        length = mp.sqrt(product(new, new))
+        found.append([a / length for a in new])
+    return [abs(row[0]) for row in found]
 
 
 def codev(text: str) -> Rows:
@@ -45,9 +89,9 @@ def codev(text: str) -> Rows:
     values = [(kind.upper(), mpf(a), b) for kind, a, b in lines]
     if not stated:
         radii = any(abs(a) > 10 for kind, a, _ in values if kind != "O")
-    rows = [(1 / a if radii and a else a, mpf(b)) for kind, a, b in values if kind not in ("O", "I")]
+    rows = [(1 / a if radii and a else a, mpf(b), mpf(0)) for kind, a, b in values if kind not in ("O", "I")]
     defocus = next((mpf(b) for kind, _, b in values if kind == "I"), mpf(0))
-    return [*rows[:-1], (rows[-1][0], rows[-1][1] + defocus)]
+    return [*rows[:-1], (rows[-1][0], rows[-1][1] + defocus, mpf(0))]
 
 
 def oslo(text: str) -> Rows:
@@ -55,7 +99,7 @@ def oslo(text: str) -> Rows:
     for block in re.split(r"(?m)^NXT\b.*$", text):
         radius, curvature, gap = (re.search(rf"(?m)^{key}\s+(\S+)", block) for key in ("RD", "CV", "TH"))
         bent = 1 / mpf(radius[1]) if radius and mpf(radius[1]) else mpf(curvature[1]) if curvature else mpf(0)
-        rows.append((bent, mpf(gap[1]) if gap else mpf(0)))
+        rows.append((bent, mpf(gap[1]) if gap else mpf(0), mpf(0)))
     return rows[1:-1]
 
 
@@ -64,8 +108,11 @@ def ray_optics(text: str) -> Rows:
     sequence = model["seq_model"]["attributes"]
     rows = []
     for interface, gap in zip(sequence["ifcs"][1:-1], sequence["gaps"][1:], strict=True):
-        profile = model["profile_dict"][str(interface["attributes"]["profile_id"])]["attributes"]
-        rows.append((mpf(profile["cv"]), mpf(gap["attributes"]["thi"])))
+        values, thickness = interface["attributes"], mpf(gap["attributes"]["thi"])
+        if "_power" in values:
+            rows.append((mpf(0), thickness, mpf(values["_power"])))
+        else:
+            rows.append((mpf(model["profile_dict"][str(values["profile_id"])]["attributes"]["cv"]), thickness, mpf(0)))
     return rows
 
 
@@ -92,17 +139,13 @@ def compared(path: Path, catalogues: list[Path]) -> tuple[bool, str]:
         return True, "refused"
     text = read_source(path).text
     unit = unit_of(path, text)
-    rows = [(c / unit, t * unit) for c, t in PARSERS[path.suffix.lower()](text)]
+    rows = [(c / unit, t * unit, p / unit) for c, t, p in PARSERS[path.suffix.lower()](text)]
     wave = lens.reference_wavelength_um
     index = [float(n) for n in indices(lens, wave)]
     if len(rows) != len(lens.surfaces):
         return False, f"{len(rows)} surfaces by hand, {len(lens.surfaces)} by the program"
-    bent = [c for c, _ in rows]
-    for at, power in enumerate(phase_powers(lens)):
-        if power:
-            jump = mpf(index[at + 1]) - mpf(index[at])
-            bent[at] += power / jump
-    by_hand = first_order(bent, [t for _, t in rows], index)
+    bent, gaps, powers = zip(*rows, strict=True)
+    by_hand = first_order(bent, gaps, index, [p + more for p, more in zip(powers, phase_powers(lens), strict=True)])
     points = cardinal_points(lens, wave)
     found = float(points.effective_focal_length), float(points.back_focal_distance)
     pairs = [(a, b) for a, b in zip(found, by_hand, strict=True) if not a == b == inf]
