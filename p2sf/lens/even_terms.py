@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Surface
-from p2sf.lens.shapes import Qbfs, Qcon
+from p2sf.lens.shapes import Qbfs, Qcon, RadialPolynomial
 
 SAMPLES = 400  # along the radius: far more than a polynomial of 30 terms has bends
 
@@ -60,6 +60,18 @@ def _fitted(surface: Surface, terms: int) -> EvenAsphere:
     found, *_ = np.linalg.lstsq(np.column_stack(basis), departure, rcond=None)
     made = replace(plain, aspheric=Qcon(tuple(found.tolist()), rim).even_terms())
     return EvenAsphere(made, float(np.abs(sag(made, r) - sag(surface, r)).max()))
+
+
+def power_terms(surface: Surface) -> tuple[float, dict[int, float]]:
+    """Return a normalisation radius, and coefficients by the powers of r over it, mm; those of Qbfs are left out."""
+    shape = None if isinstance(surface.shape, Qbfs) else surface.shape
+    radius = shape.normalisation_mm if shape else 1.0
+    terms = {power: a * radius**power for power, a in zip(range(4, 99, 2), surface.aspheric, strict=False)}
+    if isinstance(shape, RadialPolynomial):
+        more = dict(enumerate(shape.coefficients, 1))
+    else:
+        more = {4 + 2 * k: a for k, a in enumerate(shape.scaled_terms())} if shape else {}
+    return radius, {power: a for power in {*terms, *more} if (a := terms.get(power, 0.0) + more.get(power, 0.0))}
 
 
 def sag(surface: Surface, r: np.ndarray) -> np.ndarray:

@@ -11,9 +11,9 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.agf import Catalogue, read_agf
 from p2sf.lensfile.codev import read_codev
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.optical_bench import read_optical_bench
 from p2sf.lensfile.readers.csv_table import read_table
 from p2sf.lensfile.readers.iset import read_iset_dat, read_iset_json
+from p2sf.lensfile.readers.optical_bench import read_optical_bench
 from p2sf.lensfile.readers.oslo import read_oslo
 from p2sf.lensfile.readers.ray_optics import read_ray_optics
 from p2sf.lensfile.report import ImportReport, Notebook

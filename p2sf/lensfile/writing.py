@@ -1,4 +1,4 @@
-"""Write a lens as a file: Zemax .zmx, ISET .json or this program's .toml, by the ending."""
+"""Write a lens as a file: Zemax .zmx, CODE V .seq, ISET .json or this program's .toml, by the ending."""
 
 import json
 import os
@@ -11,11 +11,12 @@ from typing import Any
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
-from p2sf.lens.even_terms import even_asphere
+from p2sf.lens.even_terms import even_asphere, power_terms
 from p2sf.lens.lens import Lens, Surface
-from p2sf.lens.shapes import Qbfs, RadialPolynomial
+from p2sf.lens.shapes import Qbfs
 from p2sf.lens.tilts import break_rows
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
+from p2sf.lensfile.codev_writing import lens_to_seq
 from p2sf.lensfile.columns import columns_of
 from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
@@ -35,7 +36,7 @@ SPECTRUM_NM = tuple(range(400, 701, 10))
 
 
 def write_lens(lens: Lens, path: str | os.PathLike) -> None:
-    """Write a lens as .toml, .zmx or ISET .json; LensFileError for another ending or what the format cannot hold.
+    """Write a lens as .toml, .zmx, .seq or ISET .json; LensFileError for another ending or what the format cannot hold.
 
     Glasses from AGF catalogues go into a small catalogue of their own beside a .zmx, with the same stem.
     """
@@ -43,6 +44,7 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
     writers: dict[str, Callable[[Lens], str]] = {
         ".toml": lens_to_toml,
         ".zmx": lambda lens: lens_to_zmx(lens, Path(path).stem),
+        ".seq": lens_to_seq,
         ".json": lens_to_iset,
     }
     if ending not in writers:
@@ -230,7 +232,7 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     The first type that holds it is taken: even and odd aspheres in powers of r, extended ones in powers of r over the
     normalisation radius, to which Qcon is converted exactly.
     """
-    radius, terms = _power_terms(surface)
+    radius, terms = power_terms(surface)
     odd, top = any(power % 2 for power in terms), max(terms, default=0)
     step = 1 if odd else 2
     parameters = [f"  PARM {power // step} {value!r}" for power, value in sorted(terms.items())]
@@ -264,18 +266,6 @@ def _forbes_data(surface: Surface, shape: Qbfs, number: int) -> list[str]:
             surface=number,
         )
     return _extra_lines((0, len(shape.coefficients), shape.normalisation_mm, *shape.coefficients))
-
-
-def _power_terms(surface: Surface) -> tuple[float, dict[int, float]]:
-    """Return a normalisation radius, and coefficients by the powers of r over it, mm; none for Qbfs."""
-    shape = None if isinstance(surface.shape, Qbfs) else surface.shape
-    radius = shape.normalisation_mm if shape else 1.0
-    terms = {power: a * radius**power for power, a in zip(range(4, 99, 2), surface.aspheric, strict=False)}
-    if isinstance(shape, RadialPolynomial):
-        more = dict(enumerate(shape.coefficients, 1))
-    else:
-        more = {4 + 2 * k: a for k, a in enumerate(shape.scaled_terms())} if shape else {}
-    return radius, {power: a for power in {*terms, *more} if (a := terms.get(power, 0.0) + more.get(power, 0.0))}
 
 
 def _extra_data(radius: float, numbers: tuple[float, ...]) -> list[str]:

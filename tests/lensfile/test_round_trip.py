@@ -130,7 +130,7 @@ def test_own_glasses_travel_in_a_catalogue_beside_the_lens(tmp_path):
 
 
 def test_an_ending_nobody_writes(tmp_path):
-    with pytest.raises(LensFileError, match=r'ending "\.xyz" is none of \.toml, \.zmx, \.json'):
+    with pytest.raises(LensFileError, match=r'ending "\.xyz" is none of \.toml, \.zmx, \.seq, \.json'):
         write_lens(find_lens("singlet_f6"), tmp_path / "lens.xyz")
 
 

@@ -2,7 +2,8 @@
 
 ``python -m tests.long.first_order_by_hand FOLDER [CATALOGUE.agf …]`` reads curvatures, distances and r² terms of Zemax,
 CODE V, OSLO and ray-optics files, and powers of ideal lenses, by patterns of its own, takes the indices from the lens
-that the program read, and traces in 50 digits. Focal length and back focus have to agree to 1e-12. Exit code 1 where one does not.
+that the program read, and traces in 50 digits. Focal length and back focus have to agree to 1e-12, or it
+exits with 1.
 """
 
 import json

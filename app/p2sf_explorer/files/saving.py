@@ -12,7 +12,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.store.store import Store
 
-KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)"
+KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)"
 
 
 def save_lens(store: Store, path: str) -> bool:

@@ -50,7 +50,7 @@ TOOLS = (
     ),
     ("Delete", "Take this surface out; the others stay where they are (Delete)", "_delete"),
     ("Back to file", "Drop every edit and take the lens as its file has it", "_revert"),
-    ("Save lens as…", "Save the lens as .toml, .zmx or ISET .json (Ctrl+Shift+S)", "_save"),
+    ("Save lens as…", "Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)", "_save"),
 )
 
 

@@ -386,7 +386,7 @@
 <message><source>Overlays</source><translation>Vergleichskurven</translation></message>
 <message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
-<message><source>P2SF lens (*.toml);;Zemax (*.zmx);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;ISET-Objektiv (*.json)</translation></message>
+<message><source>P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET-Objektiv (*.json)</translation></message>
 <message><source>PCA</source><translation>PCA</translation></message>
 <message><source>PSF</source><translation>PSF</translation></message>
 <message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
@@ -532,7 +532,7 @@
 <message><source>Save the 3D view</source><translation>3D-Ansicht speichern</translation></message>
 <message><source>Save the PSF, a picture, or the state (Ctrl+E)</source><translation>PSF, Bild oder Zustand speichern (Strg+E)</translation></message>
 <message><source>Save the lens</source><translation>Objektiv speichern</translation></message>
-<message><source>Save the lens as .toml, .zmx or ISET .json (Ctrl+Shift+S)</source><translation>Das Objektiv als .toml, .zmx oder ISET-.json speichern (Strg+Umschalt+S)</translation></message>
+<message><source>Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)</source><translation>Das Objektiv als .toml, .zmx, .seq oder ISET-.json speichern (Strg+Umschalt+S)</translation></message>
 <message><source>Save the lens as it is now…</source><translation>Objektiv speichern, wie es jetzt ist …</translation></message>
 <message><source>Save the measurement</source><translation>Die Messung speichern</translation></message>
 <message><source>Save the numbers and their errors as .npz</source><translation>Die Zahlen und ihre Fehler als .npz speichern</translation></message>
@@ -1522,9 +1522,12 @@
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} has a term in r^{power}, and a CODE V file holds powers up to r^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in r^{power}, und eine CODE-V-Datei fasst Potenzen bis r^{most}; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ist eine Qbfs-Asphäre mit geraden Gliedern oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} is a Qbfs asphere, which a CODE V file cannot say here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, die eine CODE-V-Datei hier nicht fasst; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
 <message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
+<message><source>surface {surface} is an ideal lens, which a CODE V file cannot say; save as TOML</source><translation>Fläche {surface} ist eine ideale Linse, die eine CODE-V-Datei nicht fasst; als TOML speichern</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
