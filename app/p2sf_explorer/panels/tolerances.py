@@ -4,7 +4,7 @@ from functools import partial
 from math import inf
 
 import numpy as np
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -97,7 +97,12 @@ OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
     ("thickness", ("thickness",)),
     ("index", ("index",)),
 )
-WIDE, LOW = 720, 320  # pixels at scale 1 from which the parts stand side by side, and below which the list has no room
+# From where parts stand side by side, below which errors are alone, and the least size.
+WIDE, LOW, LEAST = (
+    720,
+    320,
+    (120, 90),
+)  # pixels at scale 1
 
 
 class TolerancesPanel:
@@ -149,7 +154,6 @@ class TolerancesPanel:
         first = (self.limit, self.frequency, self.compensate, self.again, self.stop_button, self.back)
         column.addWidget(_row(first))
         self.kind_row = KindRow(self.kinds, self.as_grade)
-        column.addWidget(self.kind_row)
         self.body = TolerancesBody(self.errors, (self.histogram, self.yields), self.worst, self.kind_row)
         column.addWidget(self.body, 1)
         self.widget.set_body(whole)
@@ -397,9 +401,9 @@ class KindRow(QWidget):
 
 
 class TolerancesBody(QWidget):
-    """Errors, charts and builds side by side; where that is too narrow, one above the other.
+    """Values of ``kinds``, and below them errors, charts and builds side by side, or where that is too narrow stacked.
 
-    Where it is too low, errors alone, without charts, builds and the values of ``kinds``.
+    Where it is too low, the errors alone. Its least size does not depend on which, or it would turn to and fro.
     """
 
     def __init__(self, errors: QWidget, charts: tuple[QWidget, QWidget], worst: QWidget, kinds: QWidget):
@@ -410,8 +414,13 @@ class TolerancesBody(QWidget):
         for grid in (self._grid, self._chart_box):
             grid.setContentsMargins(0, 0, 0, 0)
             grid.setSpacing(6)
+            grid.setSizeConstraint(QGridLayout.SizeConstraint.SetNoConstraint)
         self._both, self._scale, self._arranged = charts, 1.0, ""
         self._arrange("wide")
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least size."""
+        return QSize(*(round(side * self._scale) for side in LEAST))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the scale of a theme."""
@@ -420,8 +429,7 @@ class TolerancesBody(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Turn to where there is room."""
         super().resizeEvent(event)
-        high = self.height() + (0 if self._kinds.isHidden() else self._kinds.height())
-        if high < LOW * self._scale:
+        if self.height() < LOW * self._scale:
             self._arrange("low")
         else:
             self._arrange("wide" if self.width() >= WIDE * self._scale else "tall")
@@ -433,17 +441,16 @@ class TolerancesBody(QWidget):
         wide, low = how == "wide", how == "low"
         for number, chart in enumerate(self._both):
             self._chart_box.addWidget(chart, number if wide else 0, 0 if wide else number)
-        places = {"wide": ((0, 0), (0, 1), (0, 2)), "tall": ((1, 0), (0, 0), (2, 0)), "low": ((0, 0), (0, 1), (1, 0))}
-        for part, place in zip((self._errors, self._charts, self._worst), places[how], strict=True):
+        places = ((1, 0), (1, 1), (1, 2)) if wide else ((2, 0), (1, 0), (3, 0))
+        self._grid.addWidget(self._kinds, 0, 0, 1, 3)
+        for part, place in zip((self._errors, self._charts, self._worst), places, strict=True):
             self._grid.addWidget(part, *place)
-        stretches = {"wide": (4, 5, 2), "tall": (1, 0, 0), "low": (1, 0, 0)}[how]
-        for column, stretch in enumerate(stretches):
+        for column, stretch in enumerate((4, 5, 2) if wide else (1, 0, 0)):
             self._grid.setColumnStretch(column, stretch)
-        for row, stretch in enumerate((4, 5, 3) if how == "tall" else (1, 0, 0)):
+        for row, stretch in enumerate((0, 1, 0, 0) if wide else (0, 4, 5, 3)):
             self._grid.setRowStretch(row, stretch)
-        self._worst.setVisible(not low)
-        self._kinds.setVisible(not low)
-        self._charts.setVisible(not low)
+        for part in (self._kinds, self._charts, self._worst):
+            part.setVisible(not low)
 
 
 class Histogram(NotedChart):

@@ -115,3 +115,13 @@ def test_the_field_on_screen_does_not_matter(window):
 def test_what_cannot_be_is_refused(wrong):
     with pytest.raises(P2SFError):
         changed(new_state(), **wrong)
+
+
+def test_the_panel_turns_to_the_room_it_has(panel, window):
+    body, shown = panel.body, {}
+    for size in ((900, 500), (400, 700), (400, 200)):
+        body.resize(*size)
+        shown[size] = tuple(part.isVisibleTo(body) for part in (panel.errors, panel.yields.parentWidget(), panel.worst))
+        assert (body.width(), body.height()) == size, "what is shown leaves the size alone"
+    assert shown[900, 500] == shown[400, 700] == (True, True, True) and shown[400, 200] == (True, False, False)
+    assert body.minimumSizeHint().height() < 200
