@@ -126,6 +126,28 @@ class ModelGlass:
         return a + b * square + (c + e / square) / square
 
 
+@dataclass(frozen=True)
+class ShiftedIndex:
+    """A medium whose index is off by the same amount at every wavelength, as that of a melt is."""
+
+    medium: Medium
+    shift: float
+
+    @property
+    def label(self) -> str:
+        """Return the name of the medium and the shift."""
+        return f"{self.medium.label} {self.shift:+g}"
+
+    @property
+    def range_um(self) -> Range:
+        """Return the range of the medium, µm."""
+        return self.medium.range_um
+
+    def index(self, wavelength_um: ArrayLike) -> np.ndarray:
+        """Return the shifted index; GlassError outside the medium's range."""
+        return np.asarray(self.medium.index(wavelength_um) + self.shift)
+
+
 @lru_cache(maxsize=256)
 def normal_dispersion(nd: float, vd: float) -> tuple[float, ...]:
     """Return a, b, c, e of n = a + bλ² + c/λ² + e/λ⁴ for a glass on Schott's normal line.
@@ -210,7 +232,8 @@ def constant_index(value: float) -> ConstantIndex:
 def parse_medium(medium: object) -> Medium:
     """Return the medium that a user wrote: a glass name, "air", "mirror", an index, or a table of nd and vd.
 
-    A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices.
+    A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices, and ``{glass = …,
+    shift = …}`` a medium whose index is off by so much.
     Raises GlassError.
     """
     if isinstance(medium, str):
@@ -240,6 +263,8 @@ def _from_text(text: str) -> Medium:
 def _from_table(table: dict[str, Any]) -> Medium:
     if set(table) == {"nd", "vd"} and all(_is_number(x) for x in table.values()):
         return model_glass(table["nd"], table["vd"])
+    if set(table) == {"glass", "shift"} and _is_number(table["shift"]) and isfinite(table["shift"]):
+        return ShiftedIndex(parse_medium(table["glass"]), float(table["shift"]))
     if {"wavelengths_um", "n"} <= set(table) <= {"wavelengths_um", "n", "label"}:
         return measured_index(table["wavelengths_um"], table["n"], str(table.get("label", "table")))
     raise GlassError(

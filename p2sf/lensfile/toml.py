@@ -55,7 +55,16 @@ from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, Mirror, ModelGlass, TabulatedIndex
+from p2sf.glass.media import (
+    AIR,
+    CatalogueGlass,
+    ConstantIndex,
+    Medium,
+    Mirror,
+    ModelGlass,
+    ShiftedIndex,
+    TabulatedIndex,
+)
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
 from p2sf.lens.positions import Axis, alone
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial, Shape
@@ -198,6 +207,8 @@ def _medium(medium: Medium) -> str:
     if isinstance(medium, TabulatedIndex):
         label = "" if medium.label == "table" else f", label = {_text(medium.label)}"
         return f"{{ wavelengths_um = {_list(medium.wavelengths_um)}, n = {_list(medium.values)}{label} }}"
+    if isinstance(medium, ShiftedIndex):
+        return f"{{ glass = {_medium(medium.medium)}, shift = {_number(medium.shift)} }}"
     if isinstance(medium, FormulaGlass):
         numbers = f"coefficients = {_list(medium.coefficients)}, range_um = {_list(medium.range_um)}"
         return f"{{ agf_formula = {medium.formula}, {numbers}, name = {_text(medium.name)} }}"

@@ -64,10 +64,13 @@ def chief_ray_error(lens: Lens, outcome: Message, surface: int) -> GeometryError
 
 
 def _placed(lens: Lens, surface: int) -> tuple[int, Placement | None]:
-    """Return the last surface up to this one that is placed or followed by a break, and its first break."""
-    for number in range(min(surface, len(lens.surfaces)), 0, -1):
-        behind = lens.surfaces[number - 1].after if number < surface else ()
-        for placement in (*lens.surfaces[number - 1].before, *behind):
-            if not placement.idle and (any(placement.decentre) or any(placement.tilt_deg[:2])):
-                return number, placement
+    """Return the last surface up to this one that is placed, else followed by a break, and its first break.
+
+    A break behind a piece mostly takes back the one before it, and would name the piece by the opposite numbers.
+    """
+    for side in ("before", "after"):
+        for number in range(min(surface, len(lens.surfaces)) - (side == "after"), 0, -1):
+            for placement in getattr(lens.surfaces[number - 1], side):
+                if any(placement.decentre) or any(placement.tilt_deg[:2]):
+                    return number, placement
     return 0, None

@@ -191,7 +191,7 @@ def displayed_opd(
     plane. NaN for failed rays. For display only; diffraction integrals use `diffraction_phase`.
     """
     rays = pencil(lens, source, xi, eta, stop=stop)
-    return opd_on_sphere(rays, _exit_radius(lens, source, rays, stop))
+    return opd_on_sphere(rays, exit_radius(lens, source, rays, stop))
 
 
 def opd_on_sphere(rays: Pencil, radius: FloatOrArray) -> np.ndarray:
@@ -209,7 +209,7 @@ def opd_on_sphere(rays: Pencil, radius: FloatOrArray) -> np.ndarray:
     return opd
 
 
-def _exit_radius(lens: Lens, source: Source | Sources, rays: Pencil, stop: Stop | None = None) -> np.ndarray:
+def exit_radius(lens: Lens, source: Source | Sources, rays: Pencil, stop: Stop | None = None) -> np.ndarray:
     """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
     along = rays.chief_kz
     if lens.misaligned:  # the cosine about the axis behind the last surface, which a tilted sensor does not share
@@ -306,7 +306,7 @@ def ray_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = 
 def opd_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = False) -> Fan:
     """Return the displayed OPD along η and along ξ; waves, NaN where clipped."""
     line, tangential, sagittal = _two_lines(lens, source, count, clip)
-    along, across = (opd_on_sphere(rays, _exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
+    along, across = (opd_on_sphere(rays, exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
     return Fan(line, along, across, "waves")
 
 

@@ -12,7 +12,7 @@ from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.state.what_if import is_altered
 
 LINK_WORDS = {quantity.key: quantity.title for quantity in QUANTITIES}
-LINK_WORDS |= {"method": "Method", "added_waves": "Added waves"}
+LINK_WORDS |= {"method": "Method", "added_waves": "Added waves", "errors": "Misalignment"}
 AIM_WORDS = {"stop": "the real stop", "paraxial": "the paraxial pupil"}
 SAME = 1e-9  # relative: below, two values differ by rounding
 OTHERS: tuple[tuple[str, str, Callable[[Any], Message]], ...] = (
@@ -44,6 +44,8 @@ def contrasts(state: State) -> tuple[Contrast, ...]:
         mine, other = entry(a, name), entry(b, name)
         if mine != other:
             found.append((label, described(mine), described(other)))
+    if a.optics.errors != b.optics.errors:
+        found.append(("Misalignment", errors_of(a), errors_of(b)))
     if a.what_if != b.what_if:
         found.append(("Coefficients", coefficients_of(a), coefficients_of(b)))
     return tuple(found)
@@ -64,6 +66,12 @@ def lens_name(state: State) -> Message:
     """Return how a lens is named."""
     name = Message(title(state.optics.lens))
     return name if state.optics.lens_text is None else Message("{lens} ({note})", lens=name, note=Message("edited"))
+
+
+def errors_of(state: State) -> Message:
+    """Return how many numbers of the build are off."""
+    count = len(state.optics.errors)
+    return Message("{count} errors of the build", count=count) if count else Message("none")
 
 
 def coefficients_of(state: State) -> Message:

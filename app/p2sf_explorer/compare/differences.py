@@ -31,6 +31,7 @@ WHY = {
     "colour": Message("This is A: one colour less another is no colour."),
     "spot": Message("This is A: a spot is places of rays, not amounts; the fans show A − B."),
     "lens": Message("This is A: it is the lens that is edited here; the strip above names what differs."),
+    "misalign": Message("This is A: it is the lens whose build is set here; the strip above names what differs."),
     "ybar": Message("This is A: the diagram's points are surfaces, and those of B are others."),
     "depth_of_field": Message("This is A: how far it is sharp is where it begins and ends, which B does not move."),
     "solid": Message("This is A: bodies in space have no difference that could be shown."),

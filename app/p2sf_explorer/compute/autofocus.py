@@ -6,7 +6,7 @@ from p2sf.errors import GeometryError
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.quadrature import disc_nodes, whole_disc
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
@@ -47,6 +47,7 @@ def seidel_focus(c: Coefficients) -> float:
 def masked_focus(setup: ParaxialSetup, by_coefficients: bool) -> float:
     """Return the ρ² part of the wavefront over what a mask leaves open, tilt and piston set aside, in waves."""
     nodes = mask_nodes(mask_seen(setup.lens, setup.source), *RAYS)
+    nodes = nodes.unfolded() if setup.lens.misaligned else nodes
     waves = (
         np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta))
         if by_coefficients
@@ -62,10 +63,11 @@ def masked_focus(setup: ParaxialSetup, by_coefficients: bool) -> float:
 
 def traced_focus(setup: ParaxialSetup) -> float:
     """Return the ρ² part of the exact wavefront, tilt and piston set aside, in waves: its projection on 2ρ² − 1."""
-    nodes = disc_nodes(8, 16)
-    waves = displayed_opd(setup.lens, setup.source, nodes.xi, nodes.eta, stop=setup.stop)
+    half = disc_nodes(8, 16)
+    xi, eta, weight = whole_disc(8, 16) if setup.lens.misaligned else (half.xi, half.eta, half.weight)
+    waves = displayed_opd(setup.lens, setup.source, xi, eta, stop=setup.stop)
     kept = np.isfinite(waves)
-    zernike = 2 * (nodes.xi**2 + nodes.eta**2) - 1
-    weight = nodes.weight * kept
+    zernike = 2 * (xi**2 + eta**2) - 1
+    weight = weight * kept
     share = (weight * zernike * np.where(kept, waves, 0.0)).sum() / (weight * zernike**2).sum()
     return 2 * float(share)

@@ -2,11 +2,13 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 from math import isfinite
 
 import numpy as np
 
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_mask, with_sensor
+from p2sf.lens.placement import Motion
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop, paraxial_rays
 from p2sf.pupil.mask import CLEAR
@@ -74,9 +76,76 @@ def still(lens: Lens) -> Lens:
     return replace(placed, aperture=Aperture("stop_semi_diameter", 1.0))
 
 
+@dataclass(frozen=True)
+class Section:
+    """The plane x = 0 of some axes, as it is drawn: the place of their origin, mm, and z and y of their z and y."""
+
+    z: float = 0.0
+    y: float = 0.0
+    along_z: tuple[float, float] = (1.0, 0.0)
+    along_y: tuple[float, float] = (0.0, 1.0)
+
+    @classmethod
+    def of(cls, frame: Motion) -> "Section":
+        """Return that of axes in those of the lens, seen along x."""
+        turn, (_, y, z) = frame.rotation, frame.origin.tolist()
+        return cls(z, y, (float(turn[2, 2]), float(turn[1, 2])), (float(turn[2, 1]), float(turn[1, 1])))
+
+    def placed(self, z: np.ndarray | float, y: np.ndarray | float) -> Profile:
+        """Return z and y in the drawing of points of the plane."""
+        (zz, yz), (zy, yy) = self.along_z, self.along_y
+        return np.asarray(self.z + zz * z + zy * y), np.asarray(self.y + yz * z + yy * y)
+
+
+UPRIGHT = Section()
+
+
+@lru_cache(maxsize=64)
+def sections(lens: Lens) -> tuple[Section, ...]:
+    """Return where every surface and the sensor stand in the drawing."""
+    if lens.misaligned:
+        return tuple(Section.of(frame) for frame in lens.frames)
+    return tuple(Section(z) for z in vertices(lens))
+
+
+def _placed_glass(lens: Lens) -> Glass:
+    """Return the outlines of a misaligned lens, whose elements stand as its parts do, seen along x."""
+    rims, places = clear_rims(lens), sections(lens)
+    index = np.abs(indices(lens, lens.reference_wavelength_um))
+    own = [profile(surface, 0.0, rim) for surface, rim in zip(lens.surfaces, rims, strict=False)]
+    outlines = []
+    for i, (front, back) in enumerate(pairwise(own)):
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0:
+            behind = Section.of(lens.motions[i + 1]).placed(*back)
+            made = element_outline(front, behind, float(index[i + 1]), (i + 1, i + 2))
+            outlines.append(Outline(*places[i].placed(made.z, made.y), made.index, made.surfaces))
+    profiles = [place.placed(*line) for place, line in zip(places, own, strict=False)]
+    mirrors = tuple(
+        MirrorProfile(*line, _back(place, direction))
+        for line, surface, direction, place in zip(profiles, lens.surfaces, lens.directions, places, strict=False)
+        if surface.reflects
+    )
+    ideal = tuple(
+        IdealProfile(place.z, rim, surface.ideal_focal_length > 0)
+        for surface, place, rim in zip(lens.surfaces, places, rims, strict=False)
+        if surface.ideal
+    )
+    every = [*profiles, *((outline.z, outline.y) for outline in outlines)]
+    ends = float(min(z.min() for z, _ in every)), float(max(z.max() for z, _ in every))
+    high = max(float(abs(y).max()) for _, y in every)
+    return Glass(tuple(outlines), mirrors, ideal, profiles[-1], float(index[-1]), high, *ends)
+
+
+def _back(place: Section, direction: int) -> int:
+    """Return 1 where the back of a mirror lies to the right in the drawing, else −1."""
+    return direction if place.along_z[0] >= 0 else -direction
+
+
 @lru_cache(maxsize=32)
 def glass_of(lens: Lens) -> Glass:
     """Return the outlines of a `still` lens; real sag, to the clear rims."""
+    if lens.misaligned:
+        return _placed_glass(lens)
     z, rims = vertices(lens), clear_rims(lens)
     index = np.abs(indices(lens, lens.reference_wavelength_um))
     profiles = [profile(surface, at, rim) for surface, at, rim in zip(lens.surfaces, z, rims, strict=False)]
@@ -111,11 +180,11 @@ def crossed_before(lens: Lens, at: int, z: list[float]) -> bool:
     )
 
 
-def filling(glass: Glass, sensor_z: float) -> tuple[Outline, ...]:
+def filling(glass: Glass, sensor: Section) -> tuple[Outline, ...]:
     """Return the outline of what fills the space between lens and sensor, none for air."""
     if glass.image_index <= GLASS_INDEX:
         return ()
-    wall = np.full(2, sensor_z), np.array([-glass.half_height, glass.half_height])
+    wall = sensor.placed(np.zeros(2), np.array([-glass.half_height, glass.half_height]))
     return (element_outline(glass.last, wall, glass.image_index, (len(glass.outlines) + 1,) * 2),)
 
 

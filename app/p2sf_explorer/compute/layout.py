@@ -3,24 +3,41 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import inf, isfinite
+from math import cos, inf, isfinite, radians, sin
 
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
-from p2sf.lens.lens import Lens, indices
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens, indices, seen_from, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
-from p2sf.raytrace.surface import sag_and_slope
-from p2sf_explorer.compute.glass_outlines import Glass, Outline, filling, glass_of, still, vertices, widest_exit
+from p2sf.raytrace.surface import Status, sag_and_slope
+from p2sf.raytrace.trace import trace
+from p2sf_explorer.compute.glass_outlines import (
+    UPRIGHT,
+    Glass,
+    Outline,
+    Section,
+    filling,
+    glass_of,
+    sections,
+    still,
+    vertices,
+    widest_exit,
+)
 from p2sf_explorer.compute.meridional import aimed, path
-from p2sf_explorer.compute.setup import ParaxialSetup
+from p2sf_explorer.compute.setup import ParaxialSetup, prescription
+from p2sf_explorer.state.built import exaggerated, with_errors
 from p2sf_explorer.state.scales import nice
+from p2sf_explorer.state.state import State
 
 HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 AIM_MOVE = 1e-5  # of the stop's rim: a last step of the secant method that leaves far less than can be drawn
+DRAWN_AIM = 1e-4  # of the pupil's radius, where rays are drawn only
+STRAIGHT = 0.99  # cosine of the angle up to which the marks of the aligned axis are drawn
 SAME_FIELD_DEG = 1e-6  # of one field and another
 REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, outside any window
 
@@ -29,7 +46,8 @@ REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, 
 class Drawing:
     """The glass, which only another lens changes, and stop and sensor; mm.
 
-    ``dark``: from which to which y the mask in the stop covers it, vanes left out.
+    ``dark``: from which to which y the mask in the stop covers it, vanes left out. ``stop`` and ``sensor``: how these
+    stand in the drawing.
     ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye. ``left`` and
     ``right``: the ends of glass, mirrors and the way to the sensor.
     """
@@ -43,13 +61,16 @@ class Drawing:
     left: float
     right: float
     dark: tuple[tuple[float, float], ...] = ()
+    stop: Section = UPRIGHT
+    sensor: Section = UPRIGHT
 
 
 @dataclass(frozen=True)
 class RayPath:
     """One ray: z and y in mm; ``kind`` is "marginal", "chief" or "rim", ``group`` its number among `Layout.groups`.
 
-    ``passed`` False where it does not reach the sensor; ``clipped`` where that is because a rim stops it.
+    ``passed`` False where it does not reach the sensor; ``clipped`` where that is because a rim stops it;
+    ``on_sensor`` mm along a sensor that may be tilted.
     """
 
     kind: str
@@ -58,6 +79,12 @@ class RayPath:
     passed: bool = True
     clipped: bool = False
     group: int = 0
+    on_sensor: float | None = None
+
+    @property
+    def height(self) -> float:
+        """Return how high a ray that passed meets the sensor, mm along this."""
+        return float(self.y[-1]) if self.on_sensor is None else self.on_sensor
 
     @property
     def lost(self) -> bool:
@@ -88,6 +115,8 @@ class Layout:
 
     ``sensor_half``: half the height of the drawn sensor, mm; it holds the chief ray of every field of the lens file.
     ``groups`` are the fans of rays "by field" and "by wavelength", none for those of the present source by their kind.
+    ``skew``: the lens is not symmetric, and what is drawn are its parts and rays seen along x; ``exaggerated``: by what
+    its tilts and decentres are enlarged, rays being those of the lens as it is.
     """
 
     drawing: Drawing
@@ -99,50 +128,85 @@ class Layout:
     slope: float
     sensor_half: float
     groups: tuple[Fan, ...] = ()
+    skew: bool = False
+    exaggerated: int = 1
 
 
-def layout(setup: ParaxialSetup, clip: bool = False, coloured: str = "kind", count: int = 3) -> Layout:
+def layout_of(state: State, setup: ParaxialSetup) -> Layout:
+    """Return the `layout` as a state wants it drawn."""
+    display, larger = state.display, state.optics.errors
+    shown, factor = None, 1
+    if larger and display.exaggerated > 1:
+        larger, factor = exaggerated(larger, display.exaggerated)
+        shown = with_sensor(with_errors(prescription(state), larger), setup.lens.sensor_mm)
+    made = layout(setup, state.optics.clip, display.rays_coloured, display.rays_count, shown)
+    return replace(made, exaggerated=factor) if factor > 1 else made
+
+
+def layout(
+    setup: ParaxialSetup, clip: bool = False, coloured: str = "kind", count: int = 3, shown: Lens | None = None
+) -> Layout:
     """Return everything the layout panel draws; with ``clip`` rays end at the rims that stop them.
+
+    ``shown``: the lens whose glass, stop and sensor are drawn, where it is not the setup's own.
 
     ``coloured`` "kind" draws rays of the axial point and of the source, "field" those of every field that the lens
     states, "wavelength" those of the source at every wavelength that it states; ``count`` (odd) from each point.
     """
-    drawn = drawing(setup.lens, int(setup.stop.surface), float(setup.stop.semi_diameter))
-    depth, y = setup.source.depth_mm, setup.object_y_mm
+    drawn = drawing(shown or setup.lens, int(setup.stop.surface), float(setup.stop.semi_diameter))
+    depth, y, upright = setup.source.depth_mm, setup.object_y_mm, upright_part(setup.source)
     groups = fans(setup, coloured)
     rays = tuple(fan_paths(setup, drawn, groups, clip, count) if groups else ray_paths(setup, drawn, clip, count))
     return Layout(
         drawing=drawn,
         rays=rays,
-        marks=tuple(marks(setup)),
-        source=None if y is None else (-depth, y),
+        marks=tuple(marks(setup)) if nearly_straight(setup.lens) else (),
+        source=None if y is None else (-depth, upright * y),
         image=_image_point(setup),
         entrance_z=float(setup.pupils.entrance_from_first),
-        slope=setup.source.field_slope,
+        slope=upright * setup.source.field_slope,
         sensor_half=sensor_half(setup.lens, rays),
         groups=groups,
+        skew=setup.lens.misaligned,
     )
+
+
+def upright_part(source: Source) -> float:
+    """Return what part of a source's field lies along y: the drawing is seen along x."""
+    return cos(radians(source.azimuth_deg)) if source.azimuth_deg else 1.0
+
+
+def nearly_straight(lens: Lens) -> bool:
+    """Return whether the axis behind the last surface still is about that before the first, as paraxial marks are."""
+    if not lens.misaligned:
+        return True
+    behind = lens.frames[-1].rotation @ lens.motions[-1].rotation.T
+    return bool(behind[2, 2] > STRAIGHT)
 
 
 def sensor_half(lens: Lens, rays: tuple[RayPath, ...]) -> float:
     """Return half the sensor's height, mm: a round number that holds this chief ray and the widest field's."""
-    now = max((abs(float(ray.y[-1])) for ray in rays if ray.kind == "chief" and ray.passed), default=0.0)
+    now = max((abs(ray.height) for ray in rays if ray.kind == "chief" and ray.passed), default=0.0)
     return nice(1.04 * max(now, widest_image(lens), 1e-3), HEIGHTS)
 
 
 def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
     """Return glass, stop and sensor of a lens."""
-    glass, z = glass_of(still(lens)), vertices(lens)
+    glass, z, places = glass_of(still(lens)), vertices(lens), sections(lens)
+    if lens.misaligned:
+        z = [place.z for place in places]
     return Drawing(
         glass=glass,
-        outlines=glass.outlines + filling(glass, z[-1]),
+        outlines=glass.outlines + filling(glass, places[-1]),
         stop_z=z[int(stop_surface) - 1],
         stop_rim=stop_rim,
         sensor_z=z[-1],
-        half_height=max(glass.half_height, stop_rim),
+        half_height=max(glass.half_height, stop_rim, abs(places[-1].y)),
         left=min(glass.left, z[-1]),
         right=max(*z, glass.right),
         dark=tuple((low * stop_rim, high * stop_rim) for low, high in dark_heights(lens.mask)),
+        stop=places[int(stop_surface) - 1],
+        sensor=places[-1],
     )
 
 
@@ -154,7 +218,7 @@ def widest_image(lens: Lens) -> float:
 
 def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
     distance = float(setup.coefficients.image_distance)
-    if not isfinite(distance):
+    if not isfinite(distance) or setup.lens.misaligned:
         return None
     rays = setup.rays
     unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * distance
@@ -177,7 +241,8 @@ def fans(setup: ParaxialSetup, coloured: str) -> tuple[Fan, ...]:
 def ray_paths(setup: ParaxialSetup, drawn: Drawing, clip: bool = False, count: int = 3) -> Iterator[RayPath]:
     """Yield exact meridional rays of the axial point, all but that along the axis, and of the source."""
     etas = pupil_points(count)
-    for ray in _paths(setup, drawn, replace(setup.source, field_slope=0.0), etas[:-1], clip):
+    axial = replace(setup.source, field_slope=0.0, azimuth_deg=0.0)
+    for ray in _paths(setup, drawn, axial, etas[:-1], clip):
         yield replace(ray, kind="marginal")
     yield from _paths(setup, drawn, setup.source, etas, clip)
 
@@ -189,7 +254,8 @@ def fan_paths(
     etas = pupil_points(count)
     for number, fan in enumerate(groups):
         slope = float(slope_from_degrees(fan.field_deg))
-        source = Source(setup.source.depth_mm, slope, fan.wavelength_nm / NM_PER_UM)
+        azimuth = setup.source.azimuth_deg
+        source = Source(setup.source.depth_mm, slope, fan.wavelength_nm / NM_PER_UM, azimuth_deg=azimuth)
         for ray in _paths(setup, drawn, source, etas, clip):
             yield replace(ray, group=number)
 
@@ -202,6 +268,9 @@ def pupil_points(count: int) -> list[float]:
 
 def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[float], clip: bool) -> Iterator[RayPath]:
     """Yield a source's rays through points of the pupil; the chief ray, where the pupil begins, is not clipped."""
+    if setup.lens.misaligned:
+        yield from _skew_paths(setup.lens, drawn, source, etas, clip)
+        return
     rims, lens = pencil_rims(setup.lens) if clip else None, setup.lens
     index = tuple(indices(lens, source.wavelength_um).tolist())
     front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
@@ -216,6 +285,34 @@ def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[floa
         if clipped:
             end_at_rim(places, lens, len(z), rims[len(y) - 1] if rims else 0.0)
         yield RayPath(kind, places[0], places[1], passed, clipped)
+
+
+def _skew_paths(lens: Lens, drawn: Drawing, source: Source, etas: list[float], clip: bool) -> Iterator[RayPath]:
+    """Yield a source's rays through a misaligned lens, seen along x; none where its chief ray is lost."""
+    seen = seen_from(lens, source.azimuth_deg)
+    try:
+        rays = pupil_rays(seen, source, np.zeros(len(etas)), np.array(etas), aim_error=DRAWN_AIM)
+    except GeometryError:  # of the point on the axis: that of the source has its own picture, or its own sentence
+        return
+    front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
+    origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
+    starts = origins + directions * ((front - origins[..., 2:]) / directions[..., 2:])
+    found = trace(seen, starts, directions, source.wavelength_um, clip)
+    y, z = upright_part(source) * found.points[..., 1], found.points[..., 2]
+    if source.azimuth_deg:
+        y = y - sin(radians(source.azimuth_deg)) * found.points[..., 0]
+    on_sensor = (found.points[-1] - lens.frames[-1].origin) @ lens.frames[-1].rotation[:, 1]
+    for number, eta in enumerate(etas):
+        reached = int(np.isfinite(z[:, number]).sum())
+        status = int(found.status[number])
+        yield RayPath(
+            "rim" if eta else "chief",
+            z[:reached, number],
+            y[:reached, number],
+            status == Status.PASSED,
+            status == Status.CLIPPED,
+            on_sensor=float(on_sensor[number]),
+        )
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
-from p2sf_explorer.compute.layout import Layout, layout
+from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.method import ALONE, Least, Rendered, rendered
 from p2sf_explorer.compute.pupil import PupilMap, dominant, pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
@@ -78,7 +78,7 @@ def live(
     """
     begun = perf_counter()
     setup = paraxial_setup(state)
-    drawing = layout(setup, state.optics.clip, state.display.rays_coloured, state.display.rays_count)
+    drawing = layout_of(state, setup)
     placed = perf_counter()
     picture = rendered(state, setup, quality, kept_method, least, cache)
     psf, finished = picture.psf, perf_counter()

@@ -33,11 +33,11 @@ from p2sf_explorer.compute.deferred_sums import (
     sum_request,
 )
 from p2sf_explorer.compute.preview import (
-    EDGE,
     FAR,
     Preview,
     best_fit,
     clipped_psf,
+    edge_count,
     edge_points,
     first_fit,
     landing_um,
@@ -363,7 +363,7 @@ def extent(setup: ParaxialSetup, method: str) -> Extent:
 def extent_of(setup: ParaxialSetup, rays: Pencil) -> Extent:
     """Return how far light reaches by a pencil whose last rays are those at the rim; none if all are lost."""
     data = ray_data(rays)
-    cycles = np.hypot(data.fx, data.fy)[-2 * EDGE :]
+    cycles = np.hypot(data.fx, data.fy)[-edge_count(rays) :]
     paraxial = float(setup.coefficients.na) / setup.source.wavelength_um
     widest = float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial
     return Extent(landing_um(rays) + mask_slope(setup) / widest, AIRY_RADIUS / widest)
@@ -400,7 +400,7 @@ def window_um(setup: ParaxialSetup, method: str, clip: bool = False) -> float:
 
 def edge_pencil(setup: ParaxialSetup) -> Pencil:
     """Return the few rays at the rim that show how far light reaches."""
-    return pencil(setup.lens, setup.source, *edge_points())
+    return pencil(setup.lens, setup.source, *edge_points(setup.lens.misaligned))
 
 
 def chosen(state: State, setup: ParaxialSetup) -> tuple[str, Message]:

@@ -8,20 +8,19 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import check_unmasked
+from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.messages import Message
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.plane_waves import Origin, psf_from_intensity
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.separable_sum import rows_for
-from p2sf.pupil.zernike import basis
-from p2sf.raytrace.fit import LEVELS, FittedPencil, fit, fit_rays, level_rays, levels
-from p2sf.raytrace.pencil import Pencil, opd_on_sphere, pencil
+from p2sf.raytrace.fit import LEVELS, SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for
+from p2sf.raytrace.pencil import Pencil, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.ray_field import RayData, ray_data
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.vignetting import CLIPPED
-from p2sf_explorer.compute.pupil import ORDERS, PupilMap, map_behind
+from p2sf_explorer.compute.pupil import PupilMap, map_behind, pupil_terms
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
@@ -42,28 +41,40 @@ class Preview:
 def preview(setup: ParaxialSetup, clip: bool = False) -> Preview | None:
     """Return the traced rays; None where one is lost, since a fit cannot describe an edge. Raises as `pencil` does."""
     begun = perf_counter()
-    rays = pencil(setup.lens, setup.source, *points(), clip=clip)
+    rays = pencil(setup.lens, setup.source, *points(first_level(setup.lens)), clip=clip)
     return Preview(rays, setup, begun) if rays.passed.all() else None
 
 
-@lru_cache(maxsize=1)
-def points() -> tuple[np.ndarray, np.ndarray]:
+def first_level(lens: Lens) -> Level:
+    """Return the size of the first fit to a lens, of which its rays are: 26 numbers where there is symmetry."""
+    return SKEW[0] if lens.misaligned else LEVEL
+
+
+@lru_cache(maxsize=2)
+def points(level: Level) -> tuple[np.ndarray, np.ndarray]:
     """Return ξ and η of the level's rays, then of those at the edge."""
-    xi, eta, _ = level_rays(LEVEL)
-    edge = edge_points()
+    xi, eta, _ = level_rays(level)
+    edge = edge_points(level.skew is not None)
     return np.append(xi, edge[0]), np.append(eta, edge[1])
 
 
-def edge_points() -> np.ndarray:
-    """Return ξ and η of rays on the rim's right half and on 0.7 of it, (2, rays)."""
+def edge_points(around: bool = False) -> np.ndarray:
+    """Return ξ and η of rays on the rim's right half, or all ``around`` it, and on 0.7 of it, (2, rays)."""
     turn = np.linspace(0, np.pi, EDGE)
+    if around:
+        turn = np.append(turn, turn[1:-1] + np.pi)
     edge = np.stack([np.sin(turn), np.cos(turn)])
     return np.concatenate([edge, 0.7 * edge], axis=1)
 
 
+def edge_count(rays: Pencil) -> int:
+    """Return how many of a pencil's last rays are `edge_points`: of a misaligned lens those of the left half too."""
+    return 4 * (EDGE - 1) if rays.xi.min() < 0 else 2 * EDGE
+
+
 def landing_um(rays: Pencil) -> float:
     """Return how far from the chief ray the farthest of the last, the edge's, rays lands, in x or y, µm."""
-    reach = np.abs(np.stack([rays.dx, rays.dy])[:, -2 * EDGE :])
+    reach = np.abs(np.stack([rays.dx, rays.dy])[:, -edge_count(rays) :])
     return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
 
 
@@ -96,9 +107,9 @@ def best_fit(traced: Preview, first: FittedPencil | None = None) -> FittedPencil
 
 def first_fit(traced: Preview) -> FittedPencil:
     """Return the fit to the rays that are traced: of 26 numbers, or where these miss much of 46."""
-    data, count = ray_data(traced.rays), level_rays(LEVEL)[0].size
+    first, second = levels_for(traced.setup.lens)[:TRIED]
+    data, count = ray_data(traced.rays), level_rays(first)[0].size
     own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
-    first, second = levels(traced.setup.lens.aim)[:TRIED]
     fitted = fit_rays(own, first, count)
     if fitted.error_waves > CLOSE:
         fitted = fit_rays(own, second, count, fitted.steepness)
@@ -117,6 +128,8 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
     """
     fitted, setup = best_fit(traced), traced.setup
     check_unmasked(setup.lens, Message("a pupil that ends at rims or where rays are lost"))
+    if setup.lens.misaligned:
+        return None
     nodes = rows_for(fitted, pixels, pixel_um, "preview", every=True)
     if nodes is None:
         return None
@@ -135,11 +148,16 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
 def preview_pupil(traced: Preview) -> PupilMap:
     """Return the displayed wavefront over the pupil: the terms that fit that of the level's rays."""
     setup = traced.setup
-    back = setup.lens.sensor_mm - setup.pupils.exit_from_last
-    return map_behind(setup, _projection() @ opd_on_sphere(traced.rays, back / traced.rays.chief_kz), "preview")
+    rays, skew = traced.rays, setup.lens.misaligned
+    if skew:
+        back = exit_radius(setup.lens, setup.source, rays)
+    else:
+        back = (setup.lens.sensor_mm - setup.pupils.exit_from_last) / rays.chief_kz
+    waves = opd_on_sphere(rays, back)
+    return map_behind(setup, _projection(first_level(setup.lens)) @ waves, "preview")
 
 
-@lru_cache(maxsize=1)
-def _projection() -> np.ndarray:
+@lru_cache(maxsize=2)
+def _projection(level: Level) -> np.ndarray:
     """Return the least-squares inverse from the rays' waves to the terms of the pupil map, (terms, rays)."""
-    return np.linalg.pinv(basis(ORDERS["preview"], *points()).T)
+    return np.linalg.pinv(pupil_terms("preview", level.skew is not None, *points(level)).T)

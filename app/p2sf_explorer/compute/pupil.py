@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -19,11 +20,12 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.mask_outline import obstructions, opening
-from p2sf.pupil.quadrature import DiscNodes, disc_nodes
+from p2sf.pupil.quadrature import DiscNodes, disc_nodes, whole_disc
 from p2sf.pupil.zernike import basis, powers, terms
 from p2sf.pupil.zernike_terms import ZernikeTerm, family, zernike_terms, zernike_values
+from p2sf.raytrace.clear_pieces import CLIPPED, LOST
 from p2sf.raytrace.clear_rim import ClearRim, clear_rim
-from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.raytrace.pencil import displayed_opd, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, decomposed
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -32,6 +34,7 @@ SAMPLES = {"preview": 128, "settled": 384}  # across the picture; an enlarged pa
 ORDERS = {"preview": 8, "settled": 18}  # of the fit
 RAYS = {"preview": (7, 20), "settled": (16, 44)}  # radii and directions: exact for products of two terms of that order
 RIMS = {"preview": (40, 2), "settled": (128, 4)}  # directions and rounds of `clear_rim`
+GRIDDED = {"preview": 64, "settled": 192}  # samples across a misaligned pupil of which some is dark
 RADII = {"preview": 7, "settled": 12}  # of the nodes over a clipped pupil
 TURN = np.linspace(0, 2 * np.pi, 241)
 CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
@@ -95,6 +98,8 @@ def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False
 
     The six coefficients know no rims. Raises GeometryError where no ray reaches the sensor.
     """
+    if exact and setup.lens.misaligned:
+        return skew_map(setup, quality, clip)
     samples = pupil_samples(setup, exact, quality, clip)
     if samples[2] is not None:
         check_unmasked(setup.lens, Message("a pupil that ends at rims or where rays are lost"))
@@ -116,6 +121,39 @@ def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -
     rim = clear_rim(lens, source, clip, *RIMS[quality])
     clear = rim.nodes(RADII[quality])
     return clear, displayed_opd(lens, source, clear.xi, clear.eta), rim
+
+
+def skew_map(setup: ParaxialSetup, quality: str, clip: bool) -> PupilMap:
+    """Return the map of exact rays through a misaligned lens, whose wavefront no half of the pupil tells.
+
+    Where rays are lost, or rims clip, it is of rays on a grid, and its figures are those of the rays that arrive.
+    """
+    xi, eta, weight = whole_disc(*RAYS[quality])
+    rays = pencil(setup.lens, setup.source, xi, eta, clip=clip)
+    if not rays.passed.all():
+        return _gridded(setup, quality, clip)
+    waves = opd_on_sphere(rays, exit_radius(setup.lens, setup.source, rays))
+    return map_behind(setup, pupil_terms(quality, True, xi, eta) * weight @ waves, quality)
+
+
+def _gridded(setup: ParaxialSetup, quality: str, clip: bool) -> PupilMap:
+    """Return the map of rays on a grid over the pupil, NaN where one does not arrive or what stands in the stop is."""
+    count = GRIDDED[quality]
+    xi, eta, inside = disc(count)
+    inside = inside & setup.lens.mask.opens(xi, eta)
+    rays = pencil(setup.lens, setup.source, xi[inside], eta[inside], clip=clip)
+    arrived, waves = rays.passed, np.full((count, count), np.nan)
+    if not arrived.any():
+        raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
+    opd = opd_on_sphere(rays, exit_radius(setup.lens, setup.source, rays))
+    opd = opd - setup.lens.mask.path_um(rays.xi, rays.eta) / setup.source.wavelength_um
+    waves[inside] = opd
+    shown, share = pupil_map(waves, inside, "exact rays"), float(arrived.sum()) / float(disc(count)[2].sum())
+    even = np.full(int(arrived.sum()), 1 / arrived.sum())
+    nodes = ClearNodes(rays.xi[arrived], rays.eta[arrived], even, share, even=False)
+    fit = decomposed(nodes, opd[arrived], "noll", zernike_terms("noll", USUAL_TERMS))
+    parts = families((term.n, term.m, part) for term, part in zip(fit.terms, (fit.rms_waves**2).tolist(), strict=True))
+    return replace(shown, clear=share, parts=parts, rest=fit.residual**2)
 
 
 def clipped(lens: Lens, source: Source, nodes: DiscNodes) -> bool:
@@ -149,11 +187,27 @@ def families(terms: Iterable[tuple[int, int, float]]) -> dict[str, float]:
 
 
 def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> PupilMap:
-    """Return the map of a wavefront over the whole pupil, given by the even terms of `zernike` up to the order."""
+    """Return the map of a wavefront over the whole pupil, given by the even terms of `zernike` up to the order.
+
+    That of a misaligned lens goes on with the odd terms, as `pupil_terms` has them.
+    """
     squares = found**2
-    parts = families((n, m, part) for (n, m), part in zip(terms(ORDERS[quality]), squares.tolist(), strict=True))
+    order = ORDERS[quality]
+    known = terms(order) if _is_even(found, quality) else (*terms(order), *terms(order, True))
+    parts = families((n, m, part) for (n, m), part in zip(known, squares.tolist(), strict=True))
     shown, peak = _picture(found, quality, None)
     return PupilMap(shown, float(np.sqrt(squares[1:].sum())), peak, kind, parts=parts)
+
+
+def pupil_terms(quality: str, skew: bool, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return the terms of a map at pupil points, (terms, points): the even ones, and with ``skew`` the odd ones too."""
+    even = basis(ORDERS[quality], xi, eta)
+    return np.concatenate([even, basis(ORDERS[quality], xi, eta, odd=True)]) if skew else even
+
+
+def _is_even(found: np.ndarray, quality: str) -> bool:
+    """Return whether a wavefront is given by even terms alone."""
+    return len(found) == len(terms(ORDERS[quality]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +249,7 @@ def map_behind(setup: ParaxialSetup, found: np.ndarray, quality: str, kind: str 
     mask = mask_seen(setup.lens, setup.source)
     if mask.clear:
         return whole_map(found, quality, kind)
-    per_um, known = 1 / setup.source.wavelength_um, masked_pupil(mask, quality)
+    per_um, known = 1 / setup.source.wavelength_um, masked_pupil(mask, quality, not _is_even(found, quality))
     shown = _sampled(found, quality) - per_um * known.path_um
     at_edges, waves = known.at_edges.waves(found, per_um), known.at_nodes.waves(found, per_um)
     highest = np.max(shown, initial=at_edges.max(initial=-np.inf), where=known.open)
@@ -227,8 +281,8 @@ def masked_parts(known: MaskedPupil, found: np.ndarray, per_um: float) -> tuple[
 
 
 @lru_cache(maxsize=8)
-def masked_pupil(mask: PupilMask, quality: str) -> MaskedPupil:
-    """Return what a mask leaves open.
+def masked_pupil(mask: PupilMask, quality: str, skew: bool = False) -> MaskedPupil:
+    """Return what a mask leaves open, ``skew`` for wavefronts of a misaligned lens.
 
     Zernike's terms are made orthogonal over it (`p2sf.raytrace.zernike_fit`), vanes set aside: the nodes then have
     positive weights, as the decomposition needs. Raises GeometryError where nothing is open.
@@ -238,9 +292,11 @@ def masked_pupil(mask: PupilMask, quality: str) -> MaskedPupil:
         return mask.path_um(xi, eta) - mask.path_um(np.zeros(1), np.zeros(1)) if mask.phased else 0.0
 
     def at(xi: np.ndarray, eta: np.ndarray) -> Basis:
-        return Basis(basis(ORDERS[quality], xi, eta), path_um(xi, eta))
+        return Basis(pupil_terms(quality, skew, xi, eta), path_um(xi, eta))
 
     nodes, parts = (mask_nodes(some, *RAYS[quality]) for some in (mask, replace(mask, vanes=0)))
+    if skew:
+        nodes, parts = nodes.unfolded(), parts.unfolded()
     terms = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.even or not nodes.even)
     root = np.sqrt(parts.weight)
     xi, eta, inside = disc(SAMPLES[quality])
@@ -299,7 +355,10 @@ def projection(quality: str) -> np.ndarray:
 def _picture(found: np.ndarray, quality: str, rim: ClearRim | None) -> tuple[np.ndarray, float]:
     """Return the samples of a wavefront up to a pixel beyond the rim, and its peak-to-valley up to the rim itself."""
     count = SAMPLES[quality]
-    at_rim = found @ (_circle_basis(quality) if rim is None else basis(ORDERS[quality], *_half(rim.outline())))
+    if rim is None:
+        at_rim = found @ _circle_basis(quality, not _is_even(found, quality))
+    else:
+        at_rim = found @ basis(ORDERS[quality], *_half(rim.outline()))
     waves = _sampled(found, quality)
     inside, beyond = _whole(count) if rim is None else _parts(_mirrored(rim.excess(*_right(count))))
     highest = np.max(waves, initial=at_rim.max(), where=inside)
@@ -313,16 +372,25 @@ def _half(outline: np.ndarray) -> np.ndarray:
     return outline[:, : outline.shape[1] // 2 + 1]
 
 
-@lru_cache(maxsize=2)
-def _circle_basis(quality: str) -> np.ndarray:
+@lru_cache(maxsize=4)
+def _circle_basis(quality: str, skew: bool) -> np.ndarray:
     """Return the terms on the unit circle, (terms, points)."""
-    return basis(ORDERS[quality], *_half(CIRCLE))
+    return pupil_terms(quality, skew, *(CIRCLE if skew else _half(CIRCLE)))
 
 
 def _sampled(found: np.ndarray, quality: str) -> np.ndarray:
-    """Return the sum of the terms on the whole square: powers of η times powers of ξ², mirrored at ξ = 0."""
+    """Return the sum of the terms on the whole square: powers of η times powers of ξ², mirrored at ξ = 0.
+
+    Odd terms are ξ times such a sum, and change their sign there.
+    """
     along, across, table = _power_tables(quality)
-    return _mirrored(along @ np.tensordot(found, table, 1).T @ across)
+    if _is_even(found, quality):
+        return _mirrored(along @ np.tensordot(found, table, 1).T @ across)
+    even, odd = found[: len(table)], found[len(table) :]
+    along_odd, across_odd, table_odd = _power_tables(quality, True)
+    one = along @ np.tensordot(even, table, 1).T @ across
+    other = along_odd @ np.tensordot(odd, table_odd, 1).T @ across_odd
+    return np.concatenate([(one - other)[:, ::-1], one + other], axis=1)
 
 
 def _mirrored(right: np.ndarray) -> np.ndarray:
@@ -336,12 +404,16 @@ def _right(count: int) -> tuple[np.ndarray, np.ndarray]:
     return xi[:, count // 2 :], eta[:, count // 2 :]
 
 
-@lru_cache(maxsize=2)
-def _power_tables(quality: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return ηᵇ of the rows, ξ²ᵃ of the right half's columns, and the terms as powers, (terms, a, b)."""
-    axis, table = centres(SAMPLES[quality]), powers(ORDERS[quality])
-    square = axis[axis.size // 2 :] ** 2
-    return np.vander(axis, table.shape[2], increasing=True), np.vander(square, table.shape[1], increasing=True).T, table
+@lru_cache(maxsize=4)
+def _power_tables(quality: str, odd: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ηᵇ of the rows, ξ²ᵃ of the right half's columns, and the terms as powers, (terms, a, b).
+
+    Of the ``odd`` terms they are those times ξ.
+    """
+    axis, table = centres(SAMPLES[quality]), powers(ORDERS[quality], odd)
+    right = axis[axis.size // 2 :]
+    across = np.vander(right**2, table.shape[1], increasing=True).T * (right if odd else 1.0)
+    return np.vander(axis, table.shape[2], increasing=True), across, table
 
 
 @lru_cache(maxsize=4)

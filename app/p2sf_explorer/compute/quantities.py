@@ -97,6 +97,15 @@ def _shift_text(value: float) -> str:
     return f"{signed(value, 0)} µm" if value else "0"
 
 
+def _angle_text(value: float) -> str:
+    return f"{value:g}°".replace("-", "−")
+
+
+def _field_ticks(ranges: Ranges) -> tuple[tuple[float, str], ...]:
+    one_side = tuple((value, f"{text}°") for value, text in ticks(0.0, ranges.field_deg, 3 if ranges.both_sides else 5))
+    return (*one_side, *((-v, f"−{text}") for v, text in one_side if v)) if ranges.both_sides else one_side
+
+
 F_STOPS = tuple((stop, f"{stop:g}") for stop in (2.0, 4.0, 8.0, 16.0, 32.0, 1.4, 2.8, 5.6, 11.0, 22.0))
 
 
@@ -119,12 +128,23 @@ FIELD = Quantity(
     title="Field",
     tip="Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields "
     "that the lens file states.",
-    scale=lambda ranges: Linear(0.0, ranges.field_deg),
+    scale=lambda ranges: Linear(-ranges.field_deg if ranges.both_sides else 0.0, ranges.field_deg),
     write=lambda value: f"{signed(value, 2 if not value or abs(value) >= FINE_DEG else 4)}°",
     read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_deg"),
-    ticks=lambda ranges: tuple((value, f"{text}°") for value, text in ticks(0.0, ranges.field_deg, 5)),
+    ticks=lambda ranges: _field_ticks(ranges),
     marks=lambda state, ranges: ranges.stated_deg,
+)
+FIELD_X = Quantity(
+    key="field_x_deg",
+    title="Field in x",
+    tip="Field in x: the field's angle along x, where the lens is not symmetric. The PSF is then drawn with +y away "
+    "from the axis: turned as its field is.",
+    scale=lambda ranges: Linear(-ranges.field_deg, ranges.field_deg),
+    write=FIELD.write,
+    read=_reader("field angle along x", **{"°": 1.0, "deg": 1.0}),
+    shown=_plain("field_x_deg"),
+    ticks=lambda ranges: tuple((part * ranges.field_deg, _angle_text(part * ranges.field_deg)) for part in (0, -1, 1)),
 )
 WAVELENGTH = Quantity(
     key="wavelength_nm",
@@ -364,7 +384,7 @@ FOCUS_RING = _ring(
     focus_place,
 )
 OF_THE_LENS = (ZOOM, FOCUS_RING)
-OF_THE_SOURCE = (DEPTH, FIELD, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
+OF_THE_SOURCE = (DEPTH, FIELD, FIELD_X, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
 OF_THE_MASK = (
     *(OBSCURATION, BLADES, ROUNDNESS, BLADE_ANGLE, VANES, VANE_WIDTH, VANE_ANGLE),
     *(APODISATION, APODISATION_POWER, CUBIC),

@@ -47,11 +47,13 @@ def geometric_psf(
     begun, (pixels, pixel_um) = perf_counter(), window
     x, y, weight = exact_landing(setup, quality, clip) if exact else seidel_landing(setup, GRIDS[quality])
     blocks = max(1, pixels // MOST_PIXELS)
-    mask = mask_seen(setup.lens, setup.source)
-    if mask.clear:
+    mask, around = mask_seen(setup.lens, setup.source), exact and setup.lens.misaligned
+    if mask.clear and not around:
         values = density(x, y, weight, pixels // blocks, pixel_um * blocks)
+    elif mask.clear:
+        values = one_sided(x, y, weight, pixels // blocks, pixel_um * blocks)
     else:
-        sides = behind(mask, setup, (x, y, weight))
+        sides = behind(mask, setup, (x, y, weight), around)
         values = sum((one_sided(*side, pixels // blocks, pixel_um * blocks) for side in sides), start=NOTHING)
     energy = float(values.sum())
     if not energy:
@@ -86,13 +88,15 @@ def main_reach_um(setup: ParaxialSetup, exact: bool, clip: bool = False) -> floa
 
     A fast lens throws a few rays ten times as far as the rest; a window as wide as they reach would show one dot.
     """
-    grid = TRACED["preview"]
-    x, y, weight = seidel_landing(setup, grid)
+    grid, around = TRACED["preview"], exact and setup.lens.misaligned
     if exact:
         x, y = traced_landing(setup.lens, setup.source, grid, clip)
+        weight = polar(*grid, around)[2]
+    else:
+        x, y, weight = seidel_landing(setup, grid)
     mask = mask_seen(setup.lens, setup.source)
     if not mask.clear:
-        x, y, weight = (np.stack(column) for column in zip(*behind(mask, setup, (x, y, weight)), strict=True))
+        x, y, weight = (np.stack(column) for column in zip(*behind(mask, setup, (x, y, weight), around), strict=True))
     out = np.maximum(np.abs(x), np.abs(y)).ravel()
     order = np.argsort(out)
     light = np.cumsum(np.where(np.isfinite(out), weight.ravel(), 0.0)[order])
@@ -119,7 +123,7 @@ def exact_landing(setup: ParaxialSetup, quality: str = "settled", clip: bool = F
     """
     coarse = traced_landing(setup.lens, setup.source, TRACED[quality], clip)
     x, y = (finely(values, GRIDS[quality]) for values in coarse)
-    return x, y, polar(*GRIDS[quality])[2]
+    return x, y, polar(*GRIDS[quality], setup.lens.misaligned)[2]
 
 
 @lru_cache(maxsize=4)
@@ -128,45 +132,46 @@ def traced_landing(lens: Lens, source: Source, grid: tuple[int, int], clip: bool
 
     Kept for the frame: the window's width asks for them first.
     """
-    xi, eta, _ = polar(*grid)
+    xi, eta, _ = polar(*grid, lens.misaligned)
     rays = pencil(lens, source, xi.ravel(), eta.ravel(), clip=clip, aim_error=SUM_AIM_ERROR)
     return protected(UM_PER_MM * rays.dx.reshape(xi.shape)), protected(UM_PER_MM * rays.dy.reshape(xi.shape))
 
 
 @lru_cache(maxsize=8)
-def polar(radii: int, directions: int) -> Landing:
+def polar(radii: int, directions: int, around: bool = False) -> Landing:
     """Return ξ, η and weights of cells even in ρ and θ of the half disc ξ > 0, (radii, directions); their sum is ½.
 
+    ``around``: of the whole disc, in as many directions, with weights whose sum is 1.
     Rings of equal area would begin so far out that an evenly lit blur has a dark hole in its middle.
     """
     rho = ((np.arange(radii) + 0.5) / radii)[:, None]
-    theta = (np.arange(directions) + 0.5) * np.pi / directions
-    weight = np.broadcast_to(rho / (radii * directions), (radii, directions))
+    theta = (np.arange(directions) + 0.5) * (2 if around else 1) * np.pi / directions
+    weight = np.broadcast_to((2 if around else 1) * rho / (radii * directions), (radii, directions))
     return protected(rho * np.sin(theta)), protected(rho * np.cos(theta)), weight
 
 
-def behind(mask: PupilMask, setup: ParaxialSetup, landing: Landing) -> tuple[Landing, Landing]:
+def behind(mask: PupilMask, setup: ParaxialSetup, landing: Landing, around: bool = False) -> tuple[Landing, ...]:
     """Return where the rays of both halves of the disc land behind a mask, and their weights, which sum to 1.
 
+    Of a landing all ``around``, it is where those of the whole disc do.
     Its phase turns the rays as it does paraxial ones: by −∇(path)/(n′u′).
     """
     x, y, weight = landing
     grid, made = (weight.shape[0], weight.shape[1]), []
-    for side in (1, -1):
-        across, up = path_slopes(mask, grid, side) / -float(setup.coefficients.reduced_slope)
-        made.append((side * x + across, y + up, weight * passing(mask, grid, side)))
+    for side in (1,) if around else (1, -1):
+        across, up = path_slopes(mask, grid, side, around) / -float(setup.coefficients.reduced_slope)
+        made.append((side * x + across, y + up, weight * passing(mask, grid, side, around)))
     total = sum(float(part[2].sum()) for part in made) or 1.0
-    right, left = ((across, up, light / total) for across, up, light in made)
-    return right, left
+    return tuple((across, up, light / total) for across, up, light in made)
 
 
 @lru_cache(maxsize=16)
-def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int) -> np.ndarray:
+def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int, around: bool = False) -> np.ndarray:
     """Return ∂/∂ξ and ∂/∂η of a mask's path in the cells of the half disc, its left half for ``side`` −1.
 
     In µm per pupil radius, (2, radii, directions), by central differences.
     """
-    xi, eta, _ = polar(*grid)
+    xi, eta, _ = polar(*grid, around)
     if not mask.phased:
         return np.zeros((2, *xi.shape))
     across = mask.path_um(side * xi + SLOPE_STEP, eta) - mask.path_um(side * xi - SLOPE_STEP, eta)
@@ -175,10 +180,10 @@ def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int) -> np.ndarray
 
 
 @lru_cache(maxsize=16)
-def passing(mask: PupilMask, grid: tuple[int, int], side: int) -> np.ndarray:
+def passing(mask: PupilMask, grid: tuple[int, int], side: int, around: bool = False) -> np.ndarray:
     """Return what share of the light passes a mask in each cell of the half disc, its left half for ``side`` −1."""
     radii, directions = grid
-    xi, eta, _ = polar(WITHIN * radii, WITHIN * directions)
+    xi, eta, _ = polar(WITHIN * radii, WITHIN * directions, around)
     light = mask.opens(side * xi, eta) * np.square(mask.amplitude(side * xi, eta))
     return protected(light.reshape(radii, WITHIN, directions, WITHIN).mean(axis=(1, 3)))
 

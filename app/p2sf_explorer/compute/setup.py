@@ -11,16 +11,16 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFError
-from p2sf.lens.lens import Lens, check_aligned, with_mask
+from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.positions import Axis, Kind
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.positions import lens_at
-from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, paraxial_rays, pupils
+from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.request import Request, Setup, set_up, with_field
+from p2sf.tolerance.errors_of_build import MOVES
 from p2sf_explorer.compute.ranges import (
     closest_distance,
     file_focus,
@@ -29,6 +29,8 @@ from p2sf_explorer.compute.ranges import (
     telling_field,
     wavelength_range,
 )
+from p2sf_explorer.state.build_errors import BuildErrors
+from p2sf_explorer.state.built import with_errors
 from p2sf_explorer.state.limits import MASK, RINGS
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, changed, new_state
@@ -39,8 +41,9 @@ from p2sf_explorer.state.what_if import altered
 class ParaxialSetup:
     """One lens, opened and focused as the state says, and everything paraxial about it at this source.
 
-    ``prescription`` is the lens before it was opened and focused. ``coefficients`` make the picture; they are the
-    lens's ``own`` unless ``altered`` by hand. ``object_y_mm``: y of the source, None at infinity.
+    ``prescription`` is the lens before it was opened and focused, built as the state has it.
+    ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
+    ``object_y_mm``: y of the source, None at infinity.
     """
 
     prescription: Lens
@@ -65,7 +68,8 @@ class ParaxialSetup:
 class Ranges:
     """Where each slider of this lens begins and ends, and the fields that its file states.
 
-    ``mask``: what stands in the stop as the file has it.
+    ``both_sides``: a negative field is not the mirror image of a positive one. ``mask``: what stands in the
+    stop as the file has it.
     ``middle_mm``: the distance in the middle of a slider of distance, None where the lens says nothing about it.
     """
 
@@ -78,6 +82,7 @@ class Ranges:
     focused_mm: float
     shift_um: float
     stated_deg: tuple[float, ...] = ()
+    both_sides: bool = False
     mask: PupilMask = CLEAR
     rings: tuple[Axis, ...] = ()
 
@@ -105,10 +110,16 @@ def _load(name: str, _changed: int) -> Lens:
 def prescription(state: State) -> Lens:
     """Return the state's lens before it is opened and focused: as edited, else as its file has it, its rings turned.
 
-    LensFileError for a file that cannot be read.
+    It is without the errors of its build, which `built` adds. LensFileError for a file that cannot be read.
     """
     lens = load(state.optics.lens) if state.optics.lens_text is None else _edited(state.optics.lens_text)
     return lens if lens.positions is None else turned(lens, state)
+
+
+def built(state: State) -> Lens:
+    """Return the state's `prescription` with the errors of its build; P2SFError where these cannot be."""
+    lens, errors = prescription(state), state.optics.errors
+    return with_errors(lens, errors) if errors else lens
 
 
 def turned(lens: Lens, state: State) -> Lens:
@@ -145,7 +156,7 @@ def focus_place(state: State) -> float | None:
     if lens.positions is None or lens.positions.axis("focus") is None:
         return None
     try:
-        lens = _axial(lens, _request(state, None)).setup.lens
+        lens = _axial(lens, _request(state, None), ()).setup.lens
     except P2SFError:  # no picture either: whoever wants it says why
         pass
     return lens.positions.at("focus") if lens.positions else None
@@ -178,14 +189,13 @@ def shipped() -> tuple[str, ...]:
 
 def paraxial_setup(state: State) -> ParaxialSetup:
     """Return everything paraxial about the state; P2SFError where there is no answer."""
-    file_lens = prescription(state)
-    axial = _axial(file_lens, _request(state, None))
-    setup = with_field(axial.setup, _request(state, state.optics.field_deg))
+    axial = _axial(prescription(state), _request(state, None), state.optics.errors)
+    setup = with_fields(axial.setup, state)
     lens, source, stop = masked(setup.lens, state), setup.source, setup.stop
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(
-        prescription=file_lens,
+        prescription=axial.setup.prescription,
         lens=lens,
         source=source,
         stop=stop,
@@ -201,9 +211,18 @@ def paraxial_setup(state: State) -> ParaxialSetup:
 
 def request_setup(state: State) -> Setup:
     """Return the state as the library's own setup, which is also what a file says about where it comes from."""
-    axial = _axial(prescription(state), _request(state, None))
-    setup = with_field(axial.setup, _request(state, state.optics.field_deg))
+    axial = _axial(prescription(state), _request(state, None), state.optics.errors)
+    setup = with_fields(axial.setup, state)
     return replace(setup, lens=masked(setup.lens, state))
+
+
+def with_fields(setup: Setup, state: State) -> Setup:
+    """Return a setup with its source at the fields of the state, along y and along x."""
+    found = with_field(setup, _request(state, state.optics.field_deg))
+    if not state.optics.field_x_deg:
+        return found
+    fields = state.optics.field_x_deg, state.optics.field_deg
+    return replace(found, source=Source(found.source.depth_mm, None, found.source.wavelength_um, field_deg=fields))
 
 
 def masked(lens: Lens, state: State) -> Lens:
@@ -227,9 +246,10 @@ class _Axial:
 
 
 @lru_cache(maxsize=16)
-def _axial(prescription: Lens, request: Request) -> _Axial:
-    check_aligned(prescription, Message("the window"))
+def _axial(prescription: Lens, request: Request, errors: BuildErrors) -> _Axial:
     setup = set_up(prescription, request)
+    if errors:
+        setup = _built(setup, errors)
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     return _Axial(
         setup=setup,
@@ -237,6 +257,13 @@ def _axial(prescription: Lens, request: Request) -> _Axial:
         cardinal=cardinal_points(lens, wavelength),
         rays=paraxial_rays(lens, setup.source.depth_mm, wavelength, stop),
     )
+
+
+def _built(setup: Setup, errors: BuildErrors) -> Setup:
+    """Return a setup with errors in its lens, whose sensor and rings stay where a lens without errors has them."""
+    lens = with_errors(setup.lens, errors)
+    stop = find_stop(lens, setup.source.depth_mm, setup.source.wavelength_um)
+    return replace(setup, lens=lens, stop=stop, prescription=with_errors(setup.prescription, errors))
 
 
 def _request(state: State, field_deg: float | None) -> Request:
@@ -271,9 +298,22 @@ def ranges(lens: Lens) -> Ranges:
         focused_mm=file_focus(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
         stated_deg=lens.fields_deg,
+        both_sides=lens.misaligned,
         mask=lens.mask,
         rings=lens.positions.axes if lens.positions else (),
     )
+
+
+def state_ranges(state: State) -> Ranges:
+    """Return the sliders' `ranges` for the lens of a state, whose build may be without symmetry."""
+    found = ranges(prescription(state))
+    skew = any(kind in MOVES for kind, *_ in state.optics.errors)
+    return _both_sides(found) if skew and not found.both_sides else found
+
+
+@lru_cache(maxsize=8)
+def _both_sides(found: Ranges) -> Ranges:
+    return replace(found, both_sides=True)
 
 
 def _field_end(widest: float) -> float:
@@ -305,7 +345,9 @@ def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
         lens_text=lens_text,
         depth_mm=fresh.optics.depth_mm,
         field_deg=fresh.optics.field_deg,
+        field_x_deg=0.0,
         wavelength_nm=fresh.optics.wavelength_nm,
+        errors=(),
         focus_mm=None,
         sensor_shift_um=0.0,
         f_number=None,

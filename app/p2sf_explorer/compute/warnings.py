@@ -16,6 +16,17 @@ from p2sf_explorer.compute.pupil import PupilMap, disc, strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 
+SET_STRAIGHT: dict[str, Message] = {
+    "seidel": Message("Of the lens set straight: its tilts and decentres have no part in these sums."),
+    "coefficients": Message("Of the lens set straight: six coefficients know no tilts and decentres."),
+    "first_order": Message("Of the lens set straight: paraxial rays know no tilts and decentres."),
+    "ybar": Message("Of the lens set straight: paraxial rays know no tilts and decentres."),
+    "depth_of_field": Message(
+        "The paraxial curve and its limits are of the lens set straight; the exact rays are not."
+    ),
+    "accuracy": Message("Seidel is of the lens set straight; the other methods know its tilts and decentres."),
+}
+"""What panels leave out of a misaligned lens."""
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 TOGETHER = Message("bring focus and source together to see waves")
 NEARER = Message("stop down or go nearer the axis to see waves")
@@ -34,6 +45,7 @@ def warnings(
     """
     found = (
         _by_hand(setup),
+        _set_straight(setup) if pupil is None else None,
         _image_at_infinity(setup),
         _blurred(setup) if geometric else None,
         _lost(sum(ray.lost for ray in rays)),
@@ -72,6 +84,20 @@ def _by_hand(setup: ParaxialSetup) -> Message | None:
         "What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, "
         "rays, spots, fans and sums per surface stay the lens's own."
     )
+
+
+def _set_straight(setup: ParaxialSetup) -> Message | None:
+    if not setup.lens.misaligned or setup.altered:
+        return None
+    return Message(
+        "Six coefficients are those of the lens set straight, without its tilts and decentres; choose auto, fitted or "
+        "traced to see what these do."
+    )
+
+
+def left_out(live_lens: Lens, panel: str) -> Message | None:
+    """Return what a panel leaves out of a lens; None where it leaves out nothing."""
+    return SET_STRAIGHT.get(panel) if live_lens.misaligned else None
 
 
 def _image_at_infinity(setup: ParaxialSetup) -> Message | None:

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from p2sf.errors import P2SFError
 from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
-from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.compute.setup import built
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.store.store import Store
@@ -18,15 +18,16 @@ KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)"
 def save_lens(store: Store, path: str) -> bool:
     """Write the present lens, say so or say why not, and return whether it was written.
 
-    A .toml file holds the lens exactly, so the state then names that file; the other formats may not.
+    It is written as it is built, with its errors. A .toml file holds the lens exactly, so the state then names that
+    file; the other formats may not.
     """
     try:
-        write_lens(prescription(store.state), path)
+        write_lens(built(store.state), path)
     except P2SFError as error:
         store.refused.emit(error)
         return False
     if Path(path).suffix.lower() == ".toml":
-        store.replace(changed(store.state, lens=str(Path(path).resolve()), lens_text=None))
+        store.replace(changed(store.state, lens=str(Path(path).resolve()), lens_text=None, errors=()))
     store.said.emit(Message("Saved {name}", name=Path(path).name))
     return True
 

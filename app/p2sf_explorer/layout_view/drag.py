@@ -73,7 +73,9 @@ class LayoutDrag:
         return best if distance < enough else self._glass(shown, point)
 
     def grips(self, shown: DrawnSetup) -> Iterator[Grip]:
-        """Yield everything to hold but the source and the glass."""
+        """Yield everything to hold but the source and the glass; of a lens without an axis nothing."""
+        if shown.layout.skew:
+            return
         yield from stop_grips(shown.setup, shown.layout)
         yield from surface_grips(shown.setup.lens, self._store.selection)
         yield sensor_grip(shown.layout)
@@ -134,6 +136,8 @@ class LayoutDrag:
             self._hover_over(self.find(shown, point))
             return
         if not self._moved:
+            if self.grip.kind == "glass" and shown.layout.skew:
+                return
             if self.grip.kind == "glass" and (point - self._press).manhattanLength() < CLICK_PX:
                 return
             self._moved = True
@@ -205,6 +209,8 @@ class LayoutDrag:
         found = self.find(shown, point)
         if found is None:
             return ""
+        if found.kind == "glass" and shown.layout.skew:
+            return "held"
         bends = found.kind == "glass" and can_bend(shown.setup.prescription, found.surfaces)
         return "bend" if bends else found.kind
 

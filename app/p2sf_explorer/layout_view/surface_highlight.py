@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from p2sf.lens.lens import Lens
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import polylines
-from p2sf_explorer.compute.glass_outlines import clear_rims, profile, still, vertices
+from p2sf_explorer.compute.glass_outlines import clear_rims, profile, sections, still
 from p2sf_explorer.store.store import Store
 
 NEAR_PX = 5.0
@@ -45,7 +45,7 @@ class SurfaceHighlight:
 def section(lens: Lens, surface: int) -> tuple[np.ndarray, np.ndarray]:
     """Return z and y of a surface (from 1) from rim to rim, mm from the first vertex."""
     rim = clear_rims(still(lens))[surface - 1]
-    return profile(lens.surfaces[surface - 1], vertices(lens)[surface - 1], rim)
+    return sections(lens)[surface - 1].placed(*profile(lens.surfaces[surface - 1], 0.0, rim))
 
 
 def nearest(lens: Lens, chart: Chart, point: QPointF) -> int:

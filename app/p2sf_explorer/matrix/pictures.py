@@ -30,7 +30,14 @@ from p2sf_explorer.compute.method import (
     rimmed,
     too_coarse,
 )
-from p2sf_explorer.compute.preview import Preview, points, preview_of_coefficients, preview_psf, preview_pupil
+from p2sf_explorer.compute.preview import (
+    Preview,
+    first_level,
+    points,
+    preview_of_coefficients,
+    preview_psf,
+    preview_pupil,
+)
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.ray_density import geometric_psf
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
@@ -178,6 +185,8 @@ def _traced(places: list[Found], what: str, quality: str) -> list[Found]:
 def _together(places: list[Place], lens: Lens, clip: bool, what: str, quality: str) -> list[Traced | None]:
     """Return the rays of points of one lens; of each by itself where one chief ray is lost, None for that."""
     columns = (np.array([getattr(place.setup.source, name) for place in places]) for name in SOURCE)
+    if lens.misaligned and any(place.setup.source.azimuth_deg for place in places):  # each sees another lens
+        return [_alone(place, what, quality) for place in places]
     try:
         rays = TRACES[what](lens, Sources(*columns), clip, quality)
     except GeometryError:
@@ -206,7 +215,7 @@ def _part(rays: Traced, number: int, count: int) -> Traced:
 
 
 def _few_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Pencil:
-    return pencil(lens, source, *points(), clip=clip)
+    return pencil(lens, source, *points(first_level(lens)), clip=clip)
 
 
 def _many_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Spot:

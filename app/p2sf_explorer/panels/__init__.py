@@ -97,6 +97,7 @@ REGISTRY = (
     tab("Aberrations", "chromatic", "Chromatic shift", "8.3", "chromatic:ChromaticPanel", "chromatic:chromatic"),
     tab("Lens", "layout", "Layout", "2.2", "layout:LayoutPanel", "rays:lens_drawn"),
     tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "lens_table:rows"),
+    tab("Lens", "misalign", "Misalign", "8.5", "misalign:MisalignPanel", "lens_table:misalignment"),
     tab("Lens", "first_order", "First order", "2.1", "first_order:FirstOrderPanel", "first_order:first_order"),
     tab("Lens", "curves", "Overlays", "6.5", "overlays:OverlaysPanel", "matrix.overlays:overlay"),
     tab("Lens", "ybar", "y–ȳ", "8.4", "ybar:YBarPanel", "ybar:ybar"),

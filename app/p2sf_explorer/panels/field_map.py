@@ -10,7 +10,7 @@ from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.field_map import SHAPE, FieldMap, answer, places
+from p2sf_explorer.results.field_map import SHAPE, FieldMap, answer, fields_deg, place_of, places
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.tiles import TilesChart, tile
@@ -19,8 +19,9 @@ from p2sf_explorer.workers.panel_jobs import Asking
 TIP = (
     "Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as "
     "its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the "
-    "present one."
+    "present one. Where the lens is not symmetric every picture has its own field, and the ring can be dragged to any."
 )
+RING_PX = 7  # radius of the ring at the present field, at scale 1
 
 SAME_DEG = 1e-3  # fields that differ by less are equally far from the axis
 
@@ -32,31 +33,70 @@ class MapChart(TilesChart):
         super().__init__(framed=False)
         self._store = store
         self.fields_deg = np.zeros(0)
+        self.places = np.zeros((0, 2))
+        self.skew, self.corner_slope, self.present_at = False, 1.0, (0.0, 0.0)
         self.choice = Cursor()
-        self._taken, self._field = 0, 0.0
+        self._taken, self._field, self._held = 0, 0.0, False
         self.takes_arrows = True
         self.setAccessibleName(tr("Field map"))
 
     def takes(self, point: QPointF) -> bool:
-        """Return whether a press chooses a picture."""
-        return self.tile_at(point) is not None
+        """Return whether a press chooses a picture, or a field."""
+        return self.skew or self.tile_at(point) is not None
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Go to the field of the picture under the pointer."""
-        number = self.tile_at(event.position())
-        if event.button() == Qt.MouseButton.LeftButton and number is not None:
+        """Go to the field of the picture under the pointer; without symmetry to that of the point itself."""
+        if event.button() != Qt.MouseButton.LeftButton:
+            return
+        if self.skew and self.tiles:
+            self._held = True
+            self._store.begin()
+            self._follow(event.position())
+        elif (number := self.tile_at(event.position())) is not None:
             self._take(number)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Follow the pointer with the field while the ring is held."""
+        if self._held:
+            self._follow(event.position())
+        else:
+            super().mouseMoveEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Let the ring go."""
+        if self._held and event.button() == Qt.MouseButton.LeftButton:
+            self._held = False
+            self._store.end()
+        else:
+            super().mouseReleaseEvent(event)
+
+    def _follow(self, point: QPointF) -> None:
+        edge = np.abs(places()).max(axis=(0, 1))
+        self._go(np.clip(self.from_pixels(point), -edge, edge))
+
+    def _go(self, place: np.ndarray) -> None:
+        x, y = fields_deg(place, self.corner_slope)
+        self._store.update(field_deg=round(y, 4), field_x_deg=round(x, 4))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Choose a picture with the arrow keys, starting at the present field, and go to its field with Enter."""
         points = np.array([(room.center().x(), room.center().y()) for room in map(self.room, self.tiles)])
         taken = self.choice.taken(event.key(), len(points))
-        if taken is not None:
+        if event.key() == Qt.Key.Key_Escape and self._held:
+            self._held = False
+            self._store.cancel()
+        elif taken is not None:
             self._take(taken)
         elif self.choice.moved(event.key(), points, self.present() if self.tiles else 0):
             self.update()
         else:
             super().keyPressEvent(event)
+
+    def show_place(self, place: tuple[float, float]) -> None:
+        """Put the ring at the present field."""
+        if place != self.present_at:
+            self.present_at = place
+            self.update()
 
     def show_field(self, field_deg: float) -> None:
         """Mark the picture of the present field, from which the keys choose."""
@@ -67,6 +107,8 @@ class MapChart(TilesChart):
 
     def present(self) -> int:
         """Return the picture of the present field: of those equally far out the last taken, else the first."""
+        if self.skew:
+            return int(np.hypot(*(self.places - self.present_at).T).argmin())
         apart = np.abs(self.fields_deg - self._field)
         least = apart.min() + SAME_DEG
         return self._taken if self._taken < len(apart) and apart[self._taken] < least else int(apart.argmin())
@@ -75,7 +117,10 @@ class MapChart(TilesChart):
         self._taken = number
         self.choice.forget()
         self.update()
-        self._store.update(field_deg=round(float(self.fields_deg[number]), 4))
+        if self.skew:
+            self._go(self.places[number])
+        else:
+            self._store.update(field_deg=round(float(self.fields_deg[number]), 4), field_x_deg=0.0)
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the pictures, with frames around the present one and the one chosen by keys."""
@@ -83,7 +128,11 @@ class MapChart(TilesChart):
         if self.tiles:
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(QColor(self.theme.accent), 2 * self.theme.scale))
-            painter.drawRect(self.room(self.tiles[self.present()]))
+            if self.skew:
+                ring = self.theme.px(RING_PX)
+                painter.drawEllipse(QPointF(*map(float, self.to_pixels(*self.present_at))), ring, ring)
+            else:
+                painter.drawRect(self.room(self.tiles[self.present()]))
         number = self.choice.number
         if self.hasFocus() and number is not None and number < len(self.tiles):
             paint_cursor(painter, self.room(self.tiles[number]))
@@ -102,9 +151,11 @@ class FieldMapPanel:
 
     def show(self, live: Live) -> None:
         """Mark the present field, and ask for the map when more than the field has changed."""
-        self.chart.show_field(live.state.optics.field_deg)
+        asked: FieldMap = live.views["field_map"]
+        self.chart.show_field(float(degrees_from_slope(live.setup.source.field_slope)))
+        self.chart.show_place(place_of(live.state, asked.corner_slope))
         changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
-        self.asking.ask(live.views["field_map"])
+        self.asking.ask(asked)
         if changed:
             self.asking.again()
 
@@ -117,6 +168,8 @@ class FieldMapPanel:
         self.chart.set_range((-edge, edge), (-top * SHAPE[0] / (SHAPE[0] - 1), top * SHAPE[0] / (SHAPE[0] - 1)))
         at = [(row, column) for row in range(SHAPE[0]) for column in range(SHAPE[1])]
         kept = [place for place in at if np.isfinite(found[place]).any()]
+        self.chart.places = np.array([where[place] for place in kept]).reshape(-1, 2)
+        self.chart.skew, self.chart.corner_slope = asked.skew, asked.corner_slope
         slopes = [np.hypot(*where[place]) * asked.corner_slope for place in kept]
         self.chart.fields_deg = degrees_from_slope(np.array(slopes))
         shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)

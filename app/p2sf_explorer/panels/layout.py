@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QToolTip
 from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.glass_outlines import Section
 from p2sf_explorer.compute.layout import Drawing, Fan, Layout, Outline, sensor_half
 from p2sf_explorer.compute.quantities import visible_colour
 from p2sf_explorer.i18n.tr import local, tr
@@ -40,6 +41,7 @@ TIP = (
     "drag it, its edges or its vertices."
 )
 WIDTHS = (1, 1.1, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9)  # times 10ᵏ mm
+LEAN_PX = 0.5  # of a bar that is painted upright all the same
 END_BAR_PX = 11  # of the bar at the end of a clipped ray
 STEP = 0.02  # of the width, by which the picture moves
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
@@ -47,6 +49,8 @@ WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": 
 OTHER_FIELDS = ("marginal", "third", "warning", "muted")  # colours of the fans whose source is not at the ring
 COLOURED = (("kind", "by kind"), ("field", "by field"), ("wavelength", "by wavelength"))
 COLOURED_TIP = "Rays coloured by their kind, or from every field or at every wavelength that the lens states"
+LARGER = (("1", "tilts as they are"), ("10", "tilts ×10"), ("30", "tilts ×30"), ("100", "tilts ×100"))
+LARGER_TIP = "By what tilts and decentres of the Misalign panel are enlarged in the drawing"
 COUNTS = (3, 5, 7, 11, 21)
 COUNT_TIP = "How many rays come from each point"
 TIPS = {
@@ -58,6 +62,7 @@ TIPS = {
     "vertex": "The vertex: drag it along the axis to change the thickness before it; what follows moves with it.",
     "bend": "The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.",
     "glass": "What is selected: drag it along the axis. A click selects no glass any more.",
+    "held": "What is selected. A click selects its group; its sliders stand in the Misalign panel.",
     "other": "Click to select this element, then drag it, its edges and its vertices.",
 }
 
@@ -79,6 +84,10 @@ class LayoutPanel:
         self.count = chooser(tuple((str(n), tr("{count} rays", count=n)) for n in COUNTS), COUNT_TIP, self.widget)
         self.coloured.activated.connect(lambda: store.update(rays_coloured=self.coloured.currentData()))
         self.count.activated.connect(lambda: store.update(rays_count=int(self.count.currentData())))
+        self.larger = chooser(LARGER, LARGER_TIP, self.widget)
+        self.larger.activated.connect(lambda: store.update(exaggerated=int(self.larger.currentData())))
+        self.larger.hide()
+        self.widget.add_tool(self.larger)
         self.widget.add_tool(self.coloured)
         self.widget.add_tool(self.count)
 
@@ -86,6 +95,8 @@ class LayoutPanel:
         """Paint the lens if it has changed, rays and marks always."""
         display = live.state.display
         select(self.coloured, display.rays_coloured)
+        select(self.larger, str(display.exaggerated))
+        self.larger.setVisible(bool(live.state.optics.errors))
         if self.count.findData(str(display.rays_count)) < 0:
             self.count.addItem(tr("{count} rays", count=display.rays_count), str(display.rays_count))
         select(self.count, str(display.rays_count))
@@ -212,10 +223,10 @@ class LayoutChart(Chart):
         """Paint stop and sensor."""
         wedge = 0.18 * d.half_height + 0.25 * d.stop_rim
         for side in (-1, 1):
-            self._bar(painter, 3, d.stop_z, side * d.stop_rim, side * (d.stop_rim + wedge))
+            self._bar(painter, 3, d.stop, side * d.stop_rim, side * (d.stop_rim + wedge))
         for low, high in d.dark:
-            self._bar(painter, 3, d.stop_z, low, high)
-        self._bar(painter, 2, d.sensor_z, -half, half)
+            self._bar(painter, 3, d.stop, low, high)
+        self._bar(painter, 2, d.sensor, -half, half)
 
     def _paint_ends(self, painter: QPainter) -> None:
         """Paint a bar where a rim stops a ray."""
@@ -225,10 +236,16 @@ class LayoutChart(Chart):
                 wide, tall = self.theme.px(2), self.theme.px(END_BAR_PX)
                 painter.fillRect(QRectF(x - wide / 2, y - tall / 2, wide, tall), QColor(self.theme.text))
 
-    def _bar(self, painter: QPainter, width: float, z: float, start: float, end: float) -> None:
-        (x, top), (_, bottom) = self.to_pixels(z, max(start, end)), self.to_pixels(z, min(start, end))
+    def _bar(self, painter: QPainter, width: float, place: Section, start: float, end: float) -> None:
+        """Paint a thick line between two heights of a plane that stands upright or not."""
+        low, high = min(start, end), max(start, end)
+        (x, top), (foot, bottom) = (self.to_pixels(*place.placed(0.0, y)) for y in (high, low))
         wide = width * self.theme.scale
-        painter.fillRect(QRectF(x - wide / 2, top, wide, bottom - top), QColor(self.theme.text))
+        if abs(x - foot) < LEAN_PX:
+            painter.fillRect(QRectF(x - wide / 2, top, wide, bottom - top), QColor(self.theme.text))
+            return
+        painter.setPen(QPen(QColor(self.theme.text), wide, c=Qt.PenCapStyle.FlatCap))
+        painter.drawLine(QPointF(x, top), QPointF(foot, bottom))
 
     def _polygon(self, outline: Outline) -> QPolygonF:
         return polygon(*self.to_pixels(outline.z, outline.y))
@@ -377,6 +394,14 @@ def fan_name(groups: tuple[Fan, ...], number: int) -> str:
     return local(f"{signed(fan.field_deg, 1)}°")
 
 
+def drawing_note(layout: Layout) -> str:
+    """Return that the drawing is no section of symmetry, and by what it exaggerates; "" where neither is so."""
+    notes = [tr("not symmetric: seen along x")] if layout.skew else []
+    if layout.exaggerated > 1:
+        notes.append(tr("tilts and decentres ×{factor}, rays as they are", factor=layout.exaggerated))
+    return ", ".join(notes)
+
+
 def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) -> str:
     """Return the lines' names in their colours."""
     names = [
@@ -391,4 +416,6 @@ def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) 
             for number, colour in enumerate(colours)
         ]
     names.append((theme.text, "▮", tr("stop, sensor")))
+    if layout and (note := drawing_note(layout)):
+        names.insert(0, (theme.warning, "▲", note))
     return " &nbsp; ".join(f'<span style="color:{colour}">{sign}</span> {name}' for colour, sign, name in names)

@@ -12,6 +12,7 @@ from p2sf_explorer.compute.editing import edited_state, stop_gap, with_stop_shif
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import Linear, nice, read_number, signed
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.slider import STEPS, Slider
@@ -23,20 +24,23 @@ BENDING_TIP = (
 )
 STOP_TIP = "Stop shift: the stop's distance behind the surface before it, within its air gap; the f-number stays."
 WIDEST = 6.0  # shape factor at the slider's end, unless the element has more
-UNITS = {"": 1.0, "mm": 1.0}
+UNITS = {" mm": {"": 1.0, "mm": 1.0, "µm": 1e-3, "um": 1e-3}, "°": {"": 1.0, "°": 1.0, "deg": 1.0, "'": 1 / 60}}
+PLAIN = {"": 1.0}
+Edit = Callable[[State, float], State]
+"""From the state that a drag began with, and a value, to the state with it; P2SFError where there is none."""
 
 
 class LensSlider(QWidget):
     """A name, a slider and a number that edit the lens: one step of undo for a drag.
 
-    ``edit`` returns the lens that the drag began with when it has a value.
+    ``unit`` is written behind the number, which has so many ``digits`` behind the point.
     """
 
-    def __init__(self, title: str, tip: str, unit: str, store: Store, edit: Callable[[Lens, float], Lens]):
+    def __init__(self, title: str, tip: str, unit: str, store: Store, edit: Edit, digits: int = 3):
         super().__init__()
-        self._store, self._edit, self._unit, self._title = store, edit, unit, title
+        self._store, self._edit, self._unit, self._title, self._digits = store, edit, unit, title, digits
         self._scale, self._value, self._grasped = Linear(0.0, 1.0), 0.0, 0.0
-        self._start = store.state
+        self._start, self._shown = store.state, ""
         self.slider, self.number = Slider(self), ValueEdit(self)
         for part in (self.slider, self.number):
             part.setAccessibleName(tr(title))
@@ -44,7 +48,8 @@ class LensSlider(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)
-        row.addWidget(QLabel(tr(title), self))
+        self.label = QLabel(tr(title), self)
+        row.addWidget(self.label)
         row.addWidget(self.slider, 1)
         row.addWidget(self.number)
         self._connect()
@@ -68,9 +73,10 @@ class LensSlider(QWidget):
     def _type(self, text: str) -> None:
         self._start = self._store.state
         try:
-            self._set(read_number(text, self._title.lower(), UNITS if self._unit else {"": 1.0}))
+            self._set(read_number(text, self._title.lower(), UNITS.get(self._unit, PLAIN)))
         except P2SFError as error:
             self._store.refused.emit(error)
+        self.number.set_text(self._shown)
 
     def _set(self, value: float) -> None:
         """Give the lens of the drag's beginning a value; a refused one leaves the picture."""
@@ -78,7 +84,7 @@ class LensSlider(QWidget):
             return
         state = self._start if self._store.moving else self._store.state
         try:
-            self._store.replace(edited_state(state, self._edit(prescription(state), value)))
+            self._store.replace(self._edit(state, value))
         except P2SFError as error:
             self._store.refused.emit(error)
 
@@ -91,7 +97,8 @@ class LensSlider(QWidget):
         self.slider.blockSignals(True)
         self.slider.setValue(round(STEPS * self._scale.travel(self._value)))
         self.slider.blockSignals(False)
-        self.number.set_text("" if value is None else f"{signed(value, 3)}{self._unit}")
+        self._shown = "" if value is None else f"{signed(value, self._digits)}{self._unit}"
+        self.number.set_text(self._shown)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -101,8 +108,8 @@ class LensSlider(QWidget):
 def bending_slider(store: Store) -> LensSlider:
     """Return the slider that bends the selected element."""
 
-    def bend(lens: Lens, shape: float) -> Lens:
-        return with_shape_factor(lens, *(store.selection or (0, 0)), shape)
+    def bend(state: State, shape: float) -> State:
+        return edited_state(state, with_shape_factor(prescription(state), *(store.selection or (0, 0)), shape))
 
     return LensSlider("Bending X", BENDING_TIP, "", store, bend)
 
@@ -120,9 +127,10 @@ def show_bending(slider: LensSlider, lens: Lens, selection: tuple[int, int] | No
 def stop_slider(store: Store) -> LensSlider:
     """Return the slider that moves the stop within its air gap."""
 
-    def shift(lens: Lens, place: float) -> Lens:
+    def shift(state: State, place: float) -> State:
+        lens = prescription(state)
         gap = stop_gap(lens)
-        return with_stop_shift(lens, place - gap[0]) if gap else lens
+        return edited_state(state, with_stop_shift(lens, place - gap[0]) if gap else lens)
 
     return LensSlider("Stop", STOP_TIP, " mm", store, shift)
 

@@ -28,7 +28,8 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.glass_completion import GlassDelegate
 from p2sf_explorer.panels.lens_sliders import bending_slider, show_bending, show_stop, stop_slider
 from p2sf_explorer.results.lens_table import Rows
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.build_errors import renumbered
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select
@@ -52,6 +53,9 @@ TOOLS = (
     ("Back to file", "Drop every edit and take the lens as its file has it", "_revert"),
     ("Save lens as…", "Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)", "_save"),
 )
+
+STEPS_OF_ROWS: dict[Callable[..., Lens], int] = {inserted: 1, deleted: -1}
+"""By how many the surfaces behind an edited one are renumbered."""
 
 
 class LensTablePanel:
@@ -210,6 +214,9 @@ class LensTablePanel:
         try:
             lens = prescription(state)
             check_surface(lens, number)
+            if edit in STEPS_OF_ROWS and state.optics.errors:
+                errors = renumbered(state.optics.errors, number, STEPS_OF_ROWS[edit])
+                state = changed(state, errors=errors)
             self._store.replace(edited_state(state, edit(lens, number, *arguments)))
         except P2SFError as error:
             self._store.refused.emit(error)

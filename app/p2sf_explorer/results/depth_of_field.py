@@ -7,6 +7,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import seen_from
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.raytrace.pencil import Sources, hexapolar, pencil
 from p2sf_explorer.compute.live import Live
@@ -131,7 +132,7 @@ def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     source = Sources(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
         xi, eta = hexapolar(rings)
-        rays = pencil(s.lens, source, xi, eta, clip=live.state.optics.clip)
+        rays = pencil(seen_from(s.lens, s.source.azimuth_deg), source, xi, eta, clip=live.state.optics.clip)
     except P2SFError:  # a chief ray is lost at some depth: only the paraxial curve remains
         return np.full(len(depths), np.nan)
     lost = rays.passed.sum(-1) < FEWEST

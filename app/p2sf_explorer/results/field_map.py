@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.conventions import degrees_from_slope
+from p2sf.conventions import degrees_from_slope, slope_from_degrees
 from p2sf.errors import P2SFError
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
@@ -25,12 +25,16 @@ MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 
 @dataclass(frozen=True)
 class FieldMap:
-    """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window."""
+    """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window.
+
+    ``skew``: the lens is not symmetric, and every picture has a field (x, y) of its own.
+    """
 
     state: State
     corner_slope: float
     window: tuple[int, float]
     six: bool
+    skew: bool = False
 
 
 def field_map(live: Live) -> FieldMap:
@@ -40,9 +44,20 @@ def field_map(live: Live) -> FieldMap:
     slopes = np.array([0.0, 0.5, 1.0]) * corner
     c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
-    return FieldMap(
-        changed(optics(live.state), field_deg=0.0), corner, (pixels, wide / pixels), everywhere_by_coefficients(live)
-    )
+    six, state = everywhere_by_coefficients(live), changed(optics(live.state), field_deg=0.0, field_x_deg=0.0)
+    return FieldMap(state, corner, (pixels, wide / pixels), six, s.lens.misaligned and not six)
+
+
+def fields_deg(place: np.ndarray, corner_slope: float) -> tuple[float, float]:
+    """Return the field along x and along y, degrees, of a place of the map, 1 from the middle to the corner."""
+    x, y = degrees_from_slope(np.asarray(place) * corner_slope).tolist()
+    return x, y
+
+
+def place_of(state: State, corner_slope: float) -> tuple[float, float]:
+    """Return where the present field stands in the map, as `places` has it."""
+    x, y = (slope_from_degrees(np.array([state.optics.field_x_deg, state.optics.field_deg])) / corner_slope).tolist()
+    return x, y
 
 
 def places() -> np.ndarray:
@@ -61,6 +76,8 @@ def answer(request: FieldMap, stopped: Callable[[], bool], tell: Callable[[float
     found = np.full((*SHAPE, request.window[0], request.window[0]), np.nan, np.float32)
     where = places()
     radius = np.round(np.hypot(where[..., 0], where[..., 1]), 9)
+    if request.skew:
+        return _everywhere(request, where, found, stopped, tell)
     rings = np.unique(radius)
     for number, ring in enumerate(rings, 1):
         if stopped():
@@ -70,6 +87,37 @@ def answer(request: FieldMap, stopped: Callable[[], bool], tell: Callable[[float
             found[at] = turned(values, float(np.arctan2(where[at][0], where[at][1])))
         tell(number / len(rings), found)
     return found
+
+
+def _everywhere(
+    request: FieldMap,
+    where: np.ndarray,
+    found: np.ndarray,
+    stopped: Callable[[], bool],
+    tell: Callable[[float, object], None],
+) -> np.ndarray:
+    """Return the pictures of a lens that is not symmetric, none of which stands in for another; from the middle out."""
+    order = sorted(np.ndindex(*SHAPE), key=lambda at: float(np.hypot(*where[at])))
+    for number, at in enumerate(order, 1):
+        if stopped():
+            break
+        found[at] = _skew_picture(request, where[at])
+        tell(number / len(order), found)
+    return found
+
+
+def _skew_picture(request: FieldMap, place: np.ndarray) -> np.ndarray:
+    """Return the PSF at a place of the map over its peak, in the sensor's axes, NaN where there is none."""
+    field_x, field_y = fields_deg(place, request.corner_slope)
+    state = changed(request.state, field_deg=field_y, field_x_deg=field_x)
+    try:
+        setup = paraxial_setup(state)
+        values = in_window(state, request.window, request.six).values
+    except P2SFError:  # rays lost at the edge of the field: an empty place
+        return np.full((request.window[0],) * 2, np.nan)
+    inverted = float(setup.coefficients.image_height) * setup.source.field_slope < 0
+    angle = np.deg2rad(setup.source.azimuth_deg) + (np.pi if inverted else 0.0)
+    return turned(values, float(angle)) / (float(values.max()) or 1.0)
 
 
 def picture_at(request: FieldMap, ring: float) -> np.ndarray:

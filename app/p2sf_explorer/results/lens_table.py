@@ -1,15 +1,21 @@
-"""The lens surface by surface, as its file or an edit has it."""
+"""The lens surface by surface, as its file or an edit has it, and what of its build is off."""
 
 from dataclasses import dataclass
+from math import isfinite
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.shape_words import kind_of, shape_words
 from p2sf.messages import Message
 from p2sf_explorer.compute.editing import written
+from p2sf_explorer.compute.glass_outlines import clear_rims, still
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.state.build_errors import BuildErrors
+from p2sf_explorer.state.built import Adjustment, Piece, adjustments, pieces
 
 DIFFRACTIVE, IDEAL = Message("diffractive"), Message("ideal lens")
+FRINGE_UM = 0.54607 / 2  # between fringes of a test plate in the green line of mercury
 COLUMNS = ("radius", "thickness", "medium", "semi_diameter", "conic", "aspheric")
 
 
@@ -41,3 +47,44 @@ def names(surface: Surface) -> tuple[Message, ...]:
         return (IDEAL,)
     found = (kind_of(surface.shape),) if surface.shape else ()
     return (*found, DIFFRACTIVE) if surface.diffraction else found
+
+
+@dataclass(frozen=True)
+class Misalignment:
+    """The lens without the errors of its build, its pieces, and the errors; ``file_tilted``: its file has tilts too."""
+
+    lens: Lens
+    pieces: tuple[Piece, ...]
+    errors: BuildErrors
+    file_tilted: bool
+    show_field_x: bool
+
+
+def misalignment(live: Live) -> Misalignment:
+    """Return what the panel of sliders shows."""
+    lens = prescription(live.state)
+    errors, field_x = live.state.optics.errors, live.state.display.show_field_x
+    return Misalignment(lens, pieces(lens), errors, lens.misaligned, field_x)
+
+
+def of_piece(lens: Lens, piece: Piece) -> tuple[Adjustment, ...]:
+    """Return what of a piece may be off: of groups their place alone, else every table would be as long as the lens."""
+    single = not any(other is not piece and _holds(piece, other) for other in pieces(lens))
+    found = adjustments(lens, piece.span)
+    return found if single else tuple(one for one in found if one.span == piece.span)
+
+
+def _holds(piece: Piece, other: Piece) -> bool:
+    return piece.span[0] <= other.span[0] and other.span[1] <= piece.span[1]
+
+
+def fringes(lens: Lens, surface: int, percent: float) -> float | None:
+    """Return how many fringes a test plate of the right radius shows on a surface; None for a plane.
+
+    Half a wave of sag at the clear rim is one: N = 2Δs/λ with Δs = (r²/2)·Δ(1/R), to second order in r.
+    """
+    radius, rim = lens.surfaces[surface - 1].radius, clear_rims(still(lens))[surface - 1]
+    if not isfinite(radius):
+        return None
+    sag_mm = rim**2 / 2 * abs(1 / (radius * (1 + percent / 100)) - 1 / radius)
+    return UM_PER_MM * sag_mm / FRINGE_UM

@@ -15,7 +15,7 @@ from p2sf.psf.plane_waves import counts_for, pupil_amplitude
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import corner_reach
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
-from p2sf.pupil.quadrature import disc_nodes, nodes_for
+from p2sf.pupil.quadrature import disc_nodes, nodes_for, whole_disc
 from p2sf.pupil.transform import sum_on_line
 from p2sf.raytrace.fit import LEVELS
 from p2sf.raytrace.seen_mask import mask_seen
@@ -110,7 +110,8 @@ def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray
     if live.psf.method == "geometric" or live.state.optics.clip:
         return None
     try:
-        nodes = seidel_nodes(live) if by_coefficients(live) else fitted_nodes(live)
+        six = by_coefficients(live)
+        nodes = seidel_nodes(live) if six else fitted_nodes(live)
     except P2SFError:  # rays are lost: only the picture's own samples remain
         return None
     if nodes is None:
@@ -118,7 +119,7 @@ def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray
     amplitude, kx, ky = nodes
     window = position.size, float(position[1] - position[0])
     across, along_y = sum_on_line(amplitude, kx, *window), sum_on_line(amplitude, ky, *window)
-    if mask_seen(live.setup.lens, live.setup.source).even:
+    if mask_seen(live.setup.lens, live.setup.source).even and (six or not live.setup.lens.misaligned):
         across = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
     along_x = across
     return along_x.real**2 + along_x.imag**2, along_y.real**2 + along_y.imag**2
@@ -150,13 +151,16 @@ def fitted_nodes(live: Live) -> Nodes | None:
     counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
     if counts[0] * counts[1] * found.numbers > MOST_NODES * LEVELS[0].numbers:
         return None
+    skew = live.setup.lens.misaligned
     if not found.mask.clear:
         open_ = mask_nodes(found.mask, *counts)
+        open_ = open_.unfolded() if skew else open_
         phase, fx, fy = found.at(open_.xi, open_.eta)
         return pupil_amplitude(light_of(open_), phase + open_.path_um / found.wavelength_um), fx, fy
-    nodes = disc_nodes(*counts)
-    phase, fx, fy = found.at(nodes.xi, nodes.eta)
-    return pupil_amplitude(nodes.weight, phase), fx, fy
+    half = disc_nodes(*counts)
+    xi, eta, weight = whole_disc(*counts) if skew else (half.xi, half.eta, half.weight)
+    phase, fx, fy = found.at(xi, eta)
+    return pupil_amplitude(weight, phase), fx, fy
 
 
 def light_of(nodes: ClearNodes) -> np.ndarray:

@@ -15,8 +15,8 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compare.contrasts import AIM_WORDS
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.quantities import OF_THE_LENS, OF_THE_SOURCE
-from p2sf_explorer.compute.setup import prescription, ranges
+from p2sf_explorer.compute.quantities import FIELD_X, OF_THE_LENS, OF_THE_SOURCE
+from p2sf_explorer.compute.setup import Ranges, state_ranges
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.results.first_order import OF_A, ring_note, rows
@@ -84,6 +84,11 @@ class AimRow(QWidget):
     def show_state(self, state: State) -> None:
         """Follow a state; no signal goes back."""
         select(self.aim, state.optics.aim)
+
+
+def asked(state: State, limits: Ranges) -> bool:
+    """Return whether the field along x has a slider: the lens is not symmetric, or a person wants it."""
+    return limits.both_sides or state.display.show_field_x or bool(state.optics.field_x_deg)
 
 
 ABOVE = (*OF_THE_LENS, *OF_THE_SOURCE)  # the pupil's shape
@@ -160,9 +165,11 @@ class Controls(QWidget):
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
-        limits = ranges(prescription(state))
+        limits = state_ranges(state)
         for quantity in ABOVE:
-            self.rows[quantity.key].setVisible(quantity.there(limits))
+            self.rows[quantity.key].setVisible(
+                quantity.there(limits) and (quantity is not FIELD_X or asked(state, limits))
+            )
             self.rows[quantity.key].show_state(state, limits)
         self.shape.show_state(state, limits)
         self.stopping.show_state(state)

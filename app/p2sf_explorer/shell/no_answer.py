@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.compute.layout import Layout, layout
+from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State
 
@@ -25,6 +25,6 @@ def drawn(state: State) -> SetupDrawing | None:
     """Return the lens, its rays and marks for a state without a picture; None where these cannot be computed either."""
     try:
         found = paraxial_setup(state)
-        return SetupDrawing(state, found, layout(found, state.optics.clip, state.display.rays_coloured))
+        return SetupDrawing(state, found, layout_of(state, found))
     except P2SFError:
         return None

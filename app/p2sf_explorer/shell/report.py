@@ -174,8 +174,9 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
         page.lines(*at(ray.z, ray.y))
     page.pen(LIGHT.text, 0.6)
     for side in (-1, 1):
-        page.lines(*at([drawn.stop_z] * 2, [side * drawn.stop_rim, side * (drawn.stop_rim + 0.2 * drawn.half_height)]))
-    page.lines(*at([drawn.sensor_z] * 2, [-shown.sensor_half, shown.sensor_half]))
+        ends = np.array([side * drawn.stop_rim, side * (drawn.stop_rim + 0.2 * drawn.half_height)])
+        page.lines(*at(*drawn.stop.placed(0.0, ends)))
+    page.lines(*at(*drawn.sensor.placed(0.0, np.array([-shown.sensor_half, shown.sensor_half]))))
     page.painter.restore()
 
 

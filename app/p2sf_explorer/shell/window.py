@@ -25,6 +25,7 @@ from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live, Refused
+from p2sf_explorer.compute.warnings import left_out
 from p2sf_explorer.docking.floating_panels import FloatingPanels, Home
 from p2sf_explorer.docking.stage import PanelRoom, ShareSplitter
 from p2sf_explorer.docking.tabs import Tabs
@@ -511,4 +512,5 @@ def paint(panel: Panel, key: str, live: Live) -> None:
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None
-    panel.widget.show_side("A" if why else live.side, said(why) if why else "")
+    note = why or left_out(live.setup.lens, key)
+    panel.widget.show_side("A" if why else live.side, said(note) if note else "")

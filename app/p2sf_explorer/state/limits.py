@@ -39,6 +39,7 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "focus_position": (-1e6, 1e6, Message("focus"), ""),
     "sensor_shift_um": (-1e6, 1e6, Message("sensor shift"), "µm"),
     "field_deg": (-89.0, 89.0, Message("field angle"), "°"),
+    "field_x_deg": (-89.0, 89.0, Message("field angle along x"), "°"),
     "wavelength_nm": (100.0, 20000.0, Message("wavelength"), "nm"),
     "f_number": (0.2, 1000.0, Message("f-number"), ""),
     "obscuration": (0.0, LARGEST_OBSCURATION, Message("obscuration"), ""),
@@ -59,6 +60,7 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "playback_seconds": (0.1, 600.0, Message("duration of a sweep"), "s"),
     "photo_pixel_um": (0.1, 1000.0, Message("pixel of the photo"), "µm"),
     "photo_split": (0.0, 1.0, Message("split of the photo"), ""),
+    "exaggerated": (1, 1000, Message("exaggeration of tilts and decentres"), ""),
     "rays_count": (3, 41, Message("number of rays drawn from a point"), ""),
     "lesson_step": (0, 1000, Message("step of the lesson"), ""),
     "matrix_rows": (2, MOST_LISTED, Message("number of rows"), ""),
@@ -93,10 +95,10 @@ MASK = (*SMOOTH_MASK, *COUNTS)
 CLEAR_PUPIL = {"obscuration": 0.0, "blades": 0, "vanes": 0, "apodisation": inf, "cubic_um": 0.0}
 RINGS = ("zoom", "focus_position")
 """Where the rings of a lens stand that zooms or focuses inside; None: where the file begins."""
-OF_THE_SOURCE = ("depth_mm", "field_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
+OF_THE_SOURCE = ("depth_mm", "field_deg", "field_x_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
 DRAGGED = (*OF_THE_SOURCE, *RINGS, *SMOOTH_MASK)
 SLIDERS = (*DRAGGED, *COUNTS)
-LINKABLE = (*SLIDERS, "method", "added_waves")
+LINKABLE = (*SLIDERS, "method", "added_waves", "errors")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
 PLAYABLE = ("", *DRAGGED, *(ADDED + term for term in TERMS))
 KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a whole number")}
@@ -120,6 +122,8 @@ PLAIN: dict[str, type] = {
     "lesson_told": bool,
     "lesson_step": int,
     "rays_count": int,
+    "exaggerated": int,
+    "show_field_x": bool,
     "matrix_rows": int,
     "matrix_columns": int,
     "matrix_shared": bool,

@@ -14,6 +14,7 @@ from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMask
 from p2sf.tolerance.errors_of_build import UNITS
+from p2sf_explorer.state.build_errors import BuildErrors, check_errors
 from p2sf_explorer.state.limits import (
     CHOICES,
     KINDS,
@@ -108,6 +109,8 @@ class Optics:
     ``focus_mm``, ``f_number`` and what stands in the stop, ``obscuration`` to ``cubic_um`` as in `PupilMask`, are None
     where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`. ``zoom`` and ``focus_position`` are
     places on the rings of a lens that has them, None where its file begins; with ``focus_mm`` that ring follows.
+    ``field_deg`` is the field along y and ``field_x_deg`` that along x. ``errors`` is what of the lens is not as it
+    should be (`p2sf_explorer.state.build_errors`), on top of what its file or an edit has.
     """
 
     lens: str = "double_gauss_28"
@@ -116,6 +119,7 @@ class Optics:
     focus_mm: float | None = None
     sensor_shift_um: float = 0.0
     field_deg: float = 10.0
+    field_x_deg: float = 0.0
     wavelength_nm: float = 587.5618
     f_number: float | None = None
     zoom: float | None = None
@@ -135,9 +139,11 @@ class Optics:
     apodisation: float | None = None
     apodisation_power: int | None = None
     cubic_um: float | None = None
+    errors: BuildErrors = ()
 
     def __post_init__(self) -> None:
         _check_entries(self)
+        check_errors(self.errors)
         if self.mask:
             PupilMask(**self.mask)  # which raises for two blades, and for an odd power
         if not isinstance(self.lens, str) or not self.lens:
@@ -203,7 +209,9 @@ class Display:
     ``colours`` are those of the heat maps.
     ``show_pupil_shape``: the controls of what stands in the stop are unfolded.
     ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
-    what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off".
+    what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off". ``exaggerated``: the factor
+    by which the drawings enlarge the tilts and decentres of ``errors``; ``show_field_x``: the field along x has a
+    slider also where the lens is symmetric.
     """
 
     psf_scale: str = "sqrt"
@@ -230,6 +238,8 @@ class Display:
     rays_coloured: str = "kind"
     rays_count: int = 3
     keep_focus: str = "paraxial"
+    exaggerated: int = 1
+    show_field_x: bool = False
 
     def __post_init__(self) -> None:
         _check_entries(self)

@@ -1,5 +1,7 @@
 """A small drawing of a lens: glass, stop and sensor."""
 
+from typing import SupportsFloat
+
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
@@ -13,7 +15,7 @@ def paint_lens(painter: QPainter, drawn: Drawing, rect: QRectF, theme: Tokens) -
     scale = min(rect.width() / length, rect.height() / tall)
     zero = QPointF(rect.center().x() - scale * (drawn.left + drawn.right) / 2, rect.center().y())
 
-    def at(z: float, y: float) -> QPointF:
+    def at(z: SupportsFloat, y: SupportsFloat) -> QPointF:
         return QPointF(zero.x() + scale * float(z), zero.y() - scale * float(y))
 
     painter.setPen(QPen(QColor(theme.line), 1))
@@ -29,9 +31,10 @@ def paint_lens(painter: QPainter, drawn: Drawing, rect: QRectF, theme: Tokens) -
     wedge = 0.2 * drawn.half_height
     for side in (-1, 1):
         rim = side * drawn.stop_rim
-        painter.drawLine(QLineF(at(drawn.stop_z, rim), at(drawn.stop_z, rim + side * wedge)))
+        painter.drawLine(QLineF(at(*drawn.stop.placed(0.0, rim)), at(*drawn.stop.placed(0.0, rim + side * wedge))))
     painter.setPen(QPen(QColor(theme.text), 1))
-    painter.drawLine(QLineF(at(drawn.sensor_z, -drawn.half_height / 2), at(drawn.sensor_z, drawn.half_height / 2)))
+    half = drawn.half_height / 2
+    painter.drawLine(QLineF(at(*drawn.sensor.placed(0.0, -half)), at(*drawn.sensor.placed(0.0, half))))
 
 
 def glass(index: float, theme: Tokens) -> QColor:

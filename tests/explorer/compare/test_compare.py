@@ -97,6 +97,7 @@ UNLIKE = {
     **{"tolerance": 0.9, "added_waves": (0.5, *(0.0,) * 5), "muted": ("w40",), "solo": ("w31",), "free_pupil": True},
     **{"obscuration": 0.3, "vanes": 4, "vane_width": 0.01, "vane_angle_deg": 45.0, "blades": 6, "roundness": 0.5},
     **{"blade_angle_deg": 10.0, "apodisation": 0.8, "apodisation_power": 4, "cubic_um": 1.0},
+    **{"field_x_deg": 2.0, "errors": (("decentre_y", 3, 5, 0.1),)},
 }
 
 

@@ -68,6 +68,7 @@ NAMED = {
 OF_THE_LENS = {
     "layout",
     "lens",
+    "misalign",
     "first_order",
     "ybar",
     "import",

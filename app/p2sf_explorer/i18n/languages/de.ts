@@ -3,6 +3,7 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source> ({count} fr.)</source><translation> ({count} Ringe)</translation></message>
 <message><source>"{entry}" sets nothing; write entries such as field_deg 10, tab mtf</source><translation>"{entry}" stellt nichts ein; Einträge schreiben wie field_deg 10, tab mtf</translation></message>
 <message><source>"{glass}" (nd {nd:.6f})</source><translation>"{glass}" (nd {nd:.6f})</translation></message>
 <message><source>"{line}" is no entry of the header; give {names}</source><translation>"{line}" ist kein Eintrag des Kopfes; {names} angeben</translation></message>
@@ -39,6 +40,7 @@
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the first vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom ersten Scheitel.</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the last vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom letzten Scheitel.</translation></message>
 <message><source>A real 35 mm wide angle for a reflex camera: long back focus, astigmatism and distortion at the corner</source><translation>Ein echtes 35-mm-Weitwinkel für eine Spiegelreflexkamera: lange Schnittweite, Astigmatismus und Verzeichnung in der Ecke</translation></message>
+<message><source>A slider for the field along x also where the lens is symmetric</source><translation>Ein Regler für das Feld entlang x auch dort, wo das Objektiv symmetrisch ist</translation></message>
 <message><source>A standard lens wide open: seven elements, large and balanced aberrations, strong vignetting</source><translation>Ein Normalobjektiv bei voller Öffnung: sieben Linsen, große und gegeneinander abgewogene Aberrationen, starke Vignettierung</translation></message>
 <message><source>A stock singlet, right way round: spherical aberration, coma and colour, undisguised</source><translation>Eine Einzellinse ab Lager, richtig herum: sphärische Aberration, Koma und Farbe, unverhüllt</translation></message>
 <message><source>A thick meniscus undoes the spherical aberration of spherical mirrors: no asphere anywhere</source><translation>Ein dicker Meniskus hebt die sphärische Aberration der Kugelspiegel auf: nirgends eine Asphäre</translation></message>
@@ -101,6 +103,7 @@
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
 <message><source>Build ten thousand other lenses</source><translation>Zehntausend andere Objektive bauen</translation></message>
+<message><source>By what tilts and decentres of the Misalign panel are enlarged in the drawing</source><translation>Wievielfach Kippungen und Dezentrierungen aus dem Feld Dejustieren in der Zeichnung vergrößert sind</translation></message>
 <message><source>By which the sensor recedes from the lens towards +x.</source><translation>Um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
 <message><source>By which the sensor recedes from the lens towards +y.</source><translation>Um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
@@ -161,6 +164,10 @@
 <message><source>Dark</source><translation>Dunkel</translation></message>
 <message><source>Database</source><translation>Datenbank</translation></message>
 <message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas, or use the arrow keys and Enter, to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas, oder Pfeiltasten und Enter, setzen die Quelle.</translation></message>
+<message><source>Decentre x</source><translation>Dezentrierung x</translation></message>
+<message><source>Decentre x: the piece is moved sideways, out of the layout's plane.</source><translation>Dezentrierung x: das Teil wird zur Seite bewegt, aus der Ebene des Aufbaus hinaus.</translation></message>
+<message><source>Decentre y</source><translation>Dezentrierung y</translation></message>
+<message><source>Decentre y: the piece is moved up.</source><translation>Dezentrierung y: das Teil wird nach oben bewegt.</translation></message>
 <message><source>Defocus is {waves} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {waves} λ, jenseits der 10 λ der Methode; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
 <message><source>Defocus, 1 λ</source><translation>Defokus, 1 λ</translation></message>
 <message><source>Delete</source><translation>Löschen</translation></message>
@@ -216,12 +223,14 @@
 <message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1,4, 50 mm</translation></message>
 <message><source>Fast on a narrow field: very good on axis, the curved field bends away quickly</source><translation>Lichtstark bei kleinem Feld: sehr gut auf der Achse, das gewölbte Bildfeld biegt sich rasch weg</translation></message>
 <message><source>Field</source><translation>Feld</translation></message>
+<message><source>Field along x</source><translation>Feld entlang x</translation></message>
 <message><source>Field angles in degrees, with semicolons between: 0; 7; 14</source><translation>Feldwinkel in Grad, mit Semikolons dazwischen: 0; 7; 14</translation></message>
 <message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field in x</source><translation>Feld in x</translation></message>
+<message><source>Field in x: the field's angle along x, where the lens is not symmetric. The PSF is then drawn with +y away from the axis: turned as its field is.</source><translation>Feld in x: der Feldwinkel entlang x, wo das Objektiv nicht symmetrisch ist. Die PSF wird dann mit +y von der Achse weg gezeichnet: gedreht wie ihr Feld.</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
-<message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the present one.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige.</translation></message>
+<message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the present one. Where the lens is not symmetric every picture has its own field, and the ring can be dragged to any.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige. Wo das Objektiv nicht symmetrisch ist, hat jedes Bild sein eigenes Feld, und der Ring lässt sich zu jedem ziehen.</translation></message>
 <message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields that the lens file states.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
 <message><source>Fields</source><translation>Felder</translation></message>
 <message><source>Figures</source><translation>Zahlen</translation></message>
@@ -283,6 +292,8 @@
 <message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
 <message><source>In a notebook</source><translation>Im Notebook</translation></message>
 <message><source>In its own window, or back</source><translation>In einem eigenen Fenster, oder zurück</translation></message>
+<message><source>Index behind {surface}</source><translation>Brechzahl hinter {surface}</translation></message>
+<message><source>Index: the error of the glass behind this surface, the same at every wavelength.</source><translation>Brechzahl: der Fehler des Glases hinter dieser Fläche, gleich bei jeder Wellenlänge.</translation></message>
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>Inspect</source><translation>Prüfen</translation></message>
@@ -337,6 +348,9 @@
 <message><source>Method</source><translation>Methode</translation></message>
 <message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
 <message><source>Microscope objective 10×, NA 0.25</source><translation>Mikroskopobjektiv 10×, NA 0,25</translation></message>
+<message><source>Misalign</source><translation>Dejustieren</translation></message>
+<message><source>Misalignment</source><translation>Dejustierung</translation></message>
+<message><source>Misalign: what may be off in a built lens, on top of what its file has; the sensor stays where it is. Choose a piece here, or click it in the layout or the lens table. Decentres are mm, tilts degrees about the piece's first vertex, right-handed. A double click sets one back.</source><translation>Dejustieren: was an einem gebauten Objektiv nicht stimmen kann, zusätzlich zu dem, was seine Datei hat; der Sensor bleibt, wo er ist. Ein Teil hier wählen, oder im Aufbau oder in der Objektivtabelle anklicken. Dezentrierungen in mm, Kippungen in Grad um den ersten Scheitel des Teils, rechtshändig. Ein Doppelklick setzt eine zurück.</translation></message>
 <message><source>More</source><translation>Mehr</translation></message>
 <message><source>Most of all {term}: {percent:.0f} % of the wavefront variance</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Mostly {term}: {percent:.0f} % of the wavefront variance</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
@@ -368,6 +382,9 @@
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
 <message><source>Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, narrows the core and feeds the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
+<message><source>Of the lens set straight: its tilts and decentres have no part in these sums.</source><translation>Vom gerade gestellten Objektiv: seine Kippungen und Dezentrierungen gehen in diese Summen nicht ein.</translation></message>
+<message><source>Of the lens set straight: paraxial rays know no tilts and decentres.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen und Dezentrierungen.</translation></message>
+<message><source>Of the lens set straight: six coefficients know no tilts and decentres.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen und Dezentrierungen.</translation></message>
 <message><source>Of the whole field, the same at every point.</source><translation>Des ganzen Feldes, an jedem Punkt gleich.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Abstand von der Achse.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the square of the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Quadrat des Abstands von der Achse.</translation></message>
@@ -489,7 +506,9 @@
 <message><source>RMS ≤ {limit} λ</source><translation>RMS ≤ {limit} λ</translation></message>
 <message><source>RMS, waves</source><translation>RMS, Wellen</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
+<message><source>Radius {surface}</source><translation>Radius {surface}</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
+<message><source>Radius: its error in percent; fringes (fr.) are those of a test plate of the right radius.</source><translation>Radius: sein Fehler in Prozent; die Ringe sind die eines Probeglases mit dem richtigen Radius.</translation></message>
 <message><source>Rail at the right or at the bottom</source><translation>Ansichten neben der Bühne rechts oder unten</translation></message>
 <message><source>Ray fan</source><translation>Strahlfächer</translation></message>
 <message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
@@ -510,6 +529,8 @@
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
 <message><source>Reset</source><translation>Nullen</translation></message>
+<message><source>Reset all</source><translation>Alles zurücksetzen</translation></message>
+<message><source>Reset piece</source><translation>Teil zurücksetzen</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>Roundness</source><translation>Rundung</translation></message>
@@ -550,6 +571,7 @@
 <message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
 <message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
+<message><source>Seidel is of the lens set straight; the other methods know its tilts and decentres.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen und Dezentrierungen.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>Sensor</source><translation>Sensor</translation></message>
@@ -557,7 +579,10 @@
 <message><source>Sensor shift</source><translation>Sensorversatz</translation></message>
 <message><source>Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).</source><translation>Sensorversatz Δz weg vom Objektiv, zusätzlich zur Einstellung; er fügt den Defokus Wd = NA²Δz/(2n′λ) hinzu.</translation></message>
 <message><source>Sensor − image</source><translation>Sensor − Bild</translation></message>
+<message><source>Set every number of the lens right again</source><translation>Jede Zahl des Objektivs wieder richtig stellen</translation></message>
+<message><source>Set every number of this piece right again</source><translation>Jede Zahl dieses Teils wieder richtig stellen</translation></message>
 <message><source>Set of PSFs…</source><translation>Satz PSFs …</translation></message>
+<message><source>Set this number right again</source><translation>Diese Zahl wieder richtig stellen</translation></message>
 <message><source>Sharpening</source><translation>Schärfung</translation></message>
 <message><source>Shift, Alt</source><translation>Umschalt, Alt</translation></message>
 <message><source>Shifts</source><translation>Versatz</translation></message>
@@ -576,6 +601,7 @@
 <message><source>Show the window as it was; Ctrl+Z comes back to this one</source><translation>Das Fenster zeigen, wie es war; Strg+Z kehrt zu diesem zurück</translation></message>
 <message><source>Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back</source><translation>Die angepasste Pupille dieses Punktes im Fenster zeigen, als freie Pupille; Rückgängig holt das Objektiv zurück</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
+<message><source>Six coefficients are those of the lens set straight, without its tilts and decentres; choose auto, fitted or traced to see what these do.</source><translation>Die sechs Koeffizienten sind die des gerade gestellten Objektivs, ohne seine Kippungen und Dezentrierungen; auto, fitted oder traced wählen, um zu sehen, was diese tun.</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
 <message><source>Smaller type</source><translation>Kleinere Schrift</translation></message>
 <message><source>Snapshot</source><translation>Sichern</translation></message>
@@ -642,6 +668,8 @@
 <message><source>The panel's data are on the clipboard</source><translation>Die Daten der Ansicht sind in der Zwischenablage</translation></message>
 <message><source>The panel's picture is on the clipboard</source><translation>Das Bild der Ansicht ist in der Zwischenablage</translation></message>
 <message><source>The paper's lens: six elements round a stop, excellent on axis, oblique spherical at the corner</source><translation>Das Objektiv des Aufsatzes: sechs Linsen um eine Blende, hervorragend auf der Achse, schiefe sphärische Aberration in der Ecke</translation></message>
+<message><source>The paraxial curve and its limits are of the lens set straight; the exact rays are not.</source><translation>Die paraxiale Kurve und ihre Grenzen gelten für das gerade gestellte Objektiv, die exakten Strahlen für das dejustierte.</translation></message>
+<message><source>The piece that the sliders move: an element, a group, the whole lens or the sensor</source><translation>Das Teil, das die Regler bewegen: eine Linse, eine Gruppe, das ganze Objektiv oder der Sensor</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The rear-stop landscape lens turned around: its stop stands before the meniscus</source><translation>Die Landschaftslinse mit hinterer Blende, umgedreht: ihre Blende steht vor dem Meniskus</translation></message>
 <message><source>The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.</source><translation>Das gewählte Element: seitlich ziehen biegt es durch, seine Brechkraft als dünne Linse bleibt. Ein Klick wählt seine Gruppe.</translation></message>
@@ -670,7 +698,9 @@
 <message><source>Theory of this panel</source><translation>Theorie zu dieser Ansicht</translation></message>
 <message><source>Theory: conventions, formulas, sources</source><translation>Theorie: Konventionen, Formeln, Quellen</translation></message>
 <message><source>These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.</source><translation>Diese PSFs sind die Dichte der Strahlen; das meiste, was Beugung zu so breiten beiträgt, verbergen die Pixel.</translation></message>
+<message><source>Thickness {surface}</source><translation>Dicke {surface}</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
+<message><source>Thickness: its error behind this surface; what follows moves with it.</source><translation>Dicke: ihr Fehler hinter dieser Fläche; was folgt, bewegt sich mit.</translation></message>
 <message><source>This is A: a build is opened as A beside the lens as designed, and both have one yield.</source><translation>Dies ist A: Ein Exemplar öffnet sich als A neben dem Objektiv wie entworfen, und beide haben eine Ausbeute.</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
 <message><source>This is A: a picture is measured beside one lens.</source><translation>Das ist A: Ein Bild wird neben einem Objektiv vermessen.</translation></message>
@@ -683,6 +713,7 @@
 <message><source>This is A: how far it is sharp is where it begins and ends, which B does not move.</source><translation>Dies ist A: wie weit es scharf ist, sagen Anfang und Ende, und B verschiebt sie nicht.</translation></message>
 <message><source>This is A: it has {a} surfaces and B has {b}, so that none stands for another.</source><translation>Dies ist A: es hat {a} Flächen und B hat {b}, sodass keine einer anderen entspricht.</translation></message>
 <message><source>This is A: it is the lens that is edited here; the strip above names what differs.</source><translation>Dies ist A: bearbeitet wird hier dieses Objektiv; die Leiste oben nennt, worin sie sich unterscheiden.</translation></message>
+<message><source>This is A: it is the lens whose build is set here; the strip above names what differs.</source><translation>Dies ist A: hier wird eingestellt, wie das Objektiv gebaut ist; der Streifen oben nennt, was verschieden ist.</translation></message>
 <message><source>This is A: it is what was read from its file.</source><translation>Dies ist A: es ist, was aus seiner Datei gelesen wurde.</translation></message>
 <message><source>This is A: light that A has less of than B cannot be shown as a photograph.</source><translation>Dies ist A: Licht, von dem A weniger hat als B, lässt sich nicht als Foto zeigen.</translation></message>
 <message><source>This is A: one colour less another is no colour.</source><translation>Dies ist A: eine Farbe weniger eine andere ist keine Farbe.</translation></message>
@@ -700,6 +731,10 @@
 <message><source>Three plastic elements and six aspheres in 4.4 mm of length, as in the first phone cameras</source><translation>Drei Kunststofflinsen und sechs Asphären auf 4,4 mm Länge, wie in den ersten Telefonkameras</translation></message>
 <message><source>Through focus</source><translation>Fokusreihe</translation></message>
 <message><source>Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or click: the sensor follows. S, T: where sagittal and tangential rays come to focus; best: smallest RMS wavefront.</source><translation>Fokusreihe: die PSF an mehreren Sensororten, Helligkeit über der hellsten. Die Linie ziehen oder klicken: der Sensor folgt. S, T: wo sagittale und tangentiale Strahlen zum Fokus kommen; best: kleinster RMS der Wellenfront.</translation></message>
+<message><source>Tilt about x</source><translation>Kippung um x</translation></message>
+<message><source>Tilt about x: right-handed; a positive one turns y towards z, the piece's top away from the object.</source><translation>Kippung um x: rechtshändig; eine positive dreht y nach z, das Teil oben vom Objekt weg.</translation></message>
+<message><source>Tilt about y</source><translation>Kippung um y</translation></message>
+<message><source>Tilt about y: right-handed; a positive one turns z towards x.</source><translation>Kippung um y: rechtshändig; eine positive dreht z nach x.</translation></message>
 <message><source>To pupil</source><translation>Als Pupille</translation></message>
 <message><source>To report it, copy the text below and send it to the authors: it names versions and places in the program, no folder or file of yours.</source><translation>Um den Fehler zu melden, den Text unten kopieren und den Autoren schicken: Er nennt Versionen und Stellen im Programm, keinen Ordner und keine Datei von Ihnen.</translation></message>
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
@@ -776,6 +811,7 @@
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What every field of a good lens keeps; at first, what four lenses of five keep.</source><translation>Was jedes Feld eines guten Objektivs einhält; anfangs, was vier von fünf Objektiven einhalten.</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
+<message><source>What is selected. A click selects its group; its sliders stand in the Misalign panel.</source><translation>Das Gewählte. Ein Klick wählt seine Gruppe; seine Regler stehen im Feld Dejustieren.</translation></message>
 <message><source>What is selected: drag it along the axis. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen. Ein Klick hebt die Auswahl auf.</translation></message>
 <message><source>What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
@@ -911,6 +947,8 @@
 <message><source>an end of the sweep</source><translation>ein Ende des Durchlaufs</translation></message>
 <message><source>an energy fraction of {fraction}; give a number between 0 and 1</source><translation>ein Energieanteil von {fraction}; eine Zahl zwischen 0 und 1 angeben</translation></message>
 <message><source>an ideal lens that is not round</source><translation>eine ideale Linse, die nicht rund ist</translation></message>
+<message><source>an error of the build is at surfaces {value}; give the first and the last, counted from 1</source><translation>ein Fehler des Baus liegt an den Flächen {value}; die erste und die letzte angeben, ab 1 gezählt</translation></message>
+<message><source>an error of the build is {value}; give kind, first and last surface, and amount; kinds are {kinds}</source><translation>ein Fehler des Baus ist {value}; Art, erste und letzte Fläche und Betrag angeben; Arten sind {kinds}</translation></message>
 <message><source>an object at infinity has no height; give the field as an angle or an image height</source><translation>ein Objekt im Unendlichen hat keine Höhe; das Feld als Winkel oder Bildhöhe angeben</translation></message>
 <message><source>an object at infinity has no numerical aperture; state the pupil's diameter or f-number</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur; Pupillendurchmesser oder Blendenzahl angeben</translation></message>
 <message><source>an odd asphere has no normalisation radius; write type = "extended odd asphere"</source><translation>eine ungerade Asphäre hat keinen Normierungsradius; type = "extended odd asphere" schreiben</translation></message>
@@ -1062,6 +1100,7 @@
 <message><source>edges, and rims and obscurations in other shapes</source><translation>Kanten sowie Ränder und Abschattungen anderer Form</translation></message>
 <message><source>edited</source><translation>bearbeitet</translation></message>
 <message><source>edited since</source><translation>seither geändert</translation></message>
+<message><source>element {number}, surfaces {first} to {last}</source><translation>Linse {number}, Flächen {first} bis {last}</translation></message>
 <message><source>ending "{ending}" is none of {endings}; choose one</source><translation>die Endung "{ending}" ist keine von {endings}; eine davon wählen</translation></message>
 <message><source>energy within</source><translation>Energie innerhalb</translation></message>
 <message><source>enlargement of the 3D view</source><translation>Vergrößerung der 3D-Ansicht</translation></message>
@@ -1071,6 +1110,7 @@
 <message><source>error</source><translation>Fehler</translation></message>
 <message><source>error of linear interpolation</source><translation>Fehler der linearen Interpolation</translation></message>
 <message><source>error of table 1 of the paper</source><translation>Fehler von Tabelle 1 des Aufsatzes</translation></message>
+<message><source>errors is {value}; give a list of kind, first and last surface, and amount</source><translation>errors ist {value}; eine Liste aus Art, erster und letzter Fläche und Betrag angeben</translation></message>
 <message><source>every chief ray meets the sensor on the axis, so it holds no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
 <message><source>every chief ray meets the sensor on the axis; give the field as an angle</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse; das Feld als Winkel angeben</translation></message>
 <message><source>every medium of this lens has the index {index:g}, so no surface bends light; name its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
@@ -1079,6 +1119,7 @@
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>
 <message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
+<message><source>exaggeration of tilts and decentres</source><translation>Überhöhung von Kippungen und Dezentrierungen</translation></message>
 <message><source>extended asphere</source><translation>erweiterte Asphäre</translation></message>
 <message><source>extended odd asphere</source><translation>erweiterte ungerade Asphäre</translation></message>
 <message><source>extra data</source><translation>Zusatzdaten</translation></message>
@@ -1090,6 +1131,7 @@
 <message><source>fast</source><translation>schnell</translation></message>
 <message><source>field</source><translation>Feld</translation></message>
 <message><source>field angle</source><translation>Feldwinkel</translation></message>
+<message><source>field angle along x</source><translation>Feldwinkel entlang x</translation></message>
 <message><source>field angle {angle:g}° is not below 90°; correct it</source><translation>der Feldwinkel {angle:g}° liegt nicht unter 90°; berichtigen</translation></message>
 <message><source>field curv.</source><translation>Bildwölbung</translation></message>
 <message><source>field curvature</source><translation>Bildfeldwölbung</translation></message>
@@ -1123,6 +1165,7 @@
 <message><source>free some space or choose another disk</source><translation>Platz schaffen oder einen anderen Datenträger wählen</translation></message>
 <message><source>frequency on the sensor, 1/mm</source><translation>Ortsfrequenz auf dem Sensor, 1/mm</translation></message>
 <message><source>from</source><translation>von</translation></message>
+<message><source>front group</source><translation>vordere Gruppe</translation></message>
 <message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
@@ -1283,8 +1326,10 @@
 <message><source>none</source><translation>keine</translation></message>
 <message><source>normalisation radius</source><translation>Normierungsradius</translation></message>
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
+<message><source>not symmetric: seen along x</source><translation>nicht symmetrisch: entlang x gesehen</translation></message>
 <message><source>not used because</source><translation>nicht verwendet, weil</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
+<message><source>nothing is off</source><translation>alles stimmt</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
 <message><source>nothing of this lens can be off; give it a surface with power</source><translation>an diesem Objektiv kann nichts abweichen; ihm eine Fläche mit Brechkraft geben</translation></message>
 <message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
@@ -1315,6 +1360,7 @@
 <message><source>on</source><translation>an</translation></message>
 <message><source>on screen: {method}, {ms} ms, {error}</source><translation>auf dem Bildschirm: {method}, {ms} ms, {error}</translation></message>
 <message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
+<message><source>on top of the tilts of its file</source><translation>zusätzlich zu den Kippungen seiner Datei</translation></message>
 <message><source>one focus leaves the common sign of all even terms open; a second, known focus decides</source><translation>ein Fokus lässt das gemeinsame Vorzeichen aller geraden Terme offen; ein zweiter, bekannter Fokus entscheidet</translation></message>
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
@@ -1400,6 +1446,7 @@
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
 <message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
+<message><source>rear group</source><translation>hintere Gruppe</translation></message>
 <message><source>red</source><translation>Rot</translation></message>
 <message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
 <message><source>reference wavelength</source><translation>Referenzwellenlänge</translation></message>
@@ -1536,6 +1583,7 @@
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
+<message><source>surface {surface}: a thickness of {thickness:g} mm that is off by {by:g} mm changes its sign; give a smaller error</source><translation>Fläche {surface}: eine Dicke von {thickness:g} mm, die um {by:g} mm falsch ist, wechselt ihr Vorzeichen; einen kleineren Fehler angeben</translation></message>
 <message><source>surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge on or further; give less than 90°</source><translation>Fläche {surface}: eine Kippung von {tilt:g}° um {axis} stellt sie auf die Kante oder weiter; weniger als 90° angeben</translation></message>
 <message><source>surface {surface}: a tilt or decentre is not finite; give finite numbers</source><translation>Fläche {surface}: eine Kippung oder Dezentrierung ist nicht endlich; endliche Zahlen angeben</translation></message>
 <message><source>surface {surface}: aspheric term r^{power}; powers from 1 to {most} are read</source><translation>Fläche {surface}: asphärisches Glied r^{power}; Potenzen von 1 bis {most} werden gelesen</translation></message>
@@ -1558,6 +1606,7 @@
 <message><source>surfaces {first} and {last} are equally curved, so the element has no shape factor; change a radius first</source><translation>Die Flächen {first} und {last} sind gleich gekrümmt, daher hat das Element keinen Formfaktor; ändern Sie zuerst einen Radius</translation></message>
 <message><source>surfaces {first} and {second} both are stops; keep one</source><translation>die Flächen {first} und {second} sind beide Blenden; eine behalten</translation></message>
 <message><source>surfaces {first} and {second} both are the stop; keep one</source><translation>die Flächen {first} und {second} sind beide die Blende; eine behalten</translation></message>
+<message><source>surfaces {first} to {last}</source><translation>Flächen {first} bis {last}</translation></message>
 <message><source>surfaces {first} to {last} are no element with air on both sides; choose one that stands free</source><translation>Die Flächen {first} bis {last} sind kein Element mit Luft auf beiden Seiten; wählen Sie ein frei stehendes</translation></message>
 <message><source>surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}</source><translation>Flächen {first} bis {last} gibt es nicht; das Objektiv hat die Flächen 1 bis {count}</translation></message>
 <message><source>surfaces {first} to {last}, n = {index}</source><translation>Flächen {first} bis {last}, n = {index}</translation></message>
@@ -1756,7 +1805,6 @@
 <message><source>the transfer function was stopped</source><translation>die Übertragungsfunktion wurde angehalten</translation></message>
 <message><source>the wavefront changes by {step:.3g} waves from one cell to the next, and more than {most:g} is ambiguous; give it on a finer grid, without jumps of whole waves</source><translation>die Wellenfront ändert sich von einer Zelle zur nächsten um {step:.3g} Wellen, und mehr als {most:g} ist mehrdeutig; auf einem feineren Gitter angeben, ohne Sprünge um ganze Wellen</translation></message>
 <message><source>the wavefront has the shape {shape}; give a square array</source><translation>die Wellenfront hat die Form {shape}; eine quadratische Matrix angeben</translation></message>
-<message><source>the window</source><translation>das Fenster</translation></message>
 <message><source>the {axis} nodes must be one or more numbers in ascending order; sort them</source><translation>die Knoten für {axis} müssen eine oder mehrere Zahlen in steigender Folge sein; ordnen</translation></message>
 <message><source>the {quantity} "{text}" has the unit "{unit}"; {remedy}</source><translation>"{text}" hat die Einheit "{unit}" bei: {quantity}; {remedy}</translation></message>
 <message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {quantity}; eine wie 12,5 schreiben</translation></message>
@@ -1805,6 +1853,11 @@
 <message><source>tilt x, surface {where}</source><translation>Kippung x, Fläche {where}</translation></message>
 <message><source>tilt y, surface {where}</source><translation>Kippung y, Fläche {where}</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
+<message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
+<message><source>tilts as they are</source><translation>Kippungen wie sie sind</translation></message>
+<message><source>tilts ×10</source><translation>Kippungen ×10</translation></message>
+<message><source>tilts ×100</source><translation>Kippungen ×100</translation></message>
+<message><source>tilts ×30</source><translation>Kippungen ×30</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
@@ -1862,6 +1915,7 @@
 <message><source>which P2SF does not trace</source><translation>den P2SF nicht rechnet</translation></message>
 <message><source>while something is dragged: give up, as it was before</source><translation>beim Ziehen: aufgeben, alles wie zuvor</translation></message>
 <message><source>whole field</source><translation>ganzes Feld</translation></message>
+<message><source>whole lens</source><translation>ganzes Objektiv</translation></message>
 <message><source>whole pupil</source><translation>ganze Pupille</translation></message>
 <message><source>wider than the others, perhaps two points</source><translation>breiter als die anderen, vielleicht zwei Punkte</translation></message>
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
@@ -1922,9 +1976,11 @@
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
 <message><source>{count} blades</source><translation>{count} Lamellen</translation></message>
+<message><source>{count} errors of the build</source><translation>{count} Fehler des Baus</translation></message>
 <message><source>{count} fields have a focus, and a plane needs three; choose smaller fields</source><translation>{count} Felder haben einen Fokus, und eine Ebene braucht drei; kleinere Felder wählen</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
+<message><source>{count} numbers are off</source><translation>{count} Zahlen stimmen nicht</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
 <message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
@@ -1961,6 +2017,7 @@
 <message><source>{kind} has its columns at {places}; give finite numbers that ascend</source><translation>{kind} hat seine Spalten bei {places}; endliche, aufsteigende Zahlen angeben</translation></message>
 <message><source>{kind} has two columns of one name: {names}; rename one</source><translation>{kind} hat zwei Spalten eines Namens: {names}; eine umbenennen</translation></message>
 <message><source>{kind} has {columns} columns at {places} places; give at least two, and one place for each</source><translation>{kind} hat {columns} Spalten an {places} Orten; mindestens zwei angeben, und für jede einen Ort</translation></message>
+<message><source>{kind} of surface {surface} is off by {value}; give a number from {low:g} to {high:g}{unit}</source><translation>{kind} von Fläche {surface} ist um {value} falsch; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
 <message><source>{kind}: normalisation radius {radius:g} mm, coefficients {numbers:.6g} mm</source><translation>{kind}: Normierungsradius {radius:g} mm, Koeffizienten {numbers:.6g} mm</translation></message>
 <message><source>{lost} of {rays} rays are lost, and a smooth pupil does not describe that</source><translation>{lost} von {rays} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>

@@ -1,0 +1,175 @@
+"""The lens with the errors of its build: pieces tilted and decentred, radii, thicknesses, indices off. No Qt."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import cast
+
+from p2sf.errors import GeometryError
+from p2sf.glass.media import AIR, ShiftedIndex
+from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import with_tilted_sensor
+from p2sf.lens.placement import Placement
+from p2sf.messages import Message
+from p2sf.paraxial.bending import elements
+from p2sf.tolerance.errors_of_build import MOVES, Kind, Tolerance, build, placed
+from p2sf_explorer.state.build_errors import BuildErrors
+
+STEEPEST_DEG = 60.0  # to which an exaggerated drawing tilts
+
+
+@lru_cache(maxsize=64)
+def with_errors(lens: Lens, errors: BuildErrors) -> Lens:
+    """Return the lens with the errors of a build; GeometryError, naming the surface, for one that cannot be.
+
+    Errors at surfaces that the lens does not have are passed over: a state may be of an earlier lens in the same file.
+    A built lens has no rings to turn any more: its errors belong to where these stand.
+    """
+    count = len(lens.surfaces)
+    found = [one for one in errors if one[2] <= count and one[0] != "index"]
+    on_sensor = {kind: amount for kind, first, last, amount in errors if first == last == count + 1}
+    tolerances = [Tolerance(cast(Kind, kind), first, 0.0, last) for kind, first, last, _ in found]
+    _check_thicknesses(lens, {first: amount for kind, first, _, amount in found if kind == "thickness"})
+    shifted = _with_indices(lens, {first: amount for kind, first, _, amount in errors if kind == "index"})
+    made = build(shifted, tolerances, [amount for *_, amount in found], lens.reference_wavelength_um)
+    sensor = placed(on_sensor)
+    if not sensor.idle:
+        made = with_tilted_sensor(made, sensor) if not lens.sensor_before else _on_top(made, sensor)
+    return made if made.positions is None else replace(made, positions=None)
+
+
+def _check_thicknesses(lens: Lens, errors: dict[int, float]) -> None:
+    """Raise GeometryError for an error that would put a surface before the one in front of it."""
+    for number, by in errors.items():
+        thickness = lens.surfaces[number - 1].thickness
+        if thickness * (thickness + by) < 0:
+            raise GeometryError(
+                "surface {surface}: a thickness of {thickness:g} mm that is off by {by:g} mm changes its sign; "
+                "give a smaller error",
+                surface=number,
+                thickness=thickness,
+                by=by,
+            )
+
+
+def _with_indices(lens: Lens, shifts: dict[int, float]) -> Lens:
+    """Return the lens with the glasses behind surfaces, from 1, off by these shifts at every wavelength."""
+    if not shifts:
+        return lens
+    surfaces = (
+        replace(surface, medium=ShiftedIndex(surface.medium, shifts[number])) if number in shifts else surface
+        for number, surface in enumerate(lens.surfaces, 1)
+    )
+    return replace(lens, surfaces=tuple(surfaces))
+
+
+def _on_top(lens: Lens, sensor: Placement) -> Lens:
+    return replace(lens, sensor_before=(*lens.sensor_before, sensor))
+
+
+def exaggerated(errors: BuildErrors, factor: int) -> tuple[BuildErrors, int]:
+    """Return tilts and decentres enlarged by a factor, which is smaller where it would tilt too far, and that factor.
+
+    What is not a tilt or decentre stays as it is.
+    """
+    steepest = max((abs(amount) for kind, *_, amount in errors if kind.startswith("tilt")), default=0.0)
+    used = max(1, min(factor, int(STEEPEST_DEG / steepest))) if steepest else factor
+    larger = tuple((kind, a, b, amount * (used if kind in MOVES else 1)) for kind, a, b, amount in errors)
+    return larger, used
+
+
+@dataclass(frozen=True)
+class Piece:
+    """What is moved as one: its first and last surface, from 1, and what it is called."""
+
+    span: tuple[int, int]
+    name: Message
+
+
+@lru_cache(maxsize=16)
+def pieces(lens: Lens) -> tuple[Piece, ...]:
+    """Return what may be moved as one: elements, groups before and behind the stop, all of the lens, the sensor.
+
+    Cemented elements are one; a mirror, and a surface that bounds no element in air, stand alone.
+    """
+    single = _elements(lens)
+    found = [Piece(span, _element_name(number, span)) for number, span in enumerate(single, 1)]
+    stop = lens.stop_surface or 0
+    groups = ([s for s in single if s[1] < stop], [s for s in single if s[0] > stop])
+    names = Message("front group"), Message("rear group")
+    for group, name in zip(groups, names, strict=True):
+        if len(group) > 1 and stop:
+            found.append(Piece((group[0][0], group[-1][1]), Message("{name}, {span}", name=name, span=_span(group))))
+    count = len(lens.surfaces)
+    if len(single) > 1:
+        found.append(Piece((1, count), Message("whole lens")))
+    return (*found, Piece((count + 1, count + 1), Message("sensor")))
+
+
+def _elements(lens: Lens) -> tuple[tuple[int, int], ...]:
+    """Return the elements, and of the other surfaces those that refract or reflect by themselves."""
+    spans = list(elements(lens))
+    inside = {number for first, last in spans for number in range(first, last + 1)}
+    for number, surface in enumerate(lens.surfaces, 1):
+        works = not surface.bare or surface.medium != lens.media[number - 1]
+        if works and number not in inside:
+            spans.append((number, number))
+    return tuple(sorted(spans))
+
+
+def _element_name(number: int, span: tuple[int, int]) -> Message:
+    if span[0] == span[1]:
+        return Message("surface {surface}", surface=span[0])
+    return Message("element {number}, surfaces {first} to {last}", number=number, first=span[0], last=span[1])
+
+
+def _span(group: list[tuple[int, int]]) -> Message:
+    return Message("surfaces {first} to {last}", first=group[0][0], last=group[-1][1])
+
+
+def piece_of(lens: Lens, selection: tuple[int, int] | None) -> Piece:
+    """Return the piece that is selected, else the first."""
+    known = pieces(lens)
+    return next((piece for piece in known if piece.span == selection), known[0])
+
+
+@dataclass(frozen=True)
+class Adjustment:
+    """One number of a piece that may be off: its kind, the surfaces that it is of, and how far a slider goes."""
+
+    kind: Kind
+    span: tuple[int, int]
+    reach: float
+
+    @property
+    def key(self) -> tuple[str, int, int]:
+        """Return what tells it from all others."""
+        return self.kind, *self.span
+
+
+REACH: dict[Kind, float] = {
+    **dict.fromkeys(("decentre_x", "decentre_y"), 0.5),
+    **dict.fromkeys(("tilt_x", "tilt_y"), 1.0),
+    "radius": 2.0,
+    "thickness": 0.5,
+    "index": 0.005,
+}
+"""To which the sliders go, in the units of the kinds: some times what a careless workshop leaves."""
+SENSOR_REACH_DEG = 10.0  # a sensor is tilted on purpose, too
+
+
+@lru_cache(maxsize=64)
+def adjustments(lens: Lens, span: tuple[int, int]) -> tuple[Adjustment, ...]:
+    """Return what of a piece may be off: its place as a whole, then radii, thicknesses and glasses of its surfaces."""
+    count = len(lens.surfaces)
+    if span[0] > count:
+        return tuple(Adjustment(kind, span, SENSOR_REACH_DEG) for kind in ("tilt_x", "tilt_y"))
+    found = [Adjustment(kind, span, REACH[kind]) for kind in MOVES]
+    for number in range(span[0], span[1] + 1):
+        surface, one = lens.surfaces[number - 1], (number, number)
+        if surface.curvature:
+            found.append(Adjustment("radius", one, REACH["radius"]))
+        if number < count:
+            found.append(Adjustment("thickness", one, REACH["thickness"]))
+        if not surface.reflects and surface.medium != AIR and number < count:
+            found.append(Adjustment("index", one, REACH["index"]))
+    return tuple(found)
