@@ -69,7 +69,7 @@ def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance,
     """Return the tolerances of a grade for all that can be off: every surface, thickness and glass."""
     amounts, found = GRADES[grade], []
     for number, surface in enumerate(lens.surfaces, 1):
-        works = not surface.bare or surface.medium != lens.media[number - 1]
+        works = (not surface.bare or surface.medium != lens.media[number - 1]) and not surface.ideal
         if works:
             found += [Tolerance(kind, number, amounts["decentre_x"]) for kind in ("decentre_x", "decentre_y")]
             found += [Tolerance(kind, number, amounts["tilt_x"]) for kind in ("tilt_x", "tilt_y")]

@@ -23,21 +23,11 @@ from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
 from p2sf.psf.methods import render
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.trace import trace
+from tests.support.simple_lenses import FIRST, GAP, SECOND, two_thin_lenses
 
 UM = 0.55
-FIRST, SECOND, GAP = 50.0, -80.0, 25.0
 ROUNDING = 1e-13  # some hundred roundings of paths and heights of up to some hundred mm
 XI, ETA = np.random.default_rng(3).uniform(-0.7, 0.7, (2, 40))
-
-
-def two_thin_lenses(sensor: float = 40.0, aim: str = "stop") -> Lens:
-    """Return a thin lens, a stop 20 mm behind it, and another thin lens."""
-    rows = (
-        Surface(thickness=GAP - 5.0, ideal_focal_length=FIRST, semi_diameter=9.0),
-        Surface(thickness=5.0),
-        Surface(thickness=sensor, ideal_focal_length=SECOND, semi_diameter=8.0),
-    )
-    return Lens(rows, Aperture("stop_semi_diameter", 4.0), 2, aim=aim)
 
 
 def through(distance: float, focal_length: float) -> float:

@@ -1,9 +1,11 @@
-"""Lenses written as a few numbers: single elements, afocal pairs, a telecentric relay."""
+"""Lenses written as a few numbers: single elements, afocal pairs, a telecentric relay, two ideal lenses."""
 
 from math import inf
 
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
+
+FIRST, SECOND, GAP = 50.0, -80.0, 25.0  # of the two thin lenses, mm
 
 
 def simple(rows, stop=1, rim=5.0, before=1.0) -> Lens:
@@ -26,3 +28,13 @@ def twice_telecentric() -> Lens:
     """Return a relay of two plano-convex lenses with the stop in their common focus: telecentric on both sides."""
     rows = [(inf, 3.0, 1.5), (-50.0, 100.0, 1.0), (inf, 100.0, 1.0), (50.0, 3.0, 1.5), (inf, 98.0, 1.0)]
     return simple(rows, 3, 4.0)
+
+
+def two_thin_lenses(sensor: float = 40.0, aim: str = "stop") -> Lens:
+    """Return a thin lens, a stop 20 mm behind it, and another thin lens."""
+    rows = (
+        Surface(thickness=GAP - 5.0, ideal_focal_length=FIRST, semi_diameter=9.0),
+        Surface(thickness=5.0),
+        Surface(thickness=sensor, ideal_focal_length=SECOND, semi_diameter=8.0),
+    )
+    return Lens(rows, Aperture("stop_semi_diameter", 4.0), 2, aim=aim)

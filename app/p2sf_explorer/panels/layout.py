@@ -216,8 +216,8 @@ class LayoutChart(Chart):
         for mirror in self._drawn[0].glass.mirrors:
             paint_mirror(painter, polygon(*self.to_pixels(mirror.z, mirror.y)), mirror.behind, self.theme)
         for lens in self._drawn[0].glass.ideal:
-            x, y = self.to_pixels([lens.z, lens.z], [-lens.half, lens.half])
-            paint_ideal_lens(painter, QPointF(x[0], y[0]), QPointF(x[1], y[1]), lens.gathers, self.theme)
+            line = polygon(*self.to_pixels(np.full(2, lens.z), np.array([-lens.half, lens.half])))
+            paint_ideal_lens(painter, line, lens.gathers, self.theme)
 
     def _paint_bars(self, painter: QPainter, d: Drawing, half: float) -> None:
         """Paint stop and sensor."""
@@ -347,15 +347,16 @@ def paint_mirror(painter: QPainter, line: QPolygonF, behind: int, theme: Tokens)
         painter.drawLine(QPointF(x, y), QPointF(x + behind * length, y + length))
 
 
-def paint_ideal_lens(painter: QPainter, low: QPointF, high: QPointF, gathers: bool, theme: Tokens) -> None:
+def paint_ideal_lens(painter: QPainter, line: QPolygonF, gathers: bool, theme: Tokens) -> None:
     """Paint a thin lens as a line with arrowheads, which point outwards where it gathers light, else inwards."""
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(QColor(theme.glass_edge), theme.px(2)))
-    painter.drawLine(low, high)
+    painter.drawPolyline(line)
     barb = theme.px(ARROW_PX)
-    for tip, inwards in ((low, -1), (high, 1)):
+    for tip, inwards in ((line.at(0), -1), (line.at(1), 1)):
         back = inwards * (barb if gathers else -barb)
-        painter.drawPolyline([tip + QPointF(-barb, back), tip, tip + QPointF(barb, back)])
+        for side in (-barb, barb):
+            painter.drawLine(tip, tip + QPointF(side, back))
 
 
 ARROW_PX = 6  # an ideal lens's arrowhead along and across, at scale 1
