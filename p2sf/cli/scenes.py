@@ -6,7 +6,7 @@ from math import inf
 from os.path import exists, samefile
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
@@ -23,6 +23,9 @@ from p2sf.scene import Plan, Scene, plan, read_scene, verify
 from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
 from p2sf.threads import using_threads
 
+if TYPE_CHECKING:
+    from p2sf.image.lattice import Lattice
+
 CHART = "chart:"
 TELL_EVERY_S = 1.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
@@ -32,6 +35,7 @@ SCENE_HELP = (
     "[[channel]] name, wavelengths_nm, weights, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
+TOO_FEW = Message("kernels between places miss the tolerance; loosen it or take a smaller sensor")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
 
 
@@ -221,28 +225,54 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray
 
 
 def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
-    from p2sf.image import Forming, form_image, preview
+    from p2sf.image import Forming, form_image, plan_lattice, preview
 
+    if scene.camera(glass).misaligned:
+        return _misaligned(glass, scene, values, shown)
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
     planned = _planned(glass, scene)
     warn(None if planned.meets else TOO_TIGHT)
-    formed = form_image(planned, values, depth, Forming(shown.method, shown.surround))
-    if shown.noise:
-        formed = formed + np.random.default_rng(0).normal(0, shown.noise, formed.shape).astype(np.float32)
+    formed = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)
     facts = {"method": shown.method, "predicted_error": planned.predicted_error}
     if not shown.deblur:
         return formed, facts
-    return _sharpened(planned, formed, shown), {**facts, "deblur": shown.deblur}
+    lattice = plan_lattice(planned, planned.vergences[0])  # of the scene's far end
+    return _sharpened(lattice, formed, shown), {**facts, "deblur": shown.deblur}
 
 
-def _sharpened(planned: Plan, formed: np.ndarray, shown: Shown) -> np.ndarray:
-    """Return the picture sharpened with the kernels of the scene's far end, assuming the noise of 8 bits at least."""
-    from p2sf.image import plan_lattice
+def _misaligned(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
+    """Return the picture through a misaligned lens, for which no plan is made."""
+    from p2sf.image import Forming
+    from p2sf.image.misaligned import form_misaligned
+
+    for name, given in (("preview", shown.preview), ("method", shown.method != "patches")):
+        if given:
+            raise RequestError(
+                "{parameter} needs a lens of rotational symmetry, and parts of this one are tilted or decentred; leave "
+                "it out",
+                parameter=name,
+            )
+    made = form_misaligned(glass, scene, values, Forming(surround=shown.surround))
+    warn(None if made.error <= made.allowed else TOO_FEW)
+    formed, facts = _noisy(made.values, shown), {"method": "patches", "measured_error": made.error}
+    if not shown.deblur:
+        return formed, facts
+    return _sharpened(made.lattice, formed, shown), {**facts, "deblur": shown.deblur}
+
+
+def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
+    if not shown.noise:
+        return formed
+    noisy: np.ndarray = formed + np.random.default_rng(0).normal(0, shown.noise, formed.shape).astype(np.float32)
+    return noisy
+
+
+def _sharpened(lattice: "Lattice", formed: np.ndarray, shown: Shown) -> np.ndarray:
+    """Return the picture sharpened with its kernels, assuming the noise of 8 bits at least."""
     from p2sf.image.deblur import richardson_lucy, wiener
 
-    lattice = plan_lattice(planned, planned.vergences[0])
     if shown.deblur == "wiener":
         return wiener(formed, lattice, max(shown.noise, 1e-3))
     return richardson_lucy(formed, lattice)

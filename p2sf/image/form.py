@@ -18,6 +18,7 @@ from p2sf.image.progress import Progress
 from p2sf.messages import Alternatives
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.plan import Plan
+from p2sf.scene.scene import Scene
 from p2sf.threads import mapped, one_blas_thread
 
 METHODS = ("patches", "lowrank")
@@ -73,7 +74,7 @@ def form_image(
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given when it is
     known. Raises RequestError for shapes that do not fit, Cancelled when ``watch`` is cancelled.
     """
-    values, watch = checked(planned, values), watch or Progress()
+    values, watch = checked(planned.scene, values), watch or Progress()
     if depth_mm is None:
         placed, lattice = _placed_and_lattice(planned, values, how, watch, lattice)
         return _cropped_blur(planned, placed, lattice, how, watch)
@@ -104,9 +105,9 @@ def _placed_and_lattice(
     return placed[0], found
 
 
-def checked(planned: Plan, values: np.ndarray) -> np.ndarray:
+def checked(scene: Scene, values: np.ndarray) -> np.ndarray:
     """Return the picture as float32; RequestError unless it fits the scene."""
-    sensor, channels = planned.scene.sensor, len(planned.scene.channels)
+    sensor, channels = scene.sensor, len(scene.channels)
     values = np.asarray(values, np.float32)
     if values.shape != (sensor.rows, sensor.columns, channels):
         raise RequestError(

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.pupil.mask_nodes import ClearNodes
@@ -30,7 +30,7 @@ def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
     lost carry no light. Raises GeometryError where all are.
     """
     nodes = _open_nodes(lens, source, clip)
-    rays = pupil_rays(lens, source, nodes.xi, nodes.eta)
+    rays = pupil_rays(seen_from(lens, source.azimuth_deg), source, nodes.xi, nodes.eta)
     cosine = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
     mean = float(nodes.weight @ (rays.weight * cosine * np.square(nodes.amplitude) + 0 * nodes.xi))
     return float(nodes.share * mean / (1 + source.field_slope**2) ** 1.5)
@@ -39,7 +39,7 @@ def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
 def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
     """Return nodes over what mask, rims and lost rays leave open."""
     if lens.mask.clear and not (clip and holes_of(lens)):
-        if clip:
+        if clip and not lens.misaligned:
             return clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
         return clear_nodes(lens, source, NODES, clip)
     nodes = pupil_nodes(lens, source, NODES, clip)

@@ -62,11 +62,16 @@ class SensorMap:
 
     def _slope_ratio(self, wavelength_um: float) -> float:
         """Return how the chief ray's slope to one object point changes as the entrance pupil moves with colour."""
-        close = float(vergence(self.depth_mm))
-        if close == 0 or wavelength_um == self.wavelength_um:
-            return 1.0
-        here, there = (_entrance(self.lens, w) for w in (self.wavelength_um, wavelength_um))
-        return (1 + close * here) / (1 + close * there)
+        return slope_ratio(self.lens, self.depth_mm, self.wavelength_um, wavelength_um)
+
+
+def slope_ratio(lens: Lens, depth_mm: float, reference_um: float, wavelength_um: float) -> float:
+    """Return the slope to an object point in one wavelength over that in the reference, whose pupil is elsewhere."""
+    close = float(vergence(depth_mm))
+    if close == 0 or wavelength_um == reference_um:
+        return 1.0
+    here, there = (_entrance(lens, w) for w in (reference_um, wavelength_um))
+    return (1 + close * here) / (1 + close * there)
 
 
 def sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float, clip: bool = False) -> SensorMap:

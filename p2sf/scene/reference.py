@@ -37,24 +37,35 @@ def reference_kernel(
 
 
 def exact_pixels(
-    lens: Lens, source: Source, angle: float, half: int, pixel_um: float, shift_um: float, clip: bool = False
+    lens: Lens,
+    source: Source,
+    angle: float,
+    half: int,
+    pixel_um: float,
+    shift_um: float,
+    clip: bool = False,
+    aside_um: float = 0.0,
 ) -> np.ndarray:
-    """Return one wavelength's light per pixel; ``shift_um`` along the field's direction, ``angle`` radians from +y."""
-    seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))  # its mask is turned, which stays in the lens
+    """Return one wavelength's light per pixel, unit sum, row 0 the top; ``angle`` of the field, radians from +y to +x.
+
+    ``shift_um``, ``aside_um``: where it lands along the field's direction and across.
+    """
+    # Its mask is turned, which stays in the lens, and so are a lens's tilts and decentres.
+    seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))
     probe = pupil_nodes(lens, seen, PROBE, clip)
-    steep = steepness(ray_data(pencil(lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
+    steep = steepness(ray_data(pencil(lens, seen, probe.xi, probe.eta)), probe.xi, probe.eta)
     steep = with_slopes(steep, lens.mask, source.wavelength_um)
     size = 2 * half + 1
     place, share = _pixel_points(size, pixel_um, steep.spread)
     counts = counts_for(steep, size, pixel_um)
     radii, directions = (2 * ceil(0.55 * count) for count in counts)
     nodes = pupil_nodes(lens, seen, (radii, directions), clip).unfolded()
-    data = ray_data(pencil(lens, source, nodes.xi, nodes.eta))
+    data = ray_data(pencil(lens, seen, nodes.xi, nodes.eta))
     phase = data.phase + nodes.path_um / source.wavelength_um
     weight, across_f, along_f = nodes.weight * nodes.amplitude * data.weight, data.fx, data.fy
     sine, cosine = np.sin(angle), np.cos(angle)
     fx, fy = across_f * cosine + along_f * sine, along_f * cosine - across_f * sine
-    amplitude = pupil_amplitude(weight, phase - along_f * shift_um)
+    amplitude = pupil_amplitude(weight, phase - along_f * shift_um - across_f * aside_um)
     field = sum_plane_waves(amplitude, fx, fy, place, place, even=False)
     light = (field.real**2 + field.imag**2).reshape(size, len(share), size, len(share))
     pixels = np.einsum("aibj,i,j->ab", light, share, share)

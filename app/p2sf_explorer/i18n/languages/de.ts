@@ -1012,6 +1012,8 @@
 <message><source>chief ray</source><translation>Hauptstrahl</translation></message>
 <message><source>chief ray ȳ, mm</source><translation>Hauptstrahl ȳ, mm</translation></message>
 <message><source>chief ray, µm</source><translation>Hauptstrahl, µm</translation></message>
+<message><source>chief rays do not reach all of the sensor; take a smaller sensor</source><translation>Hauptstrahlen erreichen nicht den ganzen Sensor; einen kleineren Sensor nehmen</translation></message>
+<message><source>chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or set the lens straighter</source><translation>Hauptstrahlen treffen den Sensor in keiner glatten Ordnung, um {miss:.2g} Pixel; einen kleineren Sensor nehmen oder das Objektiv gerader stellen</translation></message>
 <message><source>choose a folder that is one</source><translation>einen Ordner wählen, der einer ist</translation></message>
 <message><source>choose a folder you may write to</source><translation>einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
 <message><source>choose a smaller field or stop down</source><translation>ein kleineres Feld wählen oder abblenden</translation></message>
@@ -1768,6 +1770,7 @@
 <message><source>the scene</source><translation>die Szene</translation></message>
 <message><source>the scene has no channel; give at least one</source><translation>die Szene hat keinen Kanal; mindestens einen angeben</translation></message>
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
+<message><source>the scene has several depths, and a picture through a misaligned lens knows one; give near_mm and far_mm alike and leave depth_map out</source><translation>die Szene hat mehrere Tiefen, und ein Bild durch ein dejustiertes Objektiv kennt nur eine; near_mm und far_mm gleich angeben und depth_map weglassen</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
 <message><source>the search for rims in the pupil</source><translation>die Suche nach Rändern in der Pupille</translation></message>
 <message><source>the sensitivities were stopped before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
