@@ -2,6 +2,7 @@
 
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, lens_range_um, with_f_number, with_mask, with_sensor
 from p2sf.lens.placement import Placement
+from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.source import Source
 
@@ -13,6 +14,7 @@ __all__ = [
     "Qbfs",
     "Qcon",
     "RadialPolynomial",
+    "Rim",
     "Source",
     "Surface",
     "indices",

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache, reduce
 from itertools import accumulate
-from math import inf, isfinite
+from math import inf, isfinite, isnan
 from operator import mul
 from typing import TYPE_CHECKING, Literal
 
@@ -434,12 +434,14 @@ def _check_shape(surface: Surface, number: int) -> None:
             raise GeometryError(
                 "surface {surface}: a coefficient of its shape or its phase is not finite; correct it", surface=number
             )
-    if surface.ideal and not (surface.flat and surface.diffraction is None and abs(surface.ideal_focal_length) > 0):
+    focal = surface.ideal_focal_length
+    plain = surface.flat and surface.diffraction is None
+    if isnan(focal) or (surface.ideal and not (plain and focal)):
         raise GeometryError(
             "surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not "
             "diffract, and its focal length not 0",
             surface=number,
-            focal=surface.ideal_focal_length,
+            focal=focal,
         )
 
 

@@ -1,12 +1,12 @@
 """From what a file states to a Lens: units, glasses, stop, aperture, fields; every error keeps its line."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf, isfinite
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
-from p2sf.glass.media import AIR, MIRROR, Medium
+from p2sf.glass.media import AIR, MIRROR, Medium, TabulatedIndex, measured_index
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.placement import Placement
 from p2sf.lens.shape_words import shape_words
@@ -52,6 +52,27 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     _read_notes(lens, raw, notes)
     _note_vignetting(lens, raw, notes)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
+
+
+def private_glass(
+    name: str, waves_um: Sequence[float], values: Sequence[float], source: LensText, line: int
+) -> TabulatedIndex:
+    """Return a glass that a file defines by an index at each of some wavelengths; LensFileError for other lists."""
+    pairs = sorted(zip(waves_um, values, strict=False))
+    if not pairs or not len(values) == len(waves_um) == len(pairs):
+        raise source.error("private glass {name} has not one index per wavelength; complete it", line, name=name)
+    try:
+        return measured_index([wave for wave, _ in pairs], [value for _, value in pairs])
+    except GlassError as failure:
+        raise source.error("private glass {name}: {error}", line, name=name, error=failure) from failure
+
+
+def check_stop(raw: RawLens, source: LensText, line: int | None) -> None:
+    """Raise LensFileError where the stop is not on one of the surfaces between object and image."""
+    if raw.stop is not None and not 1 <= raw.stop <= len(raw.surfaces):
+        raise source.error(
+            "the stop is on the object or the image; put it on a surface between", line or len(source.lines)
+        )
 
 
 def _located(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int | None) -> Lens:

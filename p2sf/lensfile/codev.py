@@ -11,12 +11,13 @@ from dataclasses import dataclass, field, replace
 from math import inf, pi
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.errors import GeometryError, GlassError
-from p2sf.glass.media import MIRROR, Medium, measured_index
+from p2sf.errors import GeometryError
+from p2sf.glass.media import MIRROR, Medium
 from p2sf.lens.lens import Lens
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, RadialPolynomial
 from p2sf.lens.tilts import Breaks, decentred_surface
+from p2sf.lensfile.assemble import check_stop, private_glass
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -217,21 +218,14 @@ def read_private(reading: CodeVReading, command: CodeVCommand) -> None:
         raise reading.source.error(
             "private glass {name} has no wavelengths (PWL) before it; add them", command.line, name=name
         )
-    pairs = sorted(zip(reading.private_nm, reading.numbers(command, Message("index")), strict=False))
-    if len(pairs) != len(reading.private_nm) or len(command.words) != len(pairs):
-        raise reading.source.error(
-            "private glass {name} has not one index per wavelength; complete it", command.line, name=name
-        )
-    try:
-        table = measured_index([w / NM_PER_UM for w, _ in pairs], [n for _, n in pairs])
-    except GlassError as failure:
-        raise reading.source.error("private glass {name}: {error}", command.line, name=name, error=failure) from failure
+    waves, values = [w / NM_PER_UM for w in reading.private_nm], reading.numbers(command, Message("index"))
+    table = private_glass(name, waves, values, reading.source, command.line)
     reading.private[name] = replace(table, label=name)
     reading.notes.add(
         "read",
         "private glass {name} as a table of {count} indices, straight lines between them",
         name=name,
-        count=len(pairs),
+        count=len(waves),
     )
 
 
@@ -612,8 +606,7 @@ def _finish(reading: CodeVReading) -> None:
     if raw.stop is None:
         raw.stop = 1
         reading.notes.add("read", "no stop (STO) is stated; surface 1 is the stop, which is what CODE V takes")
-    if not 1 <= raw.stop <= len(raw.surfaces):
-        raise reading.source.error("the stop is on the object or the image; put it on a surface between", first.line)
+    check_stop(raw, reading.source, first.line)
     for surface in raw.surfaces:
         _shape(reading, surface)
         surface.rim = _shaped_rim(reading.rims.get(id(surface), {}))

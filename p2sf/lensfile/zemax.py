@@ -15,6 +15,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.tilts import coordinate_break
+from p2sf.lensfile.assemble import check_stop
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -612,8 +613,7 @@ def _finish(reading: ZemaxReading) -> None:
         reading.notes.add(
             "caution", "the image surface is curved in the file; the sensor here is flat", None, image.line
         )
-    if raw.stop in (0, image.number):
-        raise reading.source.error("the stop is on the object or the image; put it on a surface between", image.line)
+    check_stop(raw, reading.source, image.line)
     if raw.aperture and raw.aperture[0] == "stop_semi_diameter":
         raw.aperture = None  # float by stop size: the stop's rim, which is what a lens without aperture gets
     if reading.wavelength_count:

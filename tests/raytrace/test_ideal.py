@@ -196,7 +196,9 @@ def test_files_keep_ideal_lenses():
         lens_to_iset(lens)
 
 
-@pytest.mark.parametrize("other", [{"radius": 50.0}, {"aspheric": (1e-6,)}, {"ideal_focal_length": 0.0}])
+@pytest.mark.parametrize(
+    "other", [{"radius": 50.0}, {"aspheric": (1e-6,)}, {"ideal_focal_length": 0.0}, {"ideal_focal_length": np.nan}]
+)
 def test_what_is_no_ideal_lens_is_refused(other):
     with pytest.raises(GeometryError, match="surface 1 is an ideal lens"):
         Lens((Surface(**{"ideal_focal_length": 50.0, **other}),), Aperture("f_number", 8.0), 1)

@@ -4,10 +4,9 @@ import re
 from dataclasses import dataclass, field
 from math import atan, degrees, inf
 
-from p2sf.errors import GlassError
-from p2sf.glass.media import MIRROR, measured_index
+from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.assemble import assemble, check_stop, private_glass
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawApertureKind, RawGlass, RawLens, RawSurface
@@ -191,8 +190,7 @@ def _finish(reading: OsloReading) -> None:
         _angles(reading, raw)
     raw.surfaces[-1].thickness += image.thickness  # defocus
     raw.sensor_stated = raw.surfaces[-1].number in reading.stated
-    if raw.stop in (0, image.number):
-        raise reading.source.error("the stop is on the object or the image; put it on a surface between", image.line)
+    check_stop(raw, reading.source, image.line)
     if raw.stop is None:
         raw.stop = 1
         reading.notes.add("read", "no stop (AST) is stated; surface 1 is the stop, which is what OSLO takes")
@@ -211,17 +209,7 @@ def _angles(reading: OsloReading, raw: RawLens) -> None:
 
 def _model(reading: OsloReading, place: int, name: str, values: list[float]) -> None:
     """Give a surface a glass of the file's own, an index at each wavelength."""
-    surface, waves = reading.surfaces[place], reading.raw.wavelengths_um
-    line = surface.glass.line if surface.glass else None
-    pairs = sorted(zip(waves, values, strict=False))
-    if not pairs or len(values) != len(waves):
-        raise reading.source.error(
-            "private glass {name} has not one index per wavelength; complete it", line or reading.line, name=name
-        )
-    try:
-        medium = measured_index([w for w, _ in pairs], [n for _, n in pairs])
-    except GlassError as failure:
-        raise reading.source.error(
-            "private glass {name}: {error}", line or reading.line, name=name, error=failure
-        ) from failure
+    surface = reading.surfaces[place]
+    line = (surface.glass.line if surface.glass else None) or reading.line
+    medium = private_glass(name, reading.raw.wavelengths_um, values, reading.source, line)
     surface.glass = RawGlass(medium=medium, line=line)
