@@ -4,16 +4,15 @@ import platform
 from importlib import import_module
 
 
-def _built() -> tuple[str, str | None]:
-    """Return version and commit as the build wrote them, from the tag; unknown in a checkout never built from."""
+def _built() -> str:
+    """Return the version as the build wrote it, from the tag; unknown in a checkout that was never built from."""
     try:
-        built = import_module("p2sf._version")
+        return str(import_module("p2sf._version").__version__)
     except ImportError:
-        return "0+unknown", None
-    return built.__version__, built.__commit_id__
+        return "0+unknown"
 
 
-__version__, COMMIT = _built()
+__version__ = _built()
 STANDS_ON = ("numpy", "scipy", "PySide6_Essentials", "pyqtgraph", "pyvista", "vtk")
 
 
@@ -21,7 +20,7 @@ def versions() -> dict[str, str]:
     """Return the versions a report needs, by name; what is not installed is left out."""
     from importlib.metadata import PackageNotFoundError, version  # takes longer to load than all of this package
 
-    found = {"p2sf": __version__, "commit": (COMMIT or "unknown").removeprefix("g")}
+    found = {"p2sf": __version__, "commit": commit_of(__version__)}
     found |= {"python": platform.python_version(), "system": f"{platform.system()} {platform.release()}"}
     found["machine"] = platform.machine()
     for name in STANDS_ON:
@@ -30,6 +29,13 @@ def versions() -> dict[str, str]:
         except PackageNotFoundError:
             continue
     return found
+
+
+def commit_of(version: str) -> str:
+    """Return the commit a version was built from: between tags it is behind the plus, as in 0.3.dev4+g0a1b2c3."""
+    number, _, local = version.partition("+")
+    node = next((part[1:] for part in local.split(".") if part.startswith("g")), "")
+    return node or ("unknown" if local or "dev" in number else f"that of tag v{number}")
 
 
 def version_text() -> str:

@@ -1,11 +1,19 @@
-"""Start the explorer: ``p2sf explore [LENS|STATE.json|SNAPSHOT|LINK]`` or ``python -m p2sf_explorer``."""
+"""Start the explorer: ``p2sf explore [LENS|STATE.json|SNAPSHOT|LINK]`` or ``python -m p2sf_explorer``.
+
+The program of the bundle is this file too. In place of what to open it takes --version, and --register or --unregister
+for its entry in the menu of programs.
+"""
 
 import sys
+from collections.abc import Callable
 
 from p2sf.errors import P2SFError
 from p2sf.threads import one_blas_thread
+from p2sf.version import version_text
 from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.desktop.registration import ICON, NAME, as_path, register, unregister
 from p2sf_explorer.files.opening import is_file, opened
+from p2sf_explorer.scene3d import opengl_probe
 from p2sf_explorer.shell.display import display_problem
 from p2sf_explorer.state.link import is_link, state_of_link
 from p2sf_explorer.state.state import State
@@ -17,7 +25,8 @@ def starting_state(argv: list[str]) -> State:
         return State()
     if is_link(argv[0]):
         return state_of_link(argv[0])
-    return opened(State(), argv[0]) if is_file(argv[0]) else default_state(argv[0])
+    place = as_path(argv[0])
+    return opened(State(), place) if is_file(place) else default_state(place)
 
 
 def main(argv: list[str]) -> int:
@@ -34,8 +43,18 @@ def main(argv: list[str]) -> int:
 
 
 def run(argv: list[str]) -> int:
-    """Run `main`; where it cannot open, print why and return 2."""
+    """Run `main`, or what an option asks for; where that cannot be, print why and return 2."""
+    options: dict[str, Callable[[], object]] = {
+        "--version": version_text,
+        "--register": register,
+        "--unregister": unregister,
+    }
     try:
+        if argv[:1] == [opengl_probe.OPTION]:
+            return opengl_probe.main()
+        if argv[:1] and argv[0] in options:
+            print(options[argv[0]]())
+            return 0
         return main(argv)
     except P2SFError as error:
         print(f"Error: {error}", file=sys.stderr)
@@ -43,17 +62,21 @@ def run(argv: list[str]) -> int:
 
 
 def _open(asked: State | None) -> int:
+    from PySide6.QtGui import QIcon
     from PySide6.QtWidgets import QApplication
 
     from p2sf_explorer.charts.theme import configure_plots
     from p2sf_explorer.crash.dialog import UnexpectedErrors
     from p2sf_explorer.crash.recovery import offer_rescued, session_to_open
+    from p2sf_explorer.desktop.open_events import OpenEvents
     from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
     from p2sf_explorer.shell.language_switch import LanguageSwitch
     from p2sf_explorer.shell.window import MainWindow
 
     application = QApplication.instance() or QApplication(sys.argv[:1])
     application.setApplicationName("P2SF Explorer")
+    QApplication.setDesktopFileName(NAME)
+    QApplication.setWindowIcon(QIcon(str(ICON)))
     QApplication.setStyle("Fusion")
     configure_plots()
     mark = RunMark()
@@ -74,6 +97,9 @@ def _open(asked: State | None) -> int:
         lambda: switch.window, lambda: switch.window.store.state, lambda: keepers[0].keep(), application
     )
     errors.install()
+    OpenEvents(
+        lambda path: switch.window.commands.open_path(path), lambda text: switch.window.sharing.open(text), application
+    )
     code = application.exec()
     mark.end()
     return code

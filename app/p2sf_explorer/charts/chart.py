@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QImage, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtGui import QAccessible, QColor, QFocusEvent, QImage, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
@@ -20,7 +20,7 @@ from p2sf_explorer.charts.axes import bottom_ticks as bottom_ticks
 from p2sf_explorer.charts.axes import left_ticks as left_ticks
 from p2sf_explorer.charts.crosshair import boxed, paint_box, paint_crosshair, paint_marks, paint_pin
 from p2sf_explorer.charts.hand import Hand
-from p2sf_explorer.charts.painting import pen, polylines
+from p2sf_explorer.charts.painting import MARKS, paint_line_marks, pen, polylines
 from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.charts.view import AxisView, Span, panned, width, zoomed
@@ -74,6 +74,8 @@ class Curve:
             for number in range(count):
                 apart = number - (count - 1) / 2
                 painter.drawPolyline(part.translated(apart * THICK[0], apart * THICK[1]) if apart else part)
+        if self.name and self.token in MARKS:
+            paint_line_marks(painter, *chart.to_pixels(self.x, self.y), MARKS[self.token], chart.theme)
 
 
 class Lockable(Protocol):
@@ -95,6 +97,7 @@ class Chart(QWidget):
     changed by hand.
     """
 
+    accessible_role = QAccessible.Role.Chart
     viewed = Signal()
     takes_arrows = False
     over = "bottom"  # the axis that the curves are functions of

@@ -12,8 +12,11 @@ from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
 
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.i18n.tr import local
 
+MARKS = {"chief": "●", "negative": "●", "third": "◆"}  # on named curves: what tells them apart without colour
+MARK_EVERY_PX, MARK_PX = 80.0, 3.2  # along the curve, and half the size of a mark
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
 SHORT, LONG = 5, 24  # letters
 DIGIT = re.compile(r"\d")
@@ -39,6 +42,24 @@ def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
     painted = QColor(colour)
     painted.setAlpha(alpha)
     return QPen(painted, width)
+
+
+def paint_line_marks(painter: QPainter, x: np.ndarray, y: np.ndarray, mark: str, theme: Tokens) -> None:
+    """Paint marks in the colour of the pen along a line through points in pixels, none where one is NaN."""
+    seen = np.isfinite(x) & np.isfinite(y) & (np.abs(x) < FARTHEST_PX) & (np.abs(y) < FARTHEST_PX)
+    x, y, half = x[seen], y[seen], MARK_PX * theme.scale
+    if x.size < 2:
+        return
+    way = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))))
+    at = np.arange(0.5 * MARK_EVERY_PX * theme.scale, min(way[-1], FARTHEST_PX), MARK_EVERY_PX * theme.scale)
+    painter.setBrush(painter.pen().color())
+    for place in map(QPointF, np.interp(at, way, x).tolist(), np.interp(at, way, y).tolist()):
+        if mark == "●":
+            painter.drawEllipse(place, half, half)
+        else:
+            corners = (half, 0.0), (0.0, half), (-half, 0.0), (0.0, -half)
+            painter.drawPolygon(QPolygonF([place + QPointF(*corner) * 1.3 for corner in corners]))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
 
 
 def set_text(words: str, size: int = 11) -> QStaticText:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
+from PySide6.QtGui import QAccessible, QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import image_of
@@ -148,6 +148,7 @@ AXES = (("ξ", (1.0, 0.0)), ("η", (0.0, 1.0)))
 class SurfaceView(QWidget):
     """Drag or arrow keys turn the surface, a double-click or Home turns it back; ``turned(turn, tilt)`` in degrees."""
 
+    accessible_role = QAccessible.Role.Graphic
     turned = Signal(float, float)
     taken, released = Signal(), Signal()
 

@@ -1,4 +1,4 @@
-"""Lists the texts that a language lacks, and those it no longer needs.
+"""Begins the file of a new language, and lists the texts that a language lacks, and those it no longer needs.
 
 ``python -m p2sf_explorer.i18n.extract [LANGUAGE]`` reads the sources of the library and the explorer (`ast`). A text
 needs a translation where it is a literal that reaches `tr`, a `Message` or a `P2SFError`: as an argument, through a
@@ -14,11 +14,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from xml.sax.saxutils import escape
+
+from PySide6.QtCore import QLocale
 
 import p2sf
 import p2sf_explorer
 from p2sf.lensfile.library import lenses_folder
-from p2sf_explorer.i18n.language import texts
+from p2sf.lensfile.source_text import write_text
+from p2sf_explorer.i18n.language import FOLDER, texts
 
 UNREACHED = (
     "p2sf.cli",
@@ -29,6 +33,13 @@ UNREACHED = (
 )  # by any window
 FIELD, LETTERS = re.compile(r"\{[^{}]*\}"), re.compile(r"[^\W\d_]{2}")
 ERROR = "P2SFError"
+BEGINNING = """<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="{language}">
+<context>
+<name>p2sf</name>
+"""
+UNFINISHED, END = '<translation type="unfinished"></translation>', "</context>\n</TS>\n"
 LESSONS = Path(p2sf_explorer.__file__).parent / "lessons"
 # Fields of dataclasses that are translated where they are shown.
 SHOWN = {
@@ -378,9 +389,22 @@ def _elements(node: ast.expr, at: object) -> list[ast.expr]:
     return [node.elts[at]] if isinstance(at, int) and -len(node.elts) <= at < len(node.elts) else []
 
 
+def begin(language: str) -> Path:
+    """Write the file of a new language with every text still to be translated, and return its path."""
+    path = FOLDER / f"{language}.ts"
+    entries = (f"<message><source>{escape(text)}</source>{UNFINISHED}</message>\n" for text in sorted(needed()))
+    write_text(BEGINNING.format(language=language) + "".join(entries) + END, path)
+    return path
+
+
 def main(arguments: list[str]) -> int:
-    """Print what a language lacks and no longer needs; return 1 where it lacks anything."""
+    """Print what a language lacks and no longer needs, its file written where there is none; 1 if it lacks any."""
     language = arguments[0] if arguments else "de"
+    if QLocale(language).language() == QLocale.Language.C:
+        print(f'"{language}" is no language that Qt knows; give its code of two or three letters, such as fr or pt_BR')
+        return 2
+    if not (FOLDER / f"{language}.ts").is_file():
+        print(f"{begin(language)} is new; translate it with Qt Linguist or an editor")
     lacking = missing(language)
     for title, listed in (("missing", lacking), ("no longer needed", unneeded(language))):
         print(f"{len(listed)} texts {title} in {language}")

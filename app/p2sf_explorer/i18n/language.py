@@ -1,7 +1,7 @@
 """The languages of the window: one Qt Linguist .ts file each in ``languages/``; English needs none.
 
-To add a language, copy ``de.ts``, name it after the language and translate it;
-``python -m p2sf_explorer.i18n.extract LANGUAGE`` lists what is missing.
+To add a language, run ``python -m p2sf_explorer.i18n.extract LANGUAGE``, which writes its file, and translate that; run
+again, it lists what is missing. What has no translation is shown in English.
 """
 
 from pathlib import Path

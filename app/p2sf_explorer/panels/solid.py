@@ -1,6 +1,5 @@
 """The set-up in space: glass with a quarter cut away, rays, the exaggerated wavefront, the PSF as a surface."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -100,7 +99,8 @@ class SolidPanel:
         self.process = QProcess(self.widget)
         self.process.finished.connect(self._probed)
         self.process.errorOccurred.connect(lambda _: self._probed(probe.NO_CONTEXT))
-        self.process.start(sys.executable, [probe.__file__])
+        program, argument = probe.command()
+        self.process.start(program, [argument])
 
     def _probed(self, code: int, status: QProcess.ExitStatus = QProcess.ExitStatus.NormalExit) -> None:
         crashed = status == QProcess.ExitStatus.CrashExit
@@ -114,7 +114,7 @@ class SolidPanel:
         try:
             from p2sf_explorer.scene3d.renderer import Renderer
         except ImportError:
-            self.view.say(tr(probe.NOT_INSTALLED), final=True)
+            self.view.say(tr(probe.sentence(probe.NO_LIBRARY)), final=True)
             return
         self.renderer = Renderer(self.view.pixels())
         self.view.set_renderer(self.renderer)

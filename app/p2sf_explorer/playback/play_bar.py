@@ -64,6 +64,7 @@ class PlayBar(QFrame):
         button.setObjectName("small")
         button.setText(tr(text))
         button.setToolTip(tr(tip))
+        button.setAccessibleName(tr(tip))
         button.clicked.connect(lambda: action())
         return button
 

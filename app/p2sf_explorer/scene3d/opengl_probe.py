@@ -11,8 +11,10 @@ MISSING = (
     "(apt-get install libegl1 libgl1-mesa-dri), then open this panel again"
 )
 NOT_INSTALLED = "3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again"
-COMMAND = ("-m", "p2sf_explorer.scene3d.opengl_probe")
+NOT_IN_BUNDLE = "3D is not in this download; take the one with 3D in its name, then open this panel again"
+OPTION = "--opengl-probe"  # of the bundle, which has no Python to run this file with
 WORKS, NO_LIBRARY, NO_CONTEXT = 0, 3, 4
+FROZEN = getattr(sys, "frozen", False)  # in a bundle of PyInstaller's
 
 
 def main() -> int:
@@ -34,9 +36,14 @@ def main() -> int:
     os._exit(WORKS if works else NO_CONTEXT)
 
 
+def command() -> list[str]:
+    """Return the command line that runs this file in a process of its own."""
+    return [sys.executable, OPTION if FROZEN else __file__]
+
+
 def sentence(code: int) -> str:
     """Return what the probe's exit code means, in English; nothing where OpenGL works."""
-    return {WORKS: "", NO_LIBRARY: NOT_INSTALLED}.get(code, MISSING)
+    return {WORKS: "", NO_LIBRARY: NOT_IN_BUNDLE if FROZEN else NOT_INSTALLED}.get(code, MISSING)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,24 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent, QWheelEvent
+from PySide6.QtGui import (
+    QAccessible,
+    QColor,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf.files.writing import write_beside
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import CAMERA, Camera, nearer, turned
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.copying import png_of
@@ -31,12 +43,15 @@ ZOOMS: dict[int, float] = {Qt.Key.Key_Plus: 1.25, Qt.Key.Key_Equal: 1.25, Qt.Key
 class SceneView(QWidget):
     """Drag to turn, wheel or + and − to zoom, double-click to reset; a text until there is a renderer."""
 
+    accessible_role = QAccessible.Role.Graphic
+
     def __init__(self, store: Store, card: QWidget):
         super().__init__(card)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(160, 110)
+        self.setAccessibleName(tr("The lens in space; arrow keys turn it, + and − zoom"))
         self._store, self._theme = store, LIGHT
         self._renderer: Renderer | None = None
         self._live: Live | None = None

@@ -75,7 +75,7 @@ class TopBar(QFrame):
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.help = self._tool("?", "Shortcuts and terms (F1 or ?)", self.help_asked.emit)
         self._lay_out()
-        for button, words in ((self.undo, "Undo"), (self.redo, "Redo")):
+        for button, words in ((self.undo, "Undo"), (self.redo, "Redo"), (self.help, "Help")):
             button.setAccessibleName(tr(words))
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -33,6 +33,7 @@ class QuantityRow(QWidget):
         self.slider.setAccessibleName(tr(quantity.title))
         self.edit.setAccessibleName(tr(quantity.title))
         self.play = PlayButton(self)
+        self.play.setAccessibleName(tr("Play: {quantity}", quantity=tr(quantity.title)))
         self.buttons = [self._button(*button) for button in quantity.buttons]
         self._scale: Scale | None = None
         self._limits: Ranges | None = None
@@ -98,6 +99,7 @@ class QuantityRow(QWidget):
         button = QPushButton(tr(label), self)
         button.setObjectName("small")
         button.setToolTip(tr(tip))
+        button.setAccessibleName(tr(tip))
         button.clicked.connect(lambda: self._store.update(**self.quantity.entries(value)))
         return button
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow,
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.accessibility.roles import install_roles
 from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, stylesheet, tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
@@ -75,6 +76,7 @@ class MainWindow(QMainWindow):
 
     def __init__(self, state: State | None = None, measured: bool = True) -> None:
         super().__init__()
+        install_roles()
         self.setWindowTitle("P2SF Explorer")
         self.setAcceptDrops(True)
         self.store = Store(state or State(), self)

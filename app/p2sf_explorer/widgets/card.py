@@ -13,6 +13,7 @@ from PySide6.QtCore import (
     Signal,
 )
 from PySide6.QtGui import (
+    QAccessible,
     QContextMenuEvent,
     QDrag,
     QMouseEvent,
@@ -96,6 +97,7 @@ class Card(QFrame):
     ``key`` is the panel's, which a drag of the title carries; ``smallest`` is the least size in pixels at scale 1.
     """
 
+    accessible_role = QAccessible.Role.Grouping
     place_asked = Signal(str)
     apart_asked = Signal()
     theory_asked = Signal()
@@ -106,6 +108,7 @@ class Card(QFrame):
         super().__init__(parent)
         self.setObjectName("card")
         self._title = tr(title)
+        self.setAccessibleName(self._title)
         self.title, self.readout = QLabel(self._title, self), QLabel(self)
         self.note = QLabel(self)
         self.note.setObjectName("muted")

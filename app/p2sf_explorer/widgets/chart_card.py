@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.painting import write
+from p2sf_explorer.charts.painting import MARKS, write
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.card import Card
@@ -42,8 +42,10 @@ class ChartsCard(Card):
 
 
 def legend(looks: dict[str, str], theme: Tokens) -> str:
-    """Return names, translated, in the colours of their tokens."""
-    marks = (f'<span style="color:{getattr(theme, token)}">━</span> {tr(name)}' for name, token in looks.items())
+    """Return names, translated, behind lines in the colours of their tokens, with the marks that are on the curves."""
+    lines = {name: f"━{MARKS[token]}━" if token in MARKS else "━" for name, token in looks.items()}
+    colours = {name: getattr(theme, token) for name, token in looks.items()}
+    marks = (f'<span style="color:{colours[name]}">{lines[name]}</span> {tr(name)}' for name in looks)
     return " &nbsp; ".join(marks)
 
 

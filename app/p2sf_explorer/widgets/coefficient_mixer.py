@@ -3,7 +3,18 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtGui import (
+    QAccessible,
+    QColor,
+    QFocusEvent,
+    QHelpEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+)
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from p2sf_explorer.charts.axes import LOCK_PX, paint_lock
@@ -217,6 +228,7 @@ class Mixer(QWidget):
     added waves away, L locks the scale, Space sweeps, Return opens a field for a number.
     """
 
+    accessible_role = QAccessible.Role.Grouping
     pressed, released = Signal(), Signal()
     added = Signal(str, float)
     typed = Signal(str, str)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import image_of
@@ -91,6 +91,7 @@ class SplitView(QWidget):
     ``moved`` carries the wanted place of the split, 0 to 1; ``looked`` the row and column under the pointer.
     """
 
+    accessible_role = QAccessible.Role.Graphic
     moved = Signal(float)
     looked = Signal(float, float)
     taken = Signal()

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, 
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.i18n import extract
 from p2sf_explorer.i18n import language as languages
 from p2sf_explorer.i18n.language import FOLDER, Translation, current_language, set_language, texts
 from p2sf_explorer.i18n.messages import said
@@ -229,3 +230,23 @@ def test_warnings_on_a_lens_are_said_in_german(only_window):
             assert is_german(said(warning)) and said(warning) != str(warning)
     finally:
         set_language("en")
+
+
+def test_one_command_begins_a_new_language(tmp_path, monkeypatch, capsys):
+    """It is written whole, lists all as missing, and a text that is then translated is no longer listed."""
+    monkeypatch.setattr(extract, "FOLDER", tmp_path)
+    monkeypatch.setattr(languages, "FOLDER", tmp_path)
+    assert extract.main(["fr"]) == 1
+    path, told = tmp_path / "fr.ts", capsys.readouterr().out
+    assert str(path) in told and f"{len(extract.needed())} texts missing in fr" in told
+    assert texts("fr") == {} and languages.languages() == {"en": "English", "fr": "Français"}
+    pattern = "<source>Field</source>" + extract.UNFINISHED
+    written = path.read_text(encoding="utf-8")
+    assert written.count(pattern) == 1
+    path.write_text(
+        written.replace(pattern, "<source>Field</source><translation>Champ</translation>"), encoding="utf-8"
+    )
+    assert extract.main(["fr"]) == 1
+    assert f"{len(extract.needed()) - 1} texts missing in fr" in capsys.readouterr().out
+    assert texts("fr") == {"Field": "Champ"}
+    assert extract.main(["nonsense"]) == 2 and not (tmp_path / "nonsense.ts").exists()

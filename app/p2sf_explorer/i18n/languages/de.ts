@@ -23,6 +23,7 @@
 <message><source>16 µm pixels</source><translation>16-µm-Pixel</translation></message>
 <message><source>32 µm pixels</source><translation>32-µm-Pixel</translation></message>
 <message><source>3D</source><translation>3D</translation></message>
+<message><source>3D is not in this download; take the one with 3D in its name, then open this panel again</source><translation>3D ist in diesem Download nicht enthalten; den mit 3D im Namen nehmen und diese Tafel dann wieder öffnen</translation></message>
 <message><source>3D needs OpenGL, and none works here; install a driver or Mesa's software renderer (apt-get install libegl1 libgl1-mesa-dri), then open this panel again</source><translation>3D braucht OpenGL, und hier läuft keines; einen Treiber oder Mesas Software-Renderer installieren (apt-get install libegl1 libgl1-mesa-dri), dann diese Ansicht wieder öffnen</translation></message>
 <message><source>3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again</source><translation>3D braucht pyvista, das nicht installiert ist; pip install pyvista ausführen, dann diese Ansicht wieder öffnen</translation></message>
 <message><source>3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point.</source><translation>3D: Drehkörper bis zu ihren freien Rändern; die Wellenfront ist der Kugel um den Bildpunkt um W·λ voraus.</translation></message>
@@ -463,6 +464,7 @@
 <message><source>Play or pause (Space on a slider)</source><translation>Abspielen oder anhalten (Leertaste auf einem Regler)</translation></message>
 <message><source>Play or pause the last slider</source><translation>Letzten Regler abspielen oder anhalten</translation></message>
 <message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
+<message><source>Play: {quantity}</source><translation>Abspielen: {quantity}</translation></message>
 <message><source>Plot</source><translation>Diagramm</translation></message>
 <message><source>Plot: {left} over {bottom}</source><translation>Diagramm: {left} über {bottom}</translation></message>
 <message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
@@ -660,6 +662,7 @@
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
 <message><source>The layout on the stage; lens table and PSF below</source><translation>Der Aufbau auf der Bühne; Objektivtabelle und PSF darunter</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
+<message><source>The lens in space; arrow keys turn it, + and − zoom</source><translation>Das Objektiv im Raum; Pfeiltasten drehen, + und − vergrößern und verkleinern</translation></message>
 <message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With Clip at rims a ray ends, with a bar, at the rim that stops it. Drag source, sensor or stop; click glass, then drag it, its edges or its vertices.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält. Ziehen Sie Quelle, Sensor oder Blende; klicken Sie Glas an und ziehen Sie dann an ihm, seinen Rändern oder Scheiteln.</translation></message>
 <message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
 <message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
@@ -1268,6 +1271,7 @@
 <message><source>logarithm of brightness</source><translation>Logarithmus der Helligkeit</translation></message>
 <message><source>luminance</source><translation>Leuchtdichte</translation></message>
 <message><source>luminance, peak = 1</source><translation>Leuchtdichte, Spitze = 1</translation></message>
+<message><source>macOS learns what a program opens from its bundle; put P2SF Explorer.app into Applications</source><translation>macOS erfährt aus dem Programmpaket, was ein Programm öffnet; P2SF Explorer.app in den Ordner Programme legen</translation></message>
 <message><source>make the folder first or choose another</source><translation>den Ordner zuerst anlegen oder einen anderen wählen</translation></message>
 <message><source>marginal ray y, mm</source><translation>Randstrahl y, mm</translation></message>
 <message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
@@ -2117,6 +2121,7 @@
 <message><source>{path} cannot be written, {reason}; choose a folder you may write to</source><translation>{path} ist nicht schreibbar, {reason}; einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
 <message><source>{path} cannot be written, {reason}; {remedy}</source><translation>{path} ist nicht schreibbar, {reason}; {remedy}</translation></message>
 <message><source>{path} cannot be written, {why}; choose another place</source><translation>{path} ist nicht schreibbar, {why}; einen anderen Ort wählen</translation></message>
+<message><source>{path} cannot be written; choose XDG_DATA_HOME otherwise</source><translation>{path} ist nicht beschreibbar; XDG_DATA_HOME anders wählen</translation></message>
 <message><source>{path} does not say how large its pixels are; give {parameter}</source><translation>{path} sagt nicht, wie groß seine Pixel sind; {parameter} angeben</translation></message>
 <message><source>{path} has a table of {rows} × {columns} values, and its head says {said}; list it again</source><translation>{path} hat eine Tabelle von {rows} × {columns} Werten, und ihr Kopf sagt {said}; sie neu ausgeben</translation></message>
 <message><source>{path} has the ending "{ending}", which is no picture here; choose {choices}</source><translation>{path} hat die Endung "{ending}", was hier kein Bild ist; {choices} wählen</translation></message>

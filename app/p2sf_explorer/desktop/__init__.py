@@ -1,0 +1,1 @@
+"""The explorer among the programs of a desktop: its icon, what it opens, links that open it."""
