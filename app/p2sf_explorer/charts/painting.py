@@ -111,11 +111,11 @@ def elided(words: str, room: float, size: int = 11) -> str:
 
 
 def fitting(words: str, room: float, size: int = 11) -> str:
-    """Return a text as far as it fits: whole, without brackets, its first word and unit, its unit alone, or elided."""
+    """Return a text as far as it fits: whole, without brackets, its first word and unit, the shorter, elided."""
     bare = words.partition(" (")[0]
     name, comma, unit = bare.partition(", ")
     first = name.partition(" ")[0]
-    for text in (words, bare, first + comma + unit, unit or first):
+    for text in (words, bare, first + comma + unit, min(first, unit or first, key=len)):
         if width_of(text, size) <= room:
             return text
     return metrics(size).elidedText(text, Qt.TextElideMode.ElideRight, room)

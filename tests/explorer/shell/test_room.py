@@ -145,9 +145,10 @@ def test_a_label_that_is_too_long_leaves_out_what_stands_in_brackets(qapp):
     label = "y, µm (towards the field)"
     assert fitting(label, 500) == label
     assert fitting(label, width_of(label) - 1) == "y, µm"
-    assert fitting(label, width_of("y, µm") - 1) == "µm"
+    assert fitting(label, width_of("y, µm") - 1) == "y"
+    assert fitting("radius, µm", width_of("radius, µm") - 1) == "µm"
     assert fitting("energy within", width_of("energy within") - 1) == "energy"
-    assert fitting(label, 12).endswith("…") and width_of(fitting(label, 12)) <= 12
+    assert fitting("energy within", 12).endswith("…") and width_of(fitting("energy within", 12)) <= 12
 
 
 def test_the_window_fits_a_screen_of_1920_by_1080_at_twice_the_size(window, qtbot):
