@@ -36,6 +36,9 @@ class Status(IntEnum):
     CLIPPED_BESIDE = 7  # on the left or right of a rectangle: apart, since the clear part has a corner where they meet
 
 
+AT_RIM = Status.CLIPPED, Status.CLIPPED_BESIDE
+
+
 def ended_at(status: np.ndarray, failed_surface: np.ndarray) -> np.ndarray:
     """Return a number that tells apart what ends rays: the surface, and a side of a rectangle from what it joins."""
     number: np.ndarray = failed_surface + BESIDE * (status == Status.CLIPPED_BESIDE)

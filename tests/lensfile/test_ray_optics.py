@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
+from p2sf.lens import Placement
 from p2sf.lens.lens import indices
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -33,6 +34,29 @@ def lens_of(change):
 
 def surface(model, number):
     return model["seq_model"]["attributes"]["ifcs"][number]["attributes"]
+
+
+def tilt(kind, euler, dec=(0.0, 0.0, 0.0)):
+    arrays = {"dec": {"__ndarray__": list(dec)}, "euler": {"__ndarray__": list(euler)}}
+    return {"__instance_type__": ["rayoptics.elem.surface", "DecenterData"], "attributes": {"dtype": kind, **arrays}}
+
+
+@pytest.mark.parametrize(
+    ("kind", "command"), [("decenter", ""), ("reverse", "REV"), ("dec and return", "DAR"), ("bend", "BEN")]
+)
+def test_decentres_are_those_of_the_same_numbers_in_a_code_v_file(kind, command):
+    """Whose rays are compared with ray-optics' own in `test_tilts`."""
+    euler, dec = (1.5, 0.0, 0.0) if kind == "bend" else (1.5, -2.0, 3.0), (0.1, -0.2, 0.0)
+    lens = lens_of(lambda model: surface(model, 2).update(decenter=tilt(kind, euler, dec)))
+    numbers = "\n".join(
+        f"{name} {x}" for name, x in zip("XDE YDE ADE BDE CDE".split(), (*dec[:2], *euler), strict=True)
+    )
+    text = f"RDM\nSO 0 1e20\nS 0 5\nSTO\nS 50 5\n{numbers}\n{command}\nSI 0 0\nEPD 1\n"
+    other = import_text(LensText("a.seq", "utf-8", text), GlassSources()).lens
+    assert lens.surfaces[1].before == other.surfaces[1].before and lens.surfaces[1].after == other.surfaces[1].after
+    assert lens.misaligned
+    sensor = lens_of(lambda model: surface(model, -1).update(decenter=tilt("decenter", (1.0, 0.0, 0.0))))
+    assert sensor.sensor_before == (Placement(tilt_x_deg=-1.0),)
 
 
 def test_the_prescription_is_read_as_it_stands():
@@ -99,7 +123,9 @@ def test_a_phase_of_coefficients_of_path_is_read():
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda m: surface(m, 2).update(decenter={"attributes": {"alpha": 1.0}}), "surface 2 is tilted or decentred"),
+        (lambda m: surface(m, 2).update(decenter={"attributes": {"dtype": "spin"}}), "surface 2 is tilted .* by spin"),
+        (lambda m: surface(m, 2).update(decenter=tilt("bend", (1, 2, 0))), "surface 2.*: a bend .* than one axis"),
+        (lambda m: surface(m, 0).update(decenter=tilt("decenter", (1, 0, 0))), "the object is tilted or decentred"),
         (
             lambda m: surface(m, 3).update(
                 phase_element={"__instance_type__": ["m", "DiffractiveElement"], "attributes": {}}

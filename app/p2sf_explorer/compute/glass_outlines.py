@@ -112,7 +112,7 @@ def _placed_glass(lens: Lens) -> Glass:
     """Return the outlines of a misaligned lens, whose elements stand as its parts do, seen along x."""
     rims, places = clear_rims(lens), sections(lens)
     index = np.abs(indices(lens, lens.reference_wavelength_um))
-    own = [profile(surface, 0.0, rim) for surface, rim in zip(lens.surfaces, rims, strict=False)]
+    own = [_own_profile(surface, rim) for surface, rim in zip(lens.surfaces, rims, strict=False)]
     outlines = []
     for i, (front, back) in enumerate(pairwise(own)):
         if index[i + 1] > GLASS_INDEX and rims[i] > 0:
@@ -134,6 +134,15 @@ def _placed_glass(lens: Lens) -> Glass:
     ends = float(min(z.min() for z, _ in every)), float(max(z.max() for z, _ in every))
     high = max(float(abs(y).max()) for _, y in every)
     return Glass(tuple(outlines), mirrors, ideal, profiles[-1], float(index[-1]), high, *ends)
+
+
+def _own_profile(surface: Surface, rim: float) -> Profile:
+    """Return the section of a surface in its own axes; of a mirror with a decentred rim between the ends of that."""
+    if surface.rim is None or not surface.reflects:
+        return profile(surface, 0.0, rim)
+    half = min(surface.rim.half_widths[1] if surface.rim.half_widths else rim, rim)
+    y = surface.rim.decentre[1] + np.linspace(-half, half, PROFILE_POINTS)
+    return sag(surface, y), y
 
 
 def _back(place: Section, direction: int) -> int:

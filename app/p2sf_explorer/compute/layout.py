@@ -14,7 +14,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
-from p2sf.raytrace.surface import Status, sag_and_slope
+from p2sf.raytrace.surface import AT_RIM, Status, sag_and_slope
 from p2sf.raytrace.trace import trace
 from p2sf_explorer.compute.glass_outlines import (
     UPRIGHT,
@@ -310,7 +310,7 @@ def _skew_paths(lens: Lens, drawn: Drawing, source: Source, etas: list[float], c
             z[:reached, number],
             y[:reached, number],
             status == Status.PASSED,
-            status == Status.CLIPPED,
+            status in AT_RIM,
             on_sensor=float(on_sensor[number]),
         )
 

@@ -9,10 +9,11 @@ from math import inf, pi
 from typing import Any
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.errors import P2SFError
+from p2sf.errors import GeometryError, P2SFError
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Lens
 from p2sf.lens.shapes import Diffraction
+from p2sf.lens.tilts import Breaks, decentred_surface
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -34,12 +35,13 @@ FIELDS: dict[tuple[str, str], RawFieldKind] = {
     ("image", "height"): "image_height",
     ("image", "real height"): "real_image_height",
 }
+DECENTRES = {"decenter": "", "reverse": "REV", "dec and return": "DAR", "bend": "BEN"}
 PROFILES = ("Spherical", "Conic", "EvenPolynomial", "RadialPolynomial")
 DAMAGED = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError)
 
 
 def read_ray_optics(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
-    """Return the lens of a .roa file; LensFileError for damage, tilts, gratings and shapes that are not round.
+    """Return the lens of a .roa file; LensFileError for damage, gratings and shapes that are not round.
 
     A thin lens, there made by a hologram of two points, becomes an ideal lens of its power.
     """
@@ -80,6 +82,12 @@ def _raw_lens(model: dict[str, Any], source: LensText) -> RawLens:
     raw.object_glass = _glass(gaps[0]["medium"])
     for number, (interface, gap) in enumerate(zip(interfaces[1:-1], gaps[1:], strict=True), 1):
         raw.surfaces.append(_surface(number, interface, gap, model, raw.unit_mm, source))
+    ends = (RawSurface(place, 1) for place in (0, len(interfaces) - 1))
+    moved, (raw.sensor_before, _) = (
+        _breaks(end, _inside(interfaces[end.number]).get("decenter"), source) for end in ends
+    )
+    if any(moved):
+        raise source.error("the object is tilted or decentred, which is not read; move the lens instead", 1)
     stop = sequence.get("stop_surface")
     raw.stop = int(stop) if stop else None
     _conditions(raw, _inside(model["optical_spec"]))
@@ -91,8 +99,7 @@ def _surface(
 ) -> RawSurface:
     values = _inside(interface)
     surface = RawSurface(number, 1, str(values.get("label", ""))[:60], thickness=float(gap["thi"]))
-    if values.get("decenter"):
-        raise source.error("{surface} is tilted or decentred; only centred lenses are read", 1, surface=surface.name)
+    surface.before, surface.after = _breaks(surface, values.get("decenter"), source)
     if _kind(interface) == "ThinLens":
         power = float(values["_power"])
         surface.ideal_focal_length = 1 / power if power else inf
@@ -108,6 +115,36 @@ def _surface(
         rim = float(_inside(aperture).get("radius", rim))
     surface.semi_diameter = float(rim)
     return surface
+
+
+def _breaks(surface: RawSurface, decenter: Any, source: LensText) -> Breaks:
+    """Return the breaks that a surface's decentre means, whose kinds and signs are those of CODE V."""
+    if not decenter:
+        return (), ()
+    values = _inside(decenter)
+    kind = str(values.get("dtype", values.get("_dtype")))
+    dec, euler, pivot = (_three(values.get(name)) for name in ("dec", "euler", "rot_pt"))
+    if kind not in DECENTRES or any(pivot):
+        raise source.error(
+            "{surface} is tilted or decentred by {kind} about ({pivot:g}), which is not read; only {known} about the "
+            "vertex are",
+            1,
+            surface=surface.name,
+            kind=kind[:20],
+            pivot=pivot,
+            known=tuple(DECENTRES),
+        )
+    try:
+        return decentred_surface(DECENTRES[kind], dec, euler)
+    except GeometryError as failure:
+        raise source.error("{surface}: {error}", 1, surface=surface.name, error=failure) from failure
+
+
+def _three(array: Any) -> tuple[float, float, float]:
+    """Return the numbers of an array, zeros where there is none."""
+    listed = array.get("__ndarray__", (0, 0, 0)) if isinstance(array, dict) else array or (0, 0, 0)
+    x, y, z = map(float, listed)
+    return x, y, z
 
 
 def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: LensText) -> Diffraction:
