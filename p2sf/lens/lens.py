@@ -268,6 +268,12 @@ class Lens:
         return *found, _chained(onward, self.sensor_before)
 
     @cached_property
+    def steps(self) -> tuple[float | None, ...]:
+        """Return of every one of the ``motions`` how far along z it goes, mm, None where it does anything else."""
+        plain = (not motion.turns and not motion.origin[:2].any() for motion in self.motions)
+        return tuple(float(m.origin[2]) if along else None for m, along in zip(self.motions, plain, strict=True))
+
+    @cached_property
     def frames(self) -> tuple[Motion, ...]:
         """Return the axes of every surface, and of the sensor, in those of the lens: z from the first vertex, mm."""
         return tuple(accumulate(self.motions, Motion.then))

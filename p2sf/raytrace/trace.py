@@ -156,7 +156,11 @@ def run(
 def _onward(beam: Beam, lens: Lens, number: int, index: Index) -> None:
     """Give a beam in the axes of surface ``number``, 0 for those of the lens, in those of the next, or the sensor."""
     if lens.misaligned:
-        move(beam, lens.motions[number], index[number], number + 1)
+        step = lens.steps[number]
+        if step is None:
+            move(beam, lens.motions[number], index[number], number + 1)
+        else:
+            beam.z -= step
     elif number:
         beam.z -= lens.surfaces[number - 1].thickness
 

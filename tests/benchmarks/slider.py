@@ -1,10 +1,11 @@
-"""From slider to painted window: ``python -m tests.benchmarks.slider [--split] [--quick]``.
+"""From slider to painted window: ``python -m tests.benchmarks.slider [--split] [--quick] [--misaligned]``.
 
 A slider is dragged back and forth with the PSF on the stage, at 1440×900 and at 3840×2160, by the method *seidel* and
 by the one that *auto* chooses, for several lenses; then with the 3 × 3 matrix of PSFs on the stage. Printed are the
 median and the 95th percentile of a frame in CPU time: of the window's own thread, which is how long a person waits on
 an idle machine, and of the whole process. CPU time depends little on what else the machine does; its speed does, so
-that versions are compared in turns (``tests.benchmarks.versions``). ``--split`` drags a second time with a clock in
+that versions are compared in turns (``tests.benchmarks.versions``). ``--misaligned`` drags a
+misaligned Double Gauss, and errors of its build. ``--split`` drags a second time with a clock in
 every part, which costs some 0.3 ms itself, and prints what each part takes on average.
 """
 
@@ -33,6 +34,7 @@ from p2sf_explorer.compute.quantities import OF_THE_LENS
 from p2sf_explorer.compute.setup import prescription, ranges, with_lens
 from p2sf_explorer.shell import window as shell
 from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.state.build_errors import with_error
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.card import Card
@@ -42,13 +44,15 @@ METHODS = "seidel", "auto"
 LENSES = "double_gauss_28", "cooke_triplet", "achromat_f6", "wide_angle_35", "eye_navarro"
 SLIDERS = "field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number"
 ASKED = {(1440, 900): (10, 16), (3840, 2160): (16, 25)}  # ms: median, 95th percentile
+MISALIGNED = (("tilt_x", 1, 2, 0.1), ("decentre_y", 3, 5, 0.1), ("decentre_x", 7, 9, 0.05))
+ASKED_MISALIGNED = 16  # ms
 MATRIX_MS, MATRIX_SLIDERS = 33, ("f_number", "sensor_shift_um")
 LEAST_MS = 0.02  # of a part that is printed
 LONGEST_S = 10.0  # for which a settled picture is waited for
 FIRST, FRAMES, SWING = 10, 100, 37  # frames that do not count, frames that do, frames to and fro
 PARTS = {  # what is timed by ``--split``: the name that calls it, and what it is
     "p2sf_explorer.compute.live:paraxial_setup": "compute: first order",
-    "p2sf_explorer.compute.live:layout": "compute: layout's rays",
+    "p2sf_explorer.compute.live:layout_of": "compute: layout's rays",
     "p2sf_explorer.compute.live:rendered": "compute: method and window",
     "p2sf_explorer.compute.ray_density:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.method:main_reach_um": "compute: ray density",
@@ -190,10 +194,15 @@ def measure(title: str, state: State, size: tuple[int, int], keys: tuple[str, ..
         print(f"{title} {key:16} median {middle:5.1f}  95 % {late:5.1f}  process {whole:5.1f} ms", flush=True)
     window.close()
     if clock.watching:
-        for name, spent in sorted(clock.spent.items(), key=lambda item: -item[1]):
-            if spent > LEAST_MS * len(gathered):
-                print(f"    {spent / len(gathered):6.2f} ms  {name}")
+        show_parts(clock, len(gathered))
     return [own for own, _ in gathered]
+
+
+def show_parts(clock: Clock, frames: int) -> None:
+    """Print what each part takes of a frame."""
+    for name, spent in sorted(clock.spent.items(), key=lambda item: -item[1]):
+        if spent > LEAST_MS * frames:
+            print(f"    {spent / frames:6.2f} ms  {name}")
 
 
 def stages(options: argparse.Namespace, lenses: tuple[str, ...], clock: Clock) -> None:
@@ -211,6 +220,34 @@ def stages(options: argparse.Namespace, lenses: tuple[str, ...], clock: Clock) -
             print(f"{size[0]}×{size[1]} {method}: median and 95 % {found[0]:.1f} and {found[1]:.1f} ms, asked {asked}")
 
 
+def misaligned(clock: Clock) -> None:
+    """Drag a misaligned Double Gauss: the sliders of the source, then the decentre of an element."""
+    state = with_lens(new_state(theme="light", errors=MISALIGNED), LENSES[0])
+    state, size, found = changed(state, errors=MISALIGNED), SIZES[0], []
+    found += measure("misaligned", state, size, ("field_deg", "field_x_deg", "depth_mm", "f_number"), clock)
+    window, spent = opened(state, size), []
+    clock.spent.clear()
+    window.store.begin()
+    for number in range(FIRST + FRAMES):
+        clock.running = number >= FIRST
+        amount = 0.1 * sin(2 * pi * number / SWING) + 1e-3
+        errors = with_error(MISALIGNED, "decentre_y", (3, 5), amount)
+        begun = thread_time(), process_time()
+        with clock.part("Qt: layouts, other widgets, composing"):
+            with clock.part("window: store, bars, sliders"):
+                window.store.update(errors=errors)
+            QApplication.processEvents()
+        spent.append((1e3 * (thread_time() - begun[0]), 1e3 * (process_time() - begun[1])))
+    window.store.end()
+    wait(window)
+    window.close()
+    middle, late, whole = summary(spent[FIRST:])
+    print(f"misaligned decentre_y       median {middle:5.1f}  95 % {late:5.1f}  process {whole:5.1f} ms")
+    if clock.watching:
+        show_parts(clock, FRAMES)
+    print(f"misaligned sliders of the source: median {median(found):.1f} ms, asked {ASKED_MISALIGNED}", flush=True)
+
+
 def matrices(lenses: tuple[str, ...], clock: Clock) -> None:
     """Drag with the 3 × 3 matrix of PSFs of 128² on the stage, as the workspace *Inspect* has it."""
     for lens in lenses:
@@ -223,6 +260,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--split", action="store_true", help="print what each part takes")
     parser.add_argument("--quick", action="store_true", help="one lens, one slider, the small window")
+    parser.add_argument("--misaligned", action="store_true", help="a misaligned Double Gauss alone")
     parser.add_argument("--lens", action="append", help="this lens alone; may be given several times")
     parser.add_argument("--method", choices=METHODS, action="append", help="this method alone")
     parser.add_argument("--only", choices=("stage", "matrix"), help="the PSF on the stage, or the matrix, alone")
@@ -236,6 +274,9 @@ def main() -> None:
         if options.split:
             MainWindow(new_state(), measured=False).close()  # imports what paints
             clock.watch()
+        if options.misaligned:
+            misaligned(clock)
+            return
         if options.only != "matrix":
             stages(options, lenses, clock)
         if options.only != "stage":

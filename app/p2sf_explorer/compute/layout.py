@@ -134,13 +134,20 @@ class Layout:
 
 def layout_of(state: State, setup: ParaxialSetup) -> Layout:
     """Return the `layout` as a state wants it drawn."""
-    display, larger = state.display, state.optics.errors
-    shown, factor = None, 1
-    if larger and display.exaggerated > 1:
-        larger, factor = exaggerated(larger, display.exaggerated)
-        shown = with_sensor(with_errors(prescription(state), larger), setup.lens.sensor_mm)
+    display, factor = state.display, 1
+    if state.optics.errors and display.exaggerated > 1:
+        _, factor = exaggerated(state.optics.errors, display.exaggerated)
+    shown = shown_lens(state, setup) if factor > 1 else None
     made = layout(setup, state.optics.clip, display.rays_coloured, display.rays_count, shown)
     return replace(made, exaggerated=factor) if factor > 1 else made
+
+
+def shown_lens(state: State, setup: ParaxialSetup) -> Lens:
+    """Return the lens whose glass, stop and sensor are drawn: with its tilts and decentres enlarged as a state says."""
+    larger, factor = exaggerated(state.optics.errors, state.display.exaggerated)
+    if factor == 1 or not state.optics.errors:
+        return setup.lens
+    return with_sensor(with_errors(prescription(state), larger), setup.lens.sensor_mm)
 
 
 def layout(
@@ -269,7 +276,8 @@ def pupil_points(count: int) -> list[float]:
 def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[float], clip: bool) -> Iterator[RayPath]:
     """Yield a source's rays through points of the pupil; the chief ray, where the pupil begins, is not clipped."""
     if setup.lens.misaligned:
-        yield from _skew_paths(setup.lens, drawn, source, etas, clip)
+        front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
+        yield from skew_paths(setup.lens, source, tuple(etas), clip, front)
         return
     rims, lens = pencil_rims(setup.lens) if clip else None, setup.lens
     index = tuple(indices(lens, source.wavelength_um).tolist())
@@ -287,14 +295,17 @@ def _paths(setup: ParaxialSetup, drawn: Drawing, source: Source, etas: list[floa
         yield RayPath(kind, places[0], places[1], passed, clipped)
 
 
-def _skew_paths(lens: Lens, drawn: Drawing, source: Source, etas: list[float], clip: bool) -> Iterator[RayPath]:
-    """Yield a source's rays through a misaligned lens, seen along x; none where its chief ray is lost."""
+@lru_cache(maxsize=16)
+def skew_paths(lens: Lens, source: Source, etas: tuple[float, ...], clip: bool, front: float) -> tuple[RayPath, ...]:
+    """Return a source's rays through a misaligned lens, seen along x, from z = ``front`` mm; none if the chief is lost.
+
+    Kept, since those of the point on the axis are the same for every field.
+    """
     seen = seen_from(lens, source.azimuth_deg)
     try:
         rays = pupil_rays(seen, source, np.zeros(len(etas)), np.array(etas), aim_error=DRAWN_AIM)
     except GeometryError:  # of the point on the axis: that of the source has its own picture, or its own sentence
-        return
-    front = -min(source.depth_mm, REACH * (drawn.right - drawn.left))
+        return ()
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = origins + directions * ((front - origins[..., 2:]) / directions[..., 2:])
     found = trace(seen, starts, directions, source.wavelength_um, clip)
@@ -302,17 +313,18 @@ def _skew_paths(lens: Lens, drawn: Drawing, source: Source, etas: list[float], c
     if source.azimuth_deg:
         y = y - sin(radians(source.azimuth_deg)) * found.points[..., 0]
     on_sensor = (found.points[-1] - lens.frames[-1].origin) @ lens.frames[-1].rotation[:, 1]
-    for number, eta in enumerate(etas):
-        reached = int(np.isfinite(z[:, number]).sum())
-        status = int(found.status[number])
-        yield RayPath(
+    reached = np.isfinite(z).sum(0).tolist()
+    return tuple(
+        RayPath(
             "rim" if eta else "chief",
-            z[:reached, number],
-            y[:reached, number],
-            status == Status.PASSED,
+            z[: reached[number], number],
+            y[: reached[number], number],
+            bool(status == Status.PASSED),
             status in AT_RIM,
             on_sensor=float(on_sensor[number]),
         )
+        for number, (eta, status) in enumerate(zip(etas, found.status.tolist(), strict=True))
+    )
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
 from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.placement import Motion, along_z
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_outline import opening_radius, vane
 from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, crossed_before, sag, vertices
@@ -41,6 +43,8 @@ def elements(lens: Lens) -> tuple[Element, ...]:
 
     A mirror is a thin shell on its back, and so is an ideal lens.
     """
+    if lens.misaligned:
+        return _placed_elements(lens)
     z, rims = vertices(lens), clear_rims(lens)
     index = np.abs(indices(lens, lens.reference_wavelength_um))
     pairs = zip(lens.surfaces[:-1], lens.surfaces[1:], strict=True)
@@ -55,6 +59,34 @@ def elements(lens: Lens) -> tuple[Element, ...]:
         if s.reflects or s.ideal
     )
     return (*glass, *shells)
+
+
+def _placed_elements(lens: Lens) -> tuple[Element, ...]:
+    """Return the glass and mirrors of a misaligned lens where they stand; an element of tilted surfaces is a wedge."""
+    rims, index = clear_rims(lens), np.abs(indices(lens, lens.reference_wavelength_um))
+    found = []
+    for i, (front, back) in enumerate(pairwise(lens.surfaces)):
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0:
+            made = element((front, 0.0, rims[i]), (back, front.thickness, rims[i + 1]))
+            behind = lens.frames[i + 1].then(along_z(-front.thickness))
+            found.append(Element(wedged(made, lens.frames[i], behind), float(index[i + 1])))
+    for i, surface in enumerate(lens.surfaces):
+        if surface.reflects:
+            sides = (surface, 0.0, rims[i]), (surface, lens.directions[i] * SHELL * rims[i], rims[i])
+            found.append(Element(placed(element(*sides), lens.frames[i]), SHELL_INDEX))
+    return tuple(found)
+
+
+def placed(mesh: Mesh, frame: Motion) -> Mesh:
+    """Return a mesh given in some axes in those of the lens."""
+    return Mesh(mesh.points @ frame.rotation.T + frame.origin, mesh.faces)
+
+
+def wedged(mesh: Mesh, front: Motion, back: Motion) -> Mesh:
+    """Return an `element`, whose points are those of its front and then those of its back, each in its own axes."""
+    half = len(mesh.points) // 2
+    sides = zip((mesh.points[:half], mesh.points[half:]), (front, back), strict=True)
+    return Mesh(np.concatenate([points @ frame.rotation.T + frame.origin for points, frame in sides]), mesh.faces)
 
 
 def filling(lens: Lens, sensor_z: float) -> tuple[Element, ...]:

@@ -7,9 +7,11 @@ from math import isfinite
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.lens.lens import seen_from
+from p2sf.lens.placement import Placement
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.result import Psf
-from p2sf.raytrace.pencil import Pencil, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
+from p2sf.raytrace.pencil import Pencil, exit_radius, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
 from p2sf_explorer.compute.layout import Drawing
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.scene3d.meshes import Mesh, grid_faces
@@ -49,15 +51,19 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> np.n
     """
     xi, eta = hexapolar(RINGS)
     xi, eta = xi / eta.max(), eta / eta.max()  # the outermost ring shows the pupil's rim
-    rays = pupil_rays(setup.lens, setup.source, xi, eta)
+    azimuth = setup.source.azimuth_deg
+    lens = seen_from(setup.lens, azimuth)
+    rays = pupil_rays(lens, setup.source, xi, eta)
     before = min(setup.source.depth_mm, BEFORE * (drawn.right - drawn.left) - drawn.left)
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = origins - directions * ((origins[..., 2:] + before) / directions[..., 2:])
-    points = trace(setup.lens, starts, directions, setup.source.wavelength_um).points
+    points = trace(lens, starts, directions, setup.source.wavelength_um).points
     ended = pencil(setup.lens, setup.source, xi, eta, clip).failed_surface
     for number in range(1, len(points)):
         behind = (ended > 0) & (number > ended)
         points[number] = np.where(behind[:, None] | np.isnan(points[number]), points[number - 1], points[number])
+    if azimuth and lens.misaligned:  # a round lens is shown with its source upright
+        points = points @ Placement(tilt_z_deg=-azimuth).motion.rotation.T
     return points.swapaxes(0, 1)
 
 
@@ -93,10 +99,12 @@ def _polar() -> tuple[np.ndarray, np.ndarray]:
 
 def _cosines(rays: Pencil) -> tuple[tuple[np.ndarray, float], ...]:
     """Return the direction cosines in the image of the rays and of the chief ray."""
-    return (rays.kx, 0.0), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
+    return (rays.kx, float(np.squeeze(rays.chief_kx))), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
 
 
 def _exit_radius(setup: ParaxialSetup, rays: Pencil) -> float:
+    if setup.lens.misaligned:
+        return float(np.squeeze(exit_radius(setup.lens, setup.source, rays)))
     return float((setup.lens.sensor_mm - setup.pupils.exit_from_last) / rays.chief_kz[0])
 
 

@@ -157,3 +157,24 @@ def test_a_sensor_that_touches_the_glass_or_stands_in_it_has_a_wavefront_too(sen
     found = scene(live(changed(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
     assert found.front.factor > 0 and np.isfinite(found.front.mesh.points).all()
     assert np.ptp(found.front.mesh.points, axis=0).max() > 0.01
+
+
+def test_a_lens_tilted_by_next_to_nothing_stands_where_the_straight_one_does():
+    """The parts of a misaligned lens are placed by its frames, those of a straight one along its axis."""
+    straight, tilted = (
+        scene(live(new_state(errors=errors), "preview")) for errors in ((), (("tilt_x", 12, 12, 1e-7),))
+    )
+    for name in ("stop", "sensor"):
+        assert getattr(tilted, name).points == pytest.approx(getattr(straight, name).points, abs=1e-6)
+    assert tilted.front.mesh.points == pytest.approx(straight.front.mesh.points, abs=1e-5)
+    for one, other in zip(tilted.glass, straight.glass, strict=True):
+        assert one.mesh.points == pytest.approx(other.mesh.points, abs=1e-9)
+
+
+def test_the_psf_stands_where_the_chief_ray_meets_a_tilted_sensor():
+    errors = ("decentre_y", 3, 5, 0.1), ("tilt_x", 12, 12, 5.0)
+    found = scene(live(new_state(errors=errors, field_deg=5.0, field_x_deg=4.0), "preview"))
+    middle = found.psf_surface.mesh.points.reshape(64, 64, 3)[32, 32]
+    ended, normal = found.rays[0, -1], np.array([0.0, -np.sin(np.deg2rad(5.0)), np.cos(np.deg2rad(5.0))])
+    away = middle - ended
+    assert np.cross(away, normal) == pytest.approx(np.zeros(3), abs=1e-6)  # it rises at right angles to the sensor
