@@ -15,7 +15,13 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygon
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.i18n.tr import local
 
-MARKS = {"chief": "●", "negative": "●", "third": "◆"}  # on named curves: what tells them apart without colour
+# On named curves, by the colour's token: what tells them apart without colour.
+MARKS = {"chief": "●", "negative": "●", "third": "◆", "#cc79a7": "▲", "#a6761d": "■"}
+CORNERS = {
+    "◆": ((1.3, 0.0), (0.0, 1.3), (-1.3, 0.0), (0.0, -1.3)),
+    "▲": ((0.0, -1.3), (1.2, 0.9), (-1.2, 0.9)),
+    "■": ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)),
+}
 MARK_EVERY_PX, MARK_PX = 80.0, 3.2  # along the curve, and half the size of a mark
 FARTHEST_PX = 1e5  # a line that leaves the window need not be drawn to its end
 SHORT, LONG = 5, 24  # letters
@@ -57,8 +63,7 @@ def paint_line_marks(painter: QPainter, x: np.ndarray, y: np.ndarray, mark: str,
         if mark == "●":
             painter.drawEllipse(place, half, half)
         else:
-            corners = (half, 0.0), (0.0, half), (-half, 0.0), (0.0, -half)
-            painter.drawPolygon(QPolygonF([place + QPointF(*corner) * 1.3 for corner in corners]))
+            painter.drawPolygon(QPolygonF([place + QPointF(*corner) * half for corner in CORNERS[mark]]))
     painter.setBrush(Qt.BrushStyle.NoBrush)
 
 
@@ -129,6 +134,7 @@ def write(painter: QPainter, room: QRectF, words: str, side: int = 0, size: int 
     words = local(words)
     left = room.left() + (side + 1) / 2 * (room.width() - width_of(words, size)) if side >= 0 else room.left()
     painter.setFont(small_font(size))
+    painter.setLayoutDirection(Qt.LayoutDirection.LayoutDirectionAuto)  # or a mirrored window would write "mm 100"
     if is_passing(words):
         measures = metrics(size)
         base = room.center().y() - measures.height() / 2 + measures.ascent()

@@ -176,6 +176,8 @@ def palette(theme: Tokens) -> QPalette:
 def stylesheet(theme: Tokens) -> str:
     """Return the style sheet of the window; every length in it is written at scale 1."""
     plain = _frames(theme) + _inputs(theme) + _lists(theme)
+    if QGuiApplication.isRightToLeft():  # Qt mirrors layouts, and leaves these as they are written
+        plain = plain.replace("padding-right", "padding-left").replace("text-align: left", "text-align: right")
     return PIXELS.sub(lambda length: f"{theme.px(int(length[1])) if int(length[1]) else 0}px", plain)
 
 

@@ -15,7 +15,7 @@ from p2sf_explorer.matrix.overlays import PLAIN, USUAL_PER_MM, Overlay, OverlayR
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser, select
-from p2sf_explorer.widgets.chart_card import NotedChart, reach
+from p2sf_explorer.widgets.chart_card import NotedChart, curve_sign, reach
 from p2sf_explorer.widgets.curves import ENDLESS
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.widgets.value_edit import ValueList
@@ -128,9 +128,8 @@ class OverlaysPanel:
         hues = {line.hue for line in found.lines}
         names = list(found.names)
         order = [*range(1, len(names) + 1)] if PLAIN not in hues else [*range(1, len(names)), PLAIN]
-        tokens = (HUES[hue % len(HUES)] for hue in order)
-        colours = (getattr(self._theme, token, token) for token in tokens)
-        marks = (f'<span style="color:{colour}">━</span>' for colour in colours)
+        tokens = [HUES[hue % len(HUES)] for hue in order]
+        marks = [curve_sign(token, self._theme) for token in tokens]
         lines = [f"{mark} {name.text(WINDOW)}" for mark, name in zip(marks, names, strict=True)]
         if hint := HINTS.get(found.axes[1]):
             lines.append(tr(hint))

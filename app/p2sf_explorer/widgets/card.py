@@ -312,12 +312,13 @@ CHEVRON_TYPE = 15.0  # pixels: the height of type beside which a chevron has its
 
 
 def paint_chevron(widget: QWidget) -> None:
-    """Paint the arrow at the right end of a box that opens."""
+    """Paint the arrow at the end of a box that opens: at the right, in a mirrored window at the left."""
     painter = QPainter(widget)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(widget.palette().color(QPalette.ColorRole.PlaceholderText), 1.6))
     unit = widget.fontMetrics().height() / CHEVRON_TYPE
-    x, y, half = widget.width() - 13.0 * unit, widget.height() / 2 - 1.5 * unit, 3.5 * unit
+    y, half, mirrored = widget.height() / 2 - 1.5 * unit, 3.5 * unit, widget.isRightToLeft()
+    x = 13.0 * unit if mirrored else widget.width() - 13.0 * unit
     painter.drawPolyline(QPolygonF([QPointF(x - half, y), QPointF(x, y + half), QPointF(x + half, y)]))
 
 

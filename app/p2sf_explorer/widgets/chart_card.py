@@ -42,11 +42,14 @@ class ChartsCard(Card):
 
 
 def legend(looks: dict[str, str], theme: Tokens) -> str:
-    """Return names, translated, behind lines in the colours of their tokens, with the marks that are on the curves."""
-    lines = {name: f"━{MARKS[token]}━" if token in MARKS else "━" for name, token in looks.items()}
-    colours = {name: getattr(theme, token) for name, token in looks.items()}
-    marks = (f'<span style="color:{colours[name]}">{lines[name]}</span> {tr(name)}' for name in looks)
-    return " &nbsp; ".join(marks)
+    """Return names, translated, behind the signs of their curves."""
+    return " &nbsp; ".join(f"{curve_sign(token, theme)} {tr(name)}" for name, token in looks.items())
+
+
+def curve_sign(token: str, theme: Tokens) -> str:
+    """Return the sign of a curve in a legend: a line in its colour, with the mark that is on the curve."""
+    line = f"━{MARKS[token]}━" if token in MARKS else "━"
+    return f'<span style="color:{getattr(theme, token, token)}">{line}</span>'
 
 
 Note = tuple[float, float, str, str, int]

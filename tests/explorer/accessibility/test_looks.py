@@ -5,10 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
 import p2sf_explorer
-from p2sf_explorer.charts.painting import MARK_EVERY_PX, MARKS, paint_line_marks
+from p2sf_explorer.charts.painting import MARK_EVERY_PX, MARKS, paint_line_marks, write
 from p2sf_explorer.charts.theme import DARK, LIGHT, stylesheet
 
 SOURCES = Path(p2sf_explorer.__file__).parent
@@ -83,3 +84,17 @@ def test_nothing_moves_unless_a_person_has_it_played():
     """There is no animation that a setting for reduced motion would have to stop."""
     moving = re.compile(r"PropertyAnimation|VariantAnimation|QTimeLine|QMovie|QParallelAnimation")
     assert not [path for path in SOURCES.rglob("*.py") if moving.search(path.read_text(encoding="utf-8"))]
+
+
+def test_a_number_keeps_its_unit_behind_it_in_a_mirrored_window(qapp):
+    """A text without a letter of a language written from right to left is painted as anywhere else."""
+    pictures = []
+    for direction in (Qt.LayoutDirection.LeftToRight, Qt.LayoutDirection.RightToLeft):
+        image = QImage(120, 24, QImage.Format.Format_RGB32)
+        image.fill(0xFFFFFFFF)
+        painter = QPainter(image)
+        painter.setLayoutDirection(direction)
+        write(painter, QRectF(0, 0, 120, 24), "⌀ 33.33 at 57.91 mm", -1)
+        painter.end()
+        pictures.append(image)
+    assert pictures[0] == pictures[1]
