@@ -5,7 +5,7 @@ from math import isfinite, pi
 from typing import NamedTuple
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, FloatOrArray
-from p2sf.errors import LensFileError
+from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
 from p2sf.lens.even_terms import power_terms
 from p2sf.lens.lens import Lens, Surface
@@ -14,6 +14,8 @@ from p2sf.lens.shapes import Diffraction, Qbfs
 from p2sf.lens.tilts import decentred_surface
 from p2sf.lensfile.codev import ORDERS, TILT_NAMES
 from p2sf.lensfile.conjugates import FAR, limiting_rim
+from p2sf.lensfile.glass_lookup import GlassSources, resolve
+from p2sf.lensfile.raw import RawGlass
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
@@ -183,12 +185,21 @@ def _glass(medium: Medium, private: dict[Medium, str]) -> str:
     """Return the word of a medium, nothing for air; one of no maker becomes a private glass."""
     if medium == AIR:
         return ""
-    if isinstance(medium, CatalogueGlass) and medium.label.count(" ") == 1 and "/" not in medium.label:
-        maker, name = medium.label.split()
-        return f"{name}_{maker}"
+    if isinstance(medium, CatalogueGlass) and medium.label.count(" ") == 1 and (word := _makers_name(medium)):
+        return word
     if isinstance(medium, ModelGlass):
         return f"{_number(medium.nd)}:{_number(medium.vd)}"
     return f"'{private.setdefault(medium, f'PRIVATE{len(private) + 1}')}'"
+
+
+def _makers_name(glass: CatalogueGlass) -> str:
+    """Return NAME_MAKER, which CODE V writes without hyphens; nothing where that would find no glass or another."""
+    maker, name = glass.label.split()
+    try:
+        same = resolve(RawGlass(name.replace("-", ""), (maker,)), GlassSources()).medium == glass
+    except GlassError:
+        same = False
+    return f"{name.replace('-', '')}_{maker}" if same else ""
 
 
 def _catalogue(lens: Lens, private: dict[Medium, str]) -> list[str]:
