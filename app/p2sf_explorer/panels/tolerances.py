@@ -4,7 +4,7 @@ from functools import partial
 from math import inf
 
 import numpy as np
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, QSize, Qt, Signal
+from PySide6.QtCore import QLocale, QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -33,7 +33,7 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.i18n.tr import decimal_separator, local, tr
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.store.store import Store
@@ -61,6 +61,7 @@ TIP = (
 GRADE_TIP = "What workshops offer under this name; ± values below are typed over."
 CRITERION_TIP = "What a lens is judged by, in the worst of three fields: axis, seven tenths and edge."
 LIMIT_TIP = "What every field of a good lens keeps; at first, what four lenses of five keep."
+WORST_TIP = "Worst builds: click to see one as A beside the lens as designed, B"
 COMPENSATOR_TIP = "What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least."
 GRADE_WORDS = (("commercial", "commercial grade"), ("precision", "precision grade"), ("high", "high precision grade"))
 CRITERION_WORDS = (
@@ -79,6 +80,7 @@ SIGNS = {"rms_waves": "RMS ≤ {limit} λ", "strehl": "Strehl ratio ≥ {limit}"
     "boresight_um": "shift ≤ {limit} µm"
 }
 HARMS = {"rms_waves": "adds, λ", "strehl": "takes", "mtf": "takes", "boresight_um": "shifts, µm"}
+SHORT = {"rms_waves": "RMS, λ", "strehl": "Strehl", "mtf": "contrast", "boresight_um": "shift, µm"}
 SUFFIXES = {"rms_waves": " λ", "strehl": "", "mtf": "", "boresight_um": " µm"}
 ERROR_WORDS: dict[Kind, str] = {
     "decentre_x": "decentre x, surface {where}",
@@ -95,7 +97,7 @@ OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
     ("tilt", ("tilt_x", "tilt_y")),
     ("radius", ("radius",)),
     ("thickness", ("thickness",)),
-    ("index", ("index",)),
+    ("refractive index", ("index",)),
 )
 # From where parts stand side by side, below which errors are alone, and the least size.
 WIDE, LOW, LEAST = (
@@ -120,8 +122,8 @@ class TolerancesPanel:
         self.limit, self.frequency = _number_box(LIMIT_TIP, 4, 1e6), _number_box("Frequency on the sensor", 1, 1e5)
         self.compensate = QToolButton()
         self.kinds = {
-            name: _number_box("Tolerance of all errors of this kind", 4 if name == "index" else 3, 999.0)
-            for name, _ in OF_KINDS
+            name: _number_box("Tolerance of all errors of this kind", 4 if kinds == ("index",) else 3, 999.0)
+            for name, kinds in OF_KINDS
         }
         self.errors, self.worst = ErrorTable(), BuildList()
         self.histogram, self.yields = Histogram(), NotedChart("", "yield, %")
@@ -317,6 +319,7 @@ def _number_box(tip: str, places: int, most: float) -> QDoubleSpinBox:
     box.setDecimals(places)
     box.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
     box.setKeyboardTracking(False)
+    box.setLocale(QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C))
     box.setToolTip(tr(tip))
     box.setAccessibleName(tr(tip))
     return box
@@ -445,7 +448,7 @@ class TolerancesBody(QWidget):
         self._grid.addWidget(self._kinds, 0, 0, 1, 3)
         for part, place in zip((self._errors, self._charts, self._worst), places, strict=True):
             self._grid.addWidget(part, *place)
-        for column, stretch in enumerate((4, 5, 2) if wide else (1, 0, 0)):
+        for column, stretch in enumerate((6, 5, 3) if wide else (1, 0, 0)):
             self._grid.setColumnStretch(column, stretch)
         for row, stretch in enumerate((0, 1, 0, 0) if wide else (0, 4, 5, 3)):
             self._grid.setRowStretch(row, stretch)
@@ -499,8 +502,9 @@ class _Table(QTableWidget):
         self.setTabKeyNavigation(False)
         self.setShowGrid(False)
         self.verticalHeader().hide()
-        self.horizontalHeader().setStretchLastSection(True)
-        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(len(heads) - 1, QHeaderView.ResizeMode.Stretch)
         self.setAccessibleName(tr(name))
         self.setMinimumHeight(60)
 
@@ -605,8 +609,8 @@ class BuildList(_Table):
     opened = Signal(int)
 
     def __init__(self) -> None:
-        super().__init__(("build", "worst"), "Worst builds: click to see one as A beside the lens as designed, B")
-        self.setToolTip(tr("Worst builds: click to see one as A beside the lens as designed, B"))
+        super().__init__(("build", SHORT["rms_waves"]), WORST_TIP)
+        self.setToolTip(tr(WORST_TIP))
         self._numbers: tuple[int, ...] = ()
         self.cellClicked.connect(lambda row, _: self._open(row))
         self.cellActivated.connect(lambda row, _: self._open(row))
@@ -614,7 +618,7 @@ class BuildList(_Table):
     def show_builds(self, view: Figures, opened: int) -> None:
         """List builds, the one on screen chosen."""
         with QSignalBlocker(self):
-            self.setHorizontalHeaderItem(1, QTableWidgetItem(tr(AXES[view.criterion])))
+            self.setHorizontalHeaderItem(1, QTableWidgetItem(tr(SHORT[view.criterion])))
             self._numbers = tuple(number for number, _ in view.worst)
             self.setRowCount(len(view.worst))
             for row, (number, value) in enumerate(view.worst):

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.library import find_lens
 from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.panels.tolerances import TolerancesBody
 from p2sf_explorer.state.state import ToleranceView, changed, new_state
 from p2sf_explorer.tolerancing import analysis
 from p2sf_explorer.widgets.copying import data_of
@@ -117,11 +119,17 @@ def test_what_cannot_be_is_refused(wrong):
         changed(new_state(), **wrong)
 
 
-def test_the_panel_turns_to_the_room_it_has(panel, window):
-    body, shown = panel.body, {}
-    for size in ((900, 500), (400, 700), (400, 200)):
+def test_the_panel_turns_to_the_room_it_has(qtbot):
+    errors, histogram, yields, worst, kinds = (QWidget() for _ in range(5))
+    body = TolerancesBody(errors, (histogram, yields), worst, kinds)
+    qtbot.addWidget(body)
+    body.show()
+    shown = {}
+    for size in ((900, 500), (400, 700), (400, 200), (900, 200)):
         body.resize(*size)
-        shown[size] = tuple(part.isVisibleTo(body) for part in (panel.errors, panel.yields.parentWidget(), panel.worst))
+        QApplication.processEvents()
+        shown[size] = tuple(part.isVisibleTo(body) for part in (errors, yields, worst, kinds))
         assert (body.width(), body.height()) == size, "what is shown leaves the size alone"
-    assert shown[900, 500] == shown[400, 700] == (True, True, True) and shown[400, 200] == (True, False, False)
-    assert body.minimumSizeHint().height() < 200
+        assert body.minimumSizeHint().height() < 200
+    assert shown[900, 500] == shown[400, 700] == (True,) * 4
+    assert shown[400, 200] == shown[900, 200] == (True, False, False, False)

@@ -507,6 +507,7 @@
 <message><source>RMS {value} µm</source><translation>RMS {value} µm</translation></message>
 <message><source>RMS ≤ {limit} λ</source><translation>RMS ≤ {limit} λ</translation></message>
 <message><source>RMS, waves</source><translation>RMS, Wellen</translation></message>
+<message><source>RMS, λ</source><translation>RMS, λ</translation></message>
 <message><source>Radius of curvature, mm: positive when the centre lies to the right; ∞ is a plane.</source><translation>Krümmungsradius, mm: positiv, wenn der Mittelpunkt rechts liegt; ∞ ist eine Ebene.</translation></message>
 <message><source>Radius {surface}</source><translation>Radius {surface}</translation></message>
 <message><source>Radius, mm</source><translation>Radius, mm</translation></message>
@@ -746,7 +747,7 @@
 <message><source>Tolerance of all errors of this kind</source><translation>Toleranz aller Fehler dieser Art</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerances</source><translation>Toleranzen</translation></message>
-<message><source>Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Kippung und Dezentrierung weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
+<message><source>Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Verkippung und Dezentrierung weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
 <message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
@@ -1457,6 +1458,7 @@
 <message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
 <message><source>reference wavelength</source><translation>Referenzwellenlänge</translation></message>
 <message><source>reference, µm</source><translation>Referenz, µm</translation></message>
+<message><source>refractive index</source><translation>Brechzahl</translation></message>
 <message><source>refractive index is {value}; give a number between 0.5 and 6</source><translation>der Brechungsindex ist {value}; eine Zahl zwischen 0,5 und 6 angeben</translation></message>
 <message><source>refused</source><translation>abgelehnt</translation></message>
 <message><source>relative L2 error</source><translation>relativer L2-Fehler</translation></message>
@@ -1513,6 +1515,7 @@
 <message><source>shift of the image</source><translation>Verschiebung des Bildes</translation></message>
 <message><source>shift of the image, µm</source><translation>Verschiebung des Bildes, µm</translation></message>
 <message><source>shift ≤ {limit} µm</source><translation>Verschiebung ≤ {limit} µm</translation></message>
+<message><source>shift, µm</source><translation>Verschiebung, µm</translation></message>
 <message><source>shifts, µm</source><translation>verschiebt, µm</translation></message>
 <message><source>shown is "{side}" and nothing is pinned as B; pin a state first (Ctrl+B)</source><translation>gezeigt wird "{side}", und nichts ist als B gemerkt; zuerst einen Zustand merken (Strg+B)</translation></message>
 <message><source>side by side</source><translation>nebeneinander</translation></message>
@@ -1858,8 +1861,8 @@
 <message><source>tilt or decentre</source><translation>Kippung oder Dezentrierung</translation></message>
 <message><source>tilt to +x</source><translation>Kippung nach +x</translation></message>
 <message><source>tilt to +y</source><translation>Kippung nach +y</translation></message>
-<message><source>tilt x, surface {where}</source><translation>Kippung x, Fläche {where}</translation></message>
-<message><source>tilt y, surface {where}</source><translation>Kippung y, Fläche {where}</translation></message>
+<message><source>tilt x, surface {where}</source><translation>Verkippung x, Fläche {where}</translation></message>
+<message><source>tilt y, surface {where}</source><translation>Verkippung y, Fläche {where}</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
 <message><source>tilts as they are</source><translation>Kippungen wie sie sind</translation></message>
@@ -1929,7 +1932,6 @@
 <message><source>with consent: {title}</source><translation>mit Zustimmung: {title}</translation></message>
 <message><source>with wheel, arrows or a dragged number: ten times as coarse, ten times as fine</source><translation>mit Rad, Pfeilen oder beim Ziehen an einer Zahl: zehnmal so grob, zehnmal so fein</translation></message>
 <message><source>working</source><translation>in Arbeit</translation></message>
-<message><source>worst</source><translation>schlechteste</translation></message>
 <message><source>worst R² ≥ {r}</source><translation>kleinstes R² ≥ {r}</translation></message>
 <message><source>wrapped</source><translation>gefaltet</translation></message>
 <message><source>write a finite number</source><translation>eine endliche Zahl schreiben</translation></message>
