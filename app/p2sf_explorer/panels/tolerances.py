@@ -136,11 +136,12 @@ class TolerancesPanel:
         self._asked: ToleranceQuestion | None = None
         self._request: ToleranceRequest | None = None
         self._found: ToleranceResult | None = None
-        self._refusal, self._opened = "", 0
+        self._refusal, self._state = "", store.state
         self.analyst, self.worker = Analyst(), LatestWins(self.widget)
         self._connect()
 
     def _lay_out(self) -> None:
+        self.back.hide()
         self.widget.add_tool(self.grade)
         self.widget.add_tool(self.criterion)
         self.compensate.setObjectName("small")
@@ -181,7 +182,7 @@ class TolerancesPanel:
     def show(self, live: Live) -> None:
         """Follow settings and lens; the builds are drawn anew where these have changed and nothing is dragged."""
         asked: ToleranceQuestion = live.views["tolerances"]
-        self._asked, self._opened = asked, opened_build(live.state)
+        self._asked, self._state = asked, live.sides[0] if live.sides else live.state
         self._show_settings(asked.view, asked.request.lens)
         if asked.request != self._request and live.quality == "settled":
             self._request, self._refusal = asked.request, ""
@@ -195,7 +196,6 @@ class TolerancesPanel:
         select(self.grade, view.grade)
         select(self.criterion, view.criterion)
         self.frequency.setVisible(view.criterion == "mtf")
-        self.back.setVisible(bool(self._opened))
         self.as_grade.setEnabled(bool(view.own))
         _put(self.frequency, view.frequency_per_mm)
         self.limit.setSuffix(SUFFIXES[view.criterion])
@@ -281,7 +281,9 @@ class TolerancesPanel:
             return
         view = figures(self._found, self._asked.view)
         self.errors.show_errors(view, self._asked.view)
-        self.worst.show_builds(view, self._opened)
+        opened = opened_build(self._state, self._found)
+        self.back.setVisible(bool(opened))
+        self.worst.show_builds(view, opened)
         self._paint_charts(view)
         _put(self.limit, view.limit, view.places)
         self.widget.set_readout(_sentence(view))

@@ -12,12 +12,10 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.lensfile.toml import lens_to_toml
 from p2sf.tolerance import (
     Builds,
     Differentials,
     Tolerance,
-    build,
     differentials,
     harms,
     of_worst_field,
@@ -31,8 +29,8 @@ from p2sf.tolerance.errors_of_build import Kind
 from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.state.limits import MASK
-from p2sf_explorer.state.pinning import pin, side_b, unpin
+from p2sf_explorer.state.build_errors import BuildErrors, ordered
+from p2sf_explorer.state.pinning import pin, unpin
 from p2sf_explorer.state.state import State, ToleranceView, changed
 
 BUILDS = 10_000
@@ -99,19 +97,25 @@ class Figures:
 
 
 def question(live: Live) -> ToleranceQuestion:
-    """Return what is asked of the lens on screen, or of the one a build on screen was made from."""
-    state, setup = live.state, live.setup
-    if opened_build(state):
-        state = side_b(state)
+    """Return what is asked of the lens on screen as designed: without the errors of a build that is opened."""
+    state, setup = changed(unpin(live.state), errors=()), live.setup
+    if live.state.optics.errors:
         setup = paraxial_setup(state)
-    return ToleranceQuestion(request_of(setup.lens, setup.source, state.tolerances), state.tolerances, unpin(state))
+    return ToleranceQuestion(request_of(setup.lens, setup.source, state.tolerances), state.tolerances, state)
 
 
-def opened_build(state: State) -> int:
-    """Return which build A is, from 1, with the lens that it was made from as B; 0 where that is not so."""
-    b = state.compare.pinned
-    made = b is not None and state.optics.lens_text is not None and b.optics.lens == state.optics.lens
-    return state.tolerances.build if made else 0
+def errors_of(found: ToleranceResult, number: int) -> BuildErrors:
+    """Return the errors of a build, from 0, as a state has them."""
+    amounts = found.builds.errors[number].tolist()
+    pairs = zip(found.known.tolerances, amounts, strict=True)
+    return ordered([(one.kind, *one.piece, amount) for one, amount in pairs if amount])
+
+
+def opened_build(state: State, found: ToleranceResult) -> int:
+    """Return which build is on screen as A, from 1; 0 where none is, or it was altered."""
+    number = state.tolerances.build
+    known = 0 < number <= len(found.builds.errors) and errors_of(found, number - 1) == state.optics.errors
+    return number if known else 0
 
 
 def request_of(lens: Lens, source: Source, view: ToleranceView) -> ToleranceRequest:
@@ -235,19 +239,11 @@ def _reach(values: np.ndarray, limit: float, criterion: Criterion) -> tuple[floa
 
 def with_build(asked: ToleranceQuestion, found: ToleranceResult, number: int) -> State:
     """Return the state that shows a build, from 0, as A and the designed lens as B; P2SFError without a picture."""
-    request = found.request
-    built = build(
-        request.lens, request.tolerances, found.builds.errors[number].tolist(), request.sources[0].wavelength_um
-    )
-    named = replace(built, title=built.title or built.name)
-    as_filed = dict.fromkeys(("focus_mm", "f_number", *MASK), None)
-    made = changed(
-        pin(asked.state), lens_text=lens_to_toml(named), sensor_shift_um=0.0, tolerances_build=number + 1, **as_filed
-    )
+    made = changed(pin(asked.state), errors=errors_of(found, number), tolerances_build=number + 1)
     paraxial_setup(made)
     return made
 
 
 def without_build(state: State) -> State:
-    """Return the state with the lens as designed, which was B, and nothing beside it."""
-    return changed(side_b(state), tolerances_build=0)
+    """Return the state with the lens as designed, and nothing beside it."""
+    return changed(unpin(state), errors=(), tolerances_build=0)

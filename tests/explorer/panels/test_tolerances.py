@@ -8,10 +8,12 @@ from p2sf.errors import P2SFError
 from p2sf.lensfile.library import find_lens
 from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.panels.tolerances import TolerancesBody
 from p2sf_explorer.state.state import ToleranceView, changed, new_state
 from p2sf_explorer.tolerancing import analysis
 from p2sf_explorer.widgets.copying import data_of
+from tests.support.tolerances import exact_quality
 
 LENS = "achromat_f6"
 BUILDS = 400  # enough for what is told apart here
@@ -78,6 +80,24 @@ def test_an_own_value_is_typed_and_undone(panel, window, qtbot):
     assert window.store.state.tolerances.own == ()
     panel.kinds["tilt"].setValue(0.2)
     assert {row[0] for row in window.store.state.tolerances.own} == {"tilt_x", "tilt_y"}
+
+
+def test_a_click_opens_a_build_beside_the_lens_as_designed(panel, window, qtbot):
+    found, number = panel._found, panel.worst._numbers[0]
+    panel.worst.cellClicked.emit(0, 0)
+    state = window.store.state
+    assert state.compare.pinned.optics.errors == () and state.tolerances.build == number + 1
+    assert not panel._stale() and panel._found is found, "the yield is that of the lens as designed"
+    assert panel.back.isVisibleTo(panel.widget) and panel.worst.selectionModel().selectedRows()[0].row() == 0
+    built, known = paraxial_setup(state).lens, found.known
+    rms = exact_quality(built, known.sources)[0]
+    assert found.builds.rms_waves[number] == pytest.approx(rms, rel=0.02), "exact rays through the lens on screen"
+    window.store.undo()
+    assert window.store.state.compare.pinned is None and window.store.state.optics.errors == ()
+    window.store.redo()
+    panel.back.click()
+    assert window.store.state.compare.pinned is None and window.store.state.optics.errors == ()
+    assert not panel.back.isVisibleTo(panel.widget)
 
 
 def test_own_values_stand_in_place_of_the_grade():
