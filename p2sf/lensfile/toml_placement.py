@@ -110,7 +110,7 @@ def read_rim(surface: Table, scale: float) -> Rim | None:
 
 def rim_text(rim: Rim) -> str:
     """Return a rim as `read_rim` reads it, in mm."""
-    parts = [f"decentre = [{rim.decentre[0]!r}, {rim.decentre[1]!r}]"]
-    parts += [f"half_widths = [{rim.half_widths[0]!r}, {rim.half_widths[1]!r}]"] if rim.half_widths else []
-    parts += [f"turn_deg = {rim.turn_deg!r}"] * bool(rim.turn_deg)
+    pairs = (("decentre", rim.decentre), ("half_widths", rim.half_widths))
+    parts = [f"{key} = [{', '.join(repr(float(x)) for x in pair)}]" for key, pair in pairs if pair]
+    parts += [f"turn_deg = {float(rim.turn_deg)!r}"] * bool(rim.turn_deg)
     return f"{{ {', '.join(parts)} }}"

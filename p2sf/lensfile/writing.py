@@ -221,9 +221,13 @@ def _zemax_rim(surface: Surface, number: int) -> list[str]:
             "as TOML",
             surface=number,
         )
-    outer = min(surface.semi_diameter, UNLIMITED)
-    sides = [f"  SQAP {rim.half_widths[0]!r} {rim.half_widths[1]!r} 0"] if rim.half_widths else []
-    return [*(sides or [f"  CLAP {hole!r} {outer!r} 0"]), f"  OBDC {rim.decentre[0]!r} {rim.decentre[1]!r}"]
+    x, y = map(float, rim.decentre)
+    if rim.half_widths:
+        across, up = map(float, rim.half_widths)
+        clear = f"  SQAP {across!r} {up!r} 0"
+    else:
+        clear = f"  CLAP {float(hole)!r} {float(min(surface.semi_diameter, UNLIMITED))!r} 0"
+    return [clear, f"  OBDC {x!r} {y!r}"]
 
 
 def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
