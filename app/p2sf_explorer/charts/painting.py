@@ -159,6 +159,8 @@ def polylines(x: np.ndarray, y: np.ndarray) -> Iterator[QPolygonF]:
 
 def polygon(x: np.ndarray, y: np.ndarray) -> QPolygonF:
     """Return points as a QPolygonF, copied in one block: point by point takes ten times as long."""
+    if not len(x):  # of no points, the block is no memory to write to
+        return QPolygonF()
     copied: QPolygonF = create_qpolygonf(len(x))
     points = ndarray_from_qpolygonf(copied)
     points[:, 0], points[:, 1] = x, y

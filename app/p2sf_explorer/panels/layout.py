@@ -73,7 +73,7 @@ class LayoutPanel:
     def __init__(self, store: Store):
         self._store, self._lens = store, store.state.optics.lens
         self._theme: Tokens = LIGHT
-        self._groups: tuple[Fan, ...] = ()
+        self._named: tuple[tuple[Fan, ...], str] = ((), "")  # as the legend has it
         self.widget = Card("Layout", TIP)
         self.widget.setMinimumHeight(92)
         self.chart = LayoutChart(store)
@@ -104,8 +104,9 @@ class LayoutPanel:
             self._lens = live.state.optics.lens
             self._store.select(None)
         self.chart.show_live(live)
-        if live.layout.groups != self._groups:
-            self._groups = live.layout.groups
+        named = live.layout.groups, drawing_note(live.layout)
+        if named != self._named:
+            self._named = named
             self._write_legend()
 
     def restyle(self, theme: Tokens) -> None:

@@ -9,7 +9,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.lens_sliders import LensSlider
-from p2sf_explorer.results.lens_table import Misalignment, fringes, of_piece
+from p2sf_explorer.results.lens_table import Misalignment, fringes, misalignment_of, of_piece
 from p2sf_explorer.state.build_errors import amount_of, with_error, without_piece
 from p2sf_explorer.state.built import Adjustment, Piece
 from p2sf_explorer.state.pinning import with_links
@@ -147,8 +147,7 @@ class MisalignPanel:
             part.setAutoFillBackground(False)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setAlignment(Qt.AlignmentFlag.AlignTop)
-        for column in range(COLUMNS):
-            self._grid.setColumnStretch(column, 1)
+        self._grid.setColumnStretch(0, 1)
         self.widget.set_body(area)
         self.widget.add_footer(self.field_x)
 
@@ -180,6 +179,10 @@ class MisalignPanel:
     def show(self, live: Live) -> None:
         """Follow the lens and its errors."""
         self._show(live.views["misalign"])
+
+    def follow(self, state: State) -> None:
+        """Follow a state that has no picture, so that what is wrong can be set right."""
+        self._show(misalignment_of(state))
 
     def _show(self, shown: Misalignment) -> None:
         self._shown = shown
@@ -232,6 +235,7 @@ class MisalignPanel:
                 self._grid.removeWidget(row)
                 row.setVisible(row in placed)
         high = -(-len(placed) // columns)
+        self._grid.setColumnStretch(1, int(columns > 1))
         for number, row in enumerate(placed):
             row.set_label_width(self._theme.px(LABEL_PX))
             self._grid.addWidget(row, number % high, number // high)

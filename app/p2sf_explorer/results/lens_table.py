@@ -13,6 +13,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.build_errors import BuildErrors
 from p2sf_explorer.state.built import Adjustment, Piece, adjustments, pieces
+from p2sf_explorer.state.state import State
 
 DIFFRACTIVE, IDEAL = Message("diffractive"), Message("ideal lens")
 FRINGE_UM = 0.54607 / 2  # between fringes of a test plate in the green line of mercury
@@ -62,8 +63,13 @@ class Misalignment:
 
 def misalignment(live: Live) -> Misalignment:
     """Return what the panel of sliders shows."""
-    lens = prescription(live.state)
-    errors, field_x = live.state.optics.errors, live.state.display.show_field_x
+    return misalignment_of(live.state)
+
+
+def misalignment_of(state: State) -> Misalignment:
+    """Return what the panel of sliders shows for a state, which need not have a picture."""
+    lens = prescription(state)
+    errors, field_x = state.optics.errors, state.display.show_field_x
     return Misalignment(lens, pieces(lens), errors, lens.misaligned, field_x)
 
 

@@ -234,6 +234,11 @@ class MainWindow(QMainWindow):
         if lens := drawn(state):
             self.panels["layout"].show(lens)  # type: ignore[arg-type]  # which uses no more of an answer than this
             self.panels["layout"].widget.show_overlay("")
+        if state.optics.errors and "misalign" in self.panels:
+            from p2sf_explorer.panels.misalign import MisalignPanel
+
+            self._panel("misalign", MisalignPanel).follow(state)
+            self.panels["misalign"].widget.show_overlay("")
 
     def _answer(self, state: State) -> Answers:
         """Return the settled answers, or while a slider moves previews by the methods that ``auto`` had chosen."""

@@ -133,3 +133,10 @@ def test_a_frame_painted_over_another_is_that_of_a_new_chart(qtbot, chart):
 
 def pixels_of(image):
     return np.frombuffer(image.constBits(), np.uint32)
+
+
+def test_a_polygon_of_no_points_is_empty():
+    """As before the first picture of a set-up that has none."""
+    from p2sf_explorer.charts.painting import polygon
+
+    assert polygon(np.array([]), np.array([])).isEmpty()

@@ -65,7 +65,10 @@ def test_what_cannot_be_is_one_sentence_over_the_old_picture(window, panel):
     assert "urface 3: a tilt of 95°" in window.banner.text.text()
     assert window.panels["psf"].widget.overlay.text
     window.grab()  # painting raises nothing
-    window.store.undo()
+    assert not panel.widget.overlay.text  # or nobody could set it right
+    assert row(panel, "tilt_x").slider.number.text() == "95.000°"
+    QTest.mouseClick(panel.reset_all, Qt.MouseButton.LeftButton)
+    assert window.store.state.optics.errors == ()
     assert not window.panels["psf"].widget.overlay.text
 
 
@@ -116,3 +119,11 @@ def test_a_point_of_the_field_map_is_dragged_to_any_field(window, panel, qtbot):
     optics = window.store.state.optics
     slopes = np.tan(np.deg2rad([optics.field_x_deg, optics.field_deg]))
     assert slopes / chart.corner_slope == pytest.approx([-0.5, -0.25], abs=0.01)  # a pixel of the map
+
+
+def test_the_layout_says_that_it_is_seen_along_x_and_by_what_it_exaggerates(window, panel):
+    window.store.update(errors=(("tilt_y", 3, 5, 0.1),), exaggerated=30)
+    legend = window.panels["layout"].widget.readout
+    assert "not symmetric: seen along x" in legend.text() and "×30" in legend.text()
+    window.store.update(errors=())
+    assert "×30" not in legend.text() and "seen along x" not in legend.text()
