@@ -51,6 +51,7 @@ class Curve:
     """
 
     name = ""
+    marked = True  # where its colour has a mark and it has a name
 
     def __init__(self, token: str, width: float = 1.0, alpha: int = 255):
         self.token, self.width, self.alpha = token, width, alpha
@@ -74,7 +75,7 @@ class Curve:
             for number in range(count):
                 apart = number - (count - 1) / 2
                 painter.drawPolyline(part.translated(apart * THICK[0], apart * THICK[1]) if apart else part)
-        if self.name and self.token in MARKS:
+        if self.name and self.marked and self.token in MARKS:
             paint_line_marks(painter, *chart.to_pixels(self.x, self.y), MARKS[self.token], chart.theme)
 
 

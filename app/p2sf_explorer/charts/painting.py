@@ -53,10 +53,11 @@ def pen(colour: str, alpha: int = 255, width: float = 1.0) -> QPen:
 def paint_line_marks(painter: QPainter, x: np.ndarray, y: np.ndarray, mark: str, theme: Tokens) -> None:
     """Paint marks in the colour of the pen along a line through points in pixels, none where one is NaN."""
     seen = np.isfinite(x) & np.isfinite(y) & (np.abs(x) < FARTHEST_PX) & (np.abs(y) < FARTHEST_PX)
-    x, y, half = x[seen], y[seen], MARK_PX * theme.scale
+    half, steps = MARK_PX * theme.scale, np.hypot(np.diff(x), np.diff(y))
+    way = np.concatenate(([0.0], np.cumsum(np.where(seen[1:] & seen[:-1], steps, 0.0))))  # no way across a gap
+    x, y, way = x[seen], y[seen], way[seen]
     if x.size < 2:
         return
-    way = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))))
     at = np.arange(0.5 * MARK_EVERY_PX * theme.scale, min(way[-1], FARTHEST_PX), MARK_EVERY_PX * theme.scale)
     painter.setBrush(painter.pen().color())
     for place in map(QPointF, np.interp(at, way, x).tolist(), np.interp(at, way, y).tolist()):

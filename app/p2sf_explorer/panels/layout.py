@@ -122,7 +122,9 @@ class LayoutPanel:
 
 
 class Rays(Curve):
-    """Rays of one colour, which are drawn up to the break of the axis."""
+    """Rays of one colour, which are drawn up to the break of the axis; marks would look like handles here."""
+
+    marked = False
 
     def paint(self, painter: QPainter, chart: Chart) -> None:
         """Paint the lines right of the break."""

@@ -9,7 +9,7 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
 import p2sf_explorer
-from p2sf_explorer.charts.painting import MARK_EVERY_PX, MARKS, paint_line_marks, write
+from p2sf_explorer.charts.painting import MARK_EVERY_PX, MARK_PX, MARKS, paint_line_marks, write
 from p2sf_explorer.charts.theme import DARK, LIGHT, stylesheet
 
 SOURCES = Path(p2sf_explorer.__file__).parent
@@ -61,17 +61,18 @@ def test_curves_that_stand_together_have_marks_of_their_own(qapp):
     assert len({MARKS.get(token) for token in ("positive", "negative")}) == 2
 
 
-def test_marks_stand_at_even_distances_on_the_line(qapp):
+def test_marks_stand_at_even_distances_on_the_line_and_none_in_a_gap(qapp):
     image = QImage(400, 40, QImage.Format.Format_Grayscale8)
     image.fill(255)
     painter = QPainter(image)
     painter.setPen(QPen(QColor("#000000")))
-    x = np.array([0.0, 100.0, np.nan, 400.0])
-    paint_line_marks(painter, x, np.full(4, 20.0), "●", LIGHT)
+    x = np.array([0.0, 100.0, np.nan, 200.0, 400.0])  # 300 px of line
+    paint_line_marks(painter, x, np.full(5, 20.0), "●", LIGHT)
     painter.end()
     row = np.array([image.pixelColor(k, 20).value() for k in range(400)])
     starts = np.flatnonzero(np.diff((row < 128).astype(int)) == 1)
-    assert len(starts) == 5 and np.allclose(np.diff(starts), MARK_EVERY_PX, atol=1)
+    along = (np.arange(4) + 0.5) * MARK_EVERY_PX
+    assert np.allclose(starts, along + 100 * (along > 100) - MARK_PX, atol=2)  # the gap is as wide as 100 px
 
 
 def test_the_legend_shows_the_marks_of_its_curves(window):
