@@ -86,6 +86,7 @@ CAUTIOUS = Message("caution: above {limit:g}; choose {parameter} traced to be su
 NO_PREDICTION = Message("none: nothing was traced to tell")
 LIGHT, POINTS = Message("light of each pixel"), Message("intensity at points")
 NO_STREHL = Message("not defined for a fitted shape")
+SAME_PUPIL = Message("of the peak of the same pupil without aberration")
 SpectrumName = Annotated[str | None, Parameter(help=f"Colour PSF of a point with this spectrum: {WORDS}.")]
 
 
@@ -234,7 +235,7 @@ def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = 
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", LIGHT if result.integrated else POINTS),
         ("pixel", result.pixel_um, "µm"),
-        ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else ""),
+        ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else SAME_PUPIL),
         ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),
         *([("centroid, from the chief ray, along x", x, "µm")] if (x := measured["centroid_um"][0]) else []),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),

@@ -19,6 +19,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, suitable_pixel_um
+from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.pencil import Sources, pencil
 from p2sf.threads import one_blas_thread
 
@@ -129,17 +130,19 @@ def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
     if len(known) == len(made):
         return np.minimum(1.0, known)
     na = coefficients(lens, source.depth_mm, source.field_slope, np.array([psf.wavelength_um for psf in made])).na
-    return np.array(
-        [estimated_share(psf, float(one)) for psf, one in zip(made, np.broadcast_to(na, len(made)), strict=True)]
-    )
+    each, spreading = zip(made, np.broadcast_to(na, len(made)), strict=True), throughput(lens.mask).spreading
+    return np.array([estimated_share(psf, float(one), spreading) for psf, one in each])
 
 
-def estimated_share(psf: Psf, na: float) -> float:
-    """Return Σ samples·π(NA·pixel/λ)² as `seidel.energy_fraction` does, also where samples are too far apart for it."""
+def estimated_share(psf: Psf, na: float, spreading: float = 1.0) -> float:
+    """Return Σ samples·π(NA·pixel/λ)² as `seidel.energy_fraction` does, also where samples are too far apart for it.
+
+    ``spreading``: that of the mask in the stop (`mask_nodes.Throughput`).
+    """
     if psf.strehl is None or not isfinite(psf.strehl):
         return 1.0 if psf.energy is None else min(1.0, float(psf.energy))
     total = float(psf.strehl) / float(psf.values.max())  # in units of the unaberrated peak
-    return min(1.0, total * pi * (na * psf.pixel_um / float(psf.wavelength_um)) ** 2)
+    return min(1.0, total * pi * (na * psf.pixel_um / float(psf.wavelength_um)) ** 2 / spreading)
 
 
 def chief_shifts_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:

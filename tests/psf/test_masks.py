@@ -17,6 +17,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import choose, render
+from p2sf.psf.polychromatic import estimated_share
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.seidel_stack import as_fit
 from p2sf.psf.separable_sum import iris_rows
@@ -241,3 +242,13 @@ def test_what_knows_no_mask_says_so():
     lens = with_mask(find_lens("cooke_triplet"), EVEN[0])
     with pytest.raises(GeometryError, match="mask"):
         p2sf.zernike(lens)
+
+
+@pytest.mark.parametrize("mask", [PupilMask(obscuration=0.6), PupilMask(apodisation=0.6)], ids=repr)
+def test_light_between_samples_too_far_apart_is_estimated_behind_a_mask(mask):
+    """The same window in samples of λ/2NA and less, whose sum is the light (Parseval), and in wider ones."""
+    six = waves(wd=2.0)
+    fine, wide = seidel_psf(six, 64, 0.75, mask=mask), seidel_psf(six, 16, 3.0, mask=mask)
+    assert wide.energy is None and 0.5 < fine.energy < 1
+    found = estimated_share(wide, NA, throughput(mask).spreading)
+    assert found == pytest.approx(fine.energy, rel=0.03)  # rectangles of 16 samples a side; without the mask 1.5 times

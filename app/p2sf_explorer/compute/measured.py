@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.metrics.energy import samples_across
@@ -13,6 +13,7 @@ from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.metrics.measures import Energy, PupilPart
 from p2sf.metrics.transfer import otf_samples
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
@@ -53,21 +54,21 @@ def measure_request(live: Live) -> MeasureRequest:
 @lru_cache(maxsize=4)
 def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
     """Return the pupil of a request; P2SFError where there is none."""
-    check_unmasked(request.lens, Message("a transfer function"))
     if request.six:
-        return (PupilPart(pupil_of_coefficients(Coefficients(*map(np.asarray, request.six)))),)
+        six, mask = Coefficients(*map(np.asarray, request.six)), mask_seen(request.lens, request.source)
+        return (PupilPart(pupil_of_coefficients(six, mask)),)
     return (PupilPart(pupil_of_rays(request.lens, request.source, request.clip)),)
 
 
 def mtf_is_live(request: MeasureRequest) -> bool:
-    """Return whether the transfer function is computed within a frame."""
-    return otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
+    """Return whether the transfer function is computed within a frame; behind a mask it takes seconds."""
+    return request.lens.mask.clear and otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
 
 
 def energy_is_live(request: MeasureRequest) -> bool:
     """Return whether the encircled energy is computed within a frame."""
     pupil = measured_parts(request)[0].pupil
-    return samples_across(pupil, pupil.centroid_um) <= LIVE_ACROSS
+    return pupil.mask.clear and samples_across(pupil, pupil.centroid_um) <= LIVE_ACROSS
 
 
 def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:

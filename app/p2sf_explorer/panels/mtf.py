@@ -2,6 +2,8 @@
 
 from math import inf
 
+import numpy as np
+
 from p2sf.conventions import UM_PER_MM
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
@@ -11,17 +13,23 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.mtf import Contrast, answer
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.curves import CurvesPanel
+from p2sf_explorer.widgets.chart_card import legend
+from p2sf_explorer.widgets.curves import CLEAR_PUPIL, SAME_PUPIL, CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
 from p2sf_explorer.widgets.value_edit import MicronEdit
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same "
-    "pupil without aberration."
+    "pupil without aberration; thin beside it, where something stands in the stop: the clear pupil without aberration."
 )
 PIXEL_TIP = "Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch)."
-LOOKS = {"perfect lens": ("muted", 1), "sagittal": ("marginal", 2), "tangential": ("chief", 2)}
+LOOKS = {
+    "perfect lens": ("muted", 2),
+    CLEAR_PUPIL: ("third", 1),
+    "sagittal": ("marginal", 2),
+    "tangential": ("chief", 2),
+}
 
 
 class MtfPanel(CurvesPanel):
@@ -33,11 +41,14 @@ class MtfPanel(CurvesPanel):
         self.widget.add_tool(self.pixel)
         self.asking = Asking(self.widget, answer, self._paint, self._say)
         self._live: Live | None = None
-        self._legend = ""
+        self._theme: Tokens | None = None
+        self._masked = False
 
     def show(self, live: Live) -> None:
         """Paint the contrasts, or have them computed in the background where they are too slow for a frame."""
         self._live = live
+        self._masked = not live.setup.lens.mask.clear
+        self.curves["perfect lens"].name = tr(SAME_PUPIL if self._masked else "perfect lens")
         view: Contrast | MeasureRequest = live.views["mtf"]
         if isinstance(view, MeasureRequest):
             self.asking.ask(view)
@@ -46,14 +57,16 @@ class MtfPanel(CurvesPanel):
         self._say(said(self._paint(None, view)))
 
     def _say(self, text: str) -> None:
-        self.widget.set_readout(f"{self._legend} &nbsp; {text}")
+        marks = self.legend(self._theme) if self._theme else ""
+        self.widget.set_readout(f"{marks} &nbsp; {text}")
 
     def _paint(self, asked: MeasureRequest | None, view: Contrast) -> Message:
         live = self._live
         if live is None:
             return view.method
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
-        self.show_curves(view.frequency_per_mm, curves)
+        none = np.full(view.clear.size, np.nan)
+        self.show_curves(view.frequency_per_mm, curves | {CLEAR_PUPIL: view.clear if view.masked else none})
         usual, steady = (0.0, 1.04), "xy" if live.difference else "x"
         self.set_range((0.0, float(view.frequency_per_mm[-1])), signed_range(live, curves, usual), steady)
         self._mark(live.state.display.pixel_um)
@@ -61,8 +74,14 @@ class MtfPanel(CurvesPanel):
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        self._legend = self.legend(theme)
+        self._theme = theme
         super().restyle(theme)
+
+    def legend(self, theme: Tokens) -> str:
+        """Return the curves' names in their colours: behind a mask the perfect ones say of which pupil they are."""
+        looks = {name: token for name, (token, _) in LOOKS.items() if name != CLEAR_PUPIL or self._masked}
+        perfect = SAME_PUPIL if self._masked else "perfect lens"
+        return legend({perfect if name == "perfect lens" else name: token for name, token in looks.items()}, theme)
 
     def stop(self) -> None:
         """End the worker's thread."""

@@ -11,14 +11,15 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.results.profiles import ProfileCurves, answer
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import TurningRow
-from p2sf_explorer.widgets.curves import CurvesPanel
+from p2sf_explorer.widgets.curves import CLEAR_PUPIL, SAME_PUPIL, CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or "
-    "below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS "
-    "radius is that of the rays: the light behind a hard edge has none."
+    "below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens, where "
+    "something stands in the stop of the same pupil, and thin of the clear one. The RMS radius is that of the rays: "
+    "the light behind a hard edge has none."
 )
 LOOKS = {"Airy": ("muted", 1), "along x": ("marginal", 2), "along y": ("chief", 2)}
 
@@ -29,8 +30,9 @@ class ProfilesPanel(CurvesPanel):
     def __init__(self, store: Store):
         super().__init__("PSF profiles", TIP, ("distance from the chief ray, µm", "share of the peak"), LOOKS)
         self.energy = Chart("radius, µm", "energy within")
-        self.perfect, self.within = self.energy.add_curve("muted"), self.energy.add_curve("third", 2)
-        self.perfect.name, self.within.name = tr("perfect lens"), tr("this lens")
+        self.clear, self.perfect = self.energy.add_curve("muted"), self.energy.add_curve("muted", 2)
+        self.within = self.energy.add_curve("third", 2)
+        self.clear.name, self.perfect.name, self.within.name = tr(CLEAR_PUPIL), tr("perfect lens"), tr("this lens")
         self.widget.set_body(TurningRow((self.chart, self.energy), (5, 3), self.widget))
         self.asking = Asking(self.widget, answer, self._paint, self._say)
         self._live: Live | None = None
@@ -59,8 +61,11 @@ class ProfilesPanel(CurvesPanel):
         half = -float(view.position_um[0])
         steady = "xy" if live.difference else "x"
         self.set_range((-half, half), signed_range(live, curves, (0.0, 1.04)), steady)
+        masked = not live.setup.lens.mask.clear
+        self.perfect.name = tr(SAME_PUPIL if masked else "perfect lens")
         outward = view.position_um >= 0
         self.perfect.set_data(view.position_um[outward], view.perfect_energy[outward])
+        self.clear.set_data(*(x[outward] if masked else () for x in (view.position_um, view.clear_energy)))
 
     def _paint(self, asked: ProfileCurves, view: ProfileCurves) -> Message:
         """Paint the energy and return what it is a share of."""
@@ -68,6 +73,7 @@ class ProfilesPanel(CurvesPanel):
             return view.method
         outward = view.position_um >= 0
         self.within.set_data(view.position_um[outward], view.energy[outward])
+        self.perfect.set_data(view.position_um[outward], view.perfect_energy[outward])
         half = -float(view.position_um[0])
         steady = "xy" if self._live.difference else "x"
         self.energy.set_range((0.0, half), signed_range(self._live, {"energy": view.energy}, (0.0, 1.04)), steady)

@@ -18,6 +18,7 @@ INTERVALS = 512
 class Contrast:
     """Cycles per mm on the sensor; contrast of patterns along y and along x, and of the same pupil without aberration.
 
+    ``clear``: that of the pupil without aberration and without what stands in it; ``masked``: whether something does.
     ``method``: what described the pupil.
     """
 
@@ -25,6 +26,8 @@ class Contrast:
     tangential: np.ndarray
     sagittal: np.ndarray
     perfect: np.ndarray
+    clear: np.ndarray
+    masked: bool
     method: Message
 
 
@@ -40,7 +43,9 @@ def contrast_of(request: MeasureRequest, stopped: Callable[[], bool] = never) ->
     cut_off = 1000 * max(parts[0].pupil.cut_off_per_um)
     found = mtf_of(parts, "", np.linspace(0, cut_off, INTERVALS + 1), stopped)
     perfect = np.maximum(found.perfect_tangential, found.perfect_sagittal)
-    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect, request.method)
+    clear = np.maximum(found.clear_tangential, found.clear_sagittal)
+    masked = not request.lens.mask.clear
+    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect, clear, masked, request.method)
 
 
 def answer(request: MeasureRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Contrast:

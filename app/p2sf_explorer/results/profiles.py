@@ -45,9 +45,9 @@ class ProfileCurves:
     """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern.
 
     ``energy`` and ``perfect_energy``: share of all light within |position| of the centroid, of this picture's pupil and
-    of a perfect lens. Where the energy is too slow for a frame it is NaN, and ``pending`` asks for it. ``radii_um``:
-    what holds half and 80 % of the light, and the RMS distance of rays; ``method``: what described the pupil, or why
-    there is no energy.
+    of the same pupil without aberration; ``clear_energy``: of a perfect lens with nothing in its stop. Where the energy
+    is too slow for a frame it is NaN, and ``pending`` asks for it. ``radii_um``: what holds half and 80 % of the light,
+    and the RMS distance of rays; ``method``: what described the pupil, or why there is no energy.
     """
 
     position_um: np.ndarray
@@ -56,6 +56,7 @@ class ProfileCurves:
     airy: np.ndarray
     energy: np.ndarray
     perfect_energy: np.ndarray
+    clear_energy: np.ndarray
     radii_um: tuple[float, float, float] = (np.nan, np.nan, np.nan)
     method: Message = NOTHING
     pending: MeasureRequest | None = None
@@ -70,7 +71,8 @@ def profiles(live: Live) -> ProfileCurves:
     along_x, along_y = lines or between_samples(psf, position)
     peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl or 0.0)) or 1.0
     none = np.full(position.size, np.nan)
-    curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, perfect)
+    masked = not live.setup.lens.mask.clear
+    curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, none if masked else perfect, perfect)
     if live.quality == "preview":  # some 10 ms, of a frame's 16
         return replace(curves, method=LATER)
     request = measure_request(live)
@@ -82,11 +84,15 @@ def profiles(live: Live) -> ProfileCurves:
 
 def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves:
     """Return the curves with the energy of a request; P2SFError where its pupil has none."""
-    found = energy_in(measured_parts(request), "")
-    within = energy_at(found, np.abs(curves.position_um))
+    parts, outward = measured_parts(request), np.abs(curves.position_um)
+    found, perfect = energy_in(parts, ""), curves.perfect_energy
+    within = energy_at(found, outward)
+    if not request.lens.mask.clear:
+        alone = [replace(part, pupil=part.pupil.without_phase()) for part in parts]
+        perfect = energy_at(energy_in(alone, ""), outward)
     radii = found.radius_50_um, found.radius_80_um, found.rms_um
     said = Message("{method}; {note}", method=request.method, note=found.note) if found.note else request.method
-    return replace(curves, energy=within, radii_um=radii, method=said, pending=None)
+    return replace(curves, energy=within, perfect_energy=perfect, radii_um=radii, method=said, pending=None)
 
 
 def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> ProfileCurves:

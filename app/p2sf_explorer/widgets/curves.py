@@ -8,6 +8,7 @@ from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart, legend
 
 ENDLESS = (-1e9, 1e9)
+SAME_PUPIL, CLEAR_PUPIL = "perfect, same pupil", "perfect, clear pupil"  # names of curves behind a mask
 
 
 class CurvesPanel:

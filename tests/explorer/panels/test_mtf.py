@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import j0, j1
 
 from p2sf.metrics.measures import mtf_of
 from p2sf.metrics.perfect import diffraction_mtf
@@ -64,3 +65,46 @@ def test_beside_a_picture_of_rays_the_contrast_says_that_it_is_of_waves():
         str(measure_request(beside).method)
         == "exact rays, by waves of the pupil; the picture is the density of its rays"
     )
+
+
+def circles(apart: np.ndarray, one: float, other: float) -> np.ndarray:
+    """Return the area that two circles share whose centres lie so far apart: two circular segments."""
+    d = np.clip(apart, abs(one - other) + 1e-12, one + other)
+    first, second = (
+        r * r * np.arccos(np.clip((d * d + r * r - s * s) / (2 * d * r), -1, 1))
+        for r, s in ((one, other), (other, one))
+    )
+    product = (-d + one + other) * (d + one - other) * (d - one + other) * (d + one + other)
+    return first + second - np.sqrt(np.maximum(product, 0)) / 2
+
+
+def test_behind_a_ring_the_perfect_curve_is_that_of_the_same_pupil_and_the_clear_one_stands_beside(window, qtbot):
+    """The autocorrelation of an annulus: circles' overlaps, outer less two mixed plus inner (O'Neill 1956)."""
+    window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="mtf"))
+    panel = window.panels["mtf"]
+    beside = panel.curves["perfect, clear pupil"]
+    qtbot.waitUntil(lambda: bool(np.isfinite(beside.data()[1]).any()), timeout=30_000)
+    frequency, perfect = panel.curves["perfect lens"].data()
+    apart = 2 * frequency / frequency[-1]
+    ring = circles(apart, 1, 1) - 2 * circles(apart, 1, 0.5) + circles(apart, 0.5, 0.5)
+    assert perfect == pytest.approx(ring / (0.75 * np.pi), abs=1e-3)  # the accuracy of contrast behind masks is 3e-4
+    _, clear = beside.data()
+    assert clear == pytest.approx(circles(apart, 1, 1) / np.pi, abs=1e-3)
+    assert "same pupil" in panel.widget.readout.text() and "clear pupil" in panel.widget.readout.text()
+    middle, end = (np.abs(apart / 2 - at).argmin() for at in (0.35, 0.8))
+    assert perfect[middle] < clear[middle] - 0.1 and perfect[end] > 1.3 * clear[end]
+
+
+def test_energy_behind_a_ring_is_beside_that_of_the_same_pupil(window, qtbot):
+    """That of the annular Airy pattern, 2J₁(v)/v − ε²·2J₁(εv)/(εv) over 1 − ε², summed over rings."""
+    window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="profiles"))
+    panel = window.panels["profiles"]
+    qtbot.waitUntil(lambda: len(panel.within.data()[0]) > 0, timeout=30_000)
+    (radius, perfect), (_, clear) = panel.perfect.data(), panel.clear.data()
+    unit = 2 * np.pi * float(window.live.setup.coefficients.na) / float(window.live.setup.coefficients.wavelength_um)
+    v = np.linspace(1e-6, 60 * unit, 40_000)
+    amplitude = (2 * j1(v) / v - 0.25 * 2 * j1(v / 2) / (v / 2)) / 0.75
+    step = v[1] - v[0]
+    within = np.cumsum(amplitude**2 * v * step) * 0.75 / 2  # Parseval: all light is 2/(1 − ε²) in these units
+    assert perfect == pytest.approx(np.interp(unit * radius, v, within), abs=5e-3)
+    assert clear == pytest.approx(1 - j0(unit * radius) ** 2 - j1(unit * radius) ** 2, abs=1e-3)

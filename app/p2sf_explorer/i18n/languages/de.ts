@@ -335,7 +335,7 @@
 <message><source>MTF over the field</source><translation>MTF über das Feld</translation></message>
 <message><source>MTF through focus</source><translation>MTF durch den Fokus</translation></message>
 <message><source>MTF: RMS error ≤ {percent} % of its own RMS</source><translation>MTF: RMS-Fehler ≤ {percent} % ihres eigenen RMS</translation></message>
-<message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration.</translation></message>
+<message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration; thin beside it, where something stands in the stop: the clear pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration; dünn daneben, wo etwas in der Blende steht: die freie Pupille ohne Aberration.</translation></message>
 <message><source>Macro lens f/3.8, 60 mm, with floating focus</source><translation>Makroobjektiv f/3,8, 60 mm, mit gleitender Gruppe</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
@@ -572,7 +572,7 @@
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
 <message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
-<message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
+<message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens, where something stands in the stop of the same pupil, and thin of the clear one. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse, mit etwas in der Blende die derselben Pupille, und dünn die der freien. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
 <message><source>Seidel is of the lens set straight; the other methods know its tilts and decentres.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen und Dezentrierungen.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
@@ -893,6 +893,7 @@
 <message><source>a mask stands in the stop, and the transfer function of a pupil without symmetry knows a clear round stop only; take the mask away or set the lens straight</source><translation>eine Maske steht in der Blende, und die Übertragungsfunktion einer Pupille ohne Symmetrie kennt nur eine klare runde Blende; die Maske entfernen oder das Objektiv gerade stellen</translation></message>
 <message><source>a mask stands in the stop, and {what} knows a clear round stop only; take the mask away</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
+<message><source>a matrix of transfer functions</source><translation>eine Matrix von Übertragungsfunktionen</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a model with a pupil map is fitted to points straight above, below or beside the axis only</source><translation>ein Modell mit Pupillenabbildung wird nur an Punkte genau über, unter oder neben der Achse angepasst</translation></message>
@@ -921,7 +922,6 @@
 <message><source>a text</source><translation>einen Text</translation></message>
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
 <message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
-<message><source>a transfer function</source><translation>eine Übertragungsfunktion</translation></message>
 <message><source>a transfer function of a pupil that ends at rims or where rays are lost</source><translation>eine Übertragungsfunktion einer Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
 <message><source>a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or take the vanes away</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
@@ -1396,6 +1396,8 @@
 <message><source>per pixel</source><translation>je Pixel</translation></message>
 <message><source>perfect lens</source><translation>ideale Linse</translation></message>
 <message><source>perfect lens, µm</source><translation>ideale Linse, µm</translation></message>
+<message><source>perfect, clear pupil</source><translation>ideal, freie Pupille</translation></message>
+<message><source>perfect, same pupil</source><translation>ideal, dieselbe Pupille</translation></message>
 <message><source>phase</source><translation>Phase</translation></message>
 <message><source>picture encoding "{encoding}" is unknown; choose {choices}</source><translation>die Bildkodierung "{encoding}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
