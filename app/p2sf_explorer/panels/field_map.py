@@ -35,6 +35,7 @@ class MapChart(TilesChart):
         self.fields_deg = np.zeros(0)
         self.places = np.zeros((0, 2))
         self.skew, self.corner_slope, self.present_at = False, 1.0, (0.0, 0.0)
+        self.nodes: tuple[tuple[str, float, float], ...] = ()
         self.choice = Cursor()
         self._taken, self._field, self._held = 0, 0.0, False
         self.takes_arrows = True
@@ -122,6 +123,16 @@ class MapChart(TilesChart):
         else:
             self._store.update(field_deg=round(float(self.fields_deg[number]), 4), field_x_deg=0.0)
 
+    def _paint_nodes(self, painter: QPainter) -> None:
+        """Paint where coma (×) and astigmatism (+) vanish."""
+        half = self.theme.px(NODE_PX)
+        for name, *place in self.nodes:
+            x, y = (float(v) for v in self.to_pixels(*place))
+            painter.setPen(QPen(QColor(getattr(self.theme, NODE_COLOURS[name])), 2.5 * self.theme.scale))
+            for dx, dy in ((half, half), (half, -half)) if name == "coma" else ((half, 0), (0, half)):
+                painter.drawLine(QPointF(x - dx, y - dy), QPointF(x + dx, y + dy))
+        painter.setPen(QPen(QColor(self.theme.accent), 2 * self.theme.scale))
+
     def paint_over(self, painter: QPainter) -> None:
         """Paint the pictures, with frames around the present one and the one chosen by keys."""
         super().paint_over(painter)
@@ -129,6 +140,7 @@ class MapChart(TilesChart):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(QColor(self.theme.accent), 2 * self.theme.scale))
             if self.skew:
+                self._paint_nodes(painter)
                 ring = self.theme.px(RING_PX)
                 painter.drawEllipse(QPointF(*map(float, self.to_pixels(*self.present_at))), ring, ring)
             else:
@@ -136,6 +148,9 @@ class MapChart(TilesChart):
         number = self.choice.number
         if self.hasFocus() and number is not None and number < len(self.tiles):
             paint_cursor(painter, self.room(self.tiles[number]))
+
+
+NODE_PX, NODE_COLOURS = 6, {"coma": "chief", "astigmatism": "positive"}  # half a cross; a token of each
 
 
 class FieldMapPanel:
@@ -169,7 +184,7 @@ class FieldMapPanel:
         at = [(row, column) for row in range(SHAPE[0]) for column in range(SHAPE[1])]
         kept = [place for place in at if np.isfinite(found[place]).any()]
         self.chart.places = np.array([where[place] for place in kept]).reshape(-1, 2)
-        self.chart.skew, self.chart.corner_slope = asked.skew, asked.corner_slope
+        self.chart.skew, self.chart.corner_slope, self.chart.nodes = asked.skew, asked.corner_slope, asked.nodes
         slopes = [np.hypot(*where[place]) * asked.corner_slope for place in kept]
         self.chart.fields_deg = degrees_from_slope(np.array(slopes))
         shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
@@ -181,6 +196,8 @@ class FieldMapPanel:
         self.chart.means(zip(heads, (found[place] for place in kept), strict=True), asked.window[1])
         corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
         first = tr("corner {field}", field=f"{corner:.3g}°")
+        marks = {"coma": tr("× no coma"), "astigmatism": tr("+ no astigmatism (third order)")}
+        first = " · ".join([first, *(marks[name] for name in marks if name in {node[0] for node in asked.nodes})])
         return f"{first} · {tr('pictures {wide} µm wide, each over its own peak', wide=f'{wide:.3g}')}"
 
     def restyle(self, theme: Tokens) -> None:

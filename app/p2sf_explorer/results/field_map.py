@@ -2,13 +2,16 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from p2sf.conventions import degrees_from_slope, slope_from_degrees
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.tolerance.nodal import third_order
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
@@ -27,7 +30,8 @@ MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 class FieldMap:
     """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window.
 
-    ``skew``: the lens is not symmetric, and every picture has a field (x, y) of its own.
+    ``skew``: the lens is not symmetric, and every picture has a field (x, y) of its own. ``nodes``: of "coma" and
+    "astigmatism", the places x and y where these vanish to third order, 1 from the middle to the corner.
     """
 
     state: State
@@ -35,6 +39,7 @@ class FieldMap:
     window: tuple[int, float]
     six: bool
     skew: bool = False
+    nodes: tuple[tuple[str, float, float], ...] = ()
 
 
 def field_map(live: Live) -> FieldMap:
@@ -45,7 +50,24 @@ def field_map(live: Live) -> FieldMap:
     c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
     six, state = everywhere_by_coefficients(live), changed(optics(live.state), field_deg=0.0, field_x_deg=0.0)
-    return FieldMap(state, corner, (pixels, wide / pixels), six, s.lens.misaligned and not six)
+    skew = s.lens.misaligned and not six
+    nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if skew else ()
+    return FieldMap(state, corner, (pixels, wide / pixels), six, skew, nodes)
+
+
+@lru_cache(maxsize=8)
+def nodes_of(
+    lens: Lens, depth_mm: float, wavelength_um: float, corner_slope: float
+) -> tuple[tuple[str, float, float], ...]:
+    """Return where in the map coma and astigmatism vanish to third order; none beyond the map, or where unknown."""
+    try:
+        found = third_order(lens, depth_mm, wavelength_um)
+    except P2SFError:  # no six coefficients, or a lost chief ray: the map has no nodes to show
+        return ()
+    named = [("coma", found.coma_node), *(("astigmatism", node) for node in found.astigmatism_nodes)]
+    edge = np.abs(places()).max(axis=(0, 1))
+    at = ((name, node.imag / corner_slope, node.real / corner_slope) for name, node in named)
+    return tuple((name, float(x), float(y)) for name, x, y in at if abs(x) <= edge[0] and abs(y) <= edge[1])
 
 
 def fields_deg(place: np.ndarray, corner_slope: float) -> tuple[float, float]:

@@ -14,6 +14,7 @@
 <message><source>"{text}" is no claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
 <message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
 <message><source>% of peak</source><translation>% der Spitze</translation></message>
+<message><source>+ no astigmatism (third order)</source><translation>+ kein Astigmatismus (dritte Ordnung)</translation></message>
 <message><source>0.7 of the pupil</source><translation>0,7 der Pupille</translation></message>
 <message><source>1 node</source><translation>1 Knoten</translation></message>
 <message><source>1 surface</source><translation>1 Fläche</translation></message>
@@ -2235,6 +2236,7 @@
 <message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
 <message><source>× A | B</source><translation>× A | B</translation></message>
 <message><source>× depths</source><translation>× Abstände</translation></message>
+<message><source>× no coma</source><translation>× keine Koma</translation></message>
 <message><source>× sensor shifts</source><translation>× Sensorversatz</translation></message>
 <message><source>× wavelengths</source><translation>× Wellenlängen</translation></message>
 <message><source>Δ ≤ {percent} %</source><translation>Δ ≤ {percent} %</translation></message>
