@@ -54,8 +54,8 @@ COLUMNS = 2
 class ErrorRow(QWidget):
     """One number that may be off: its slider, and a button that sets it right."""
 
-    def __init__(self, kind: str, store: Store):
-        super().__init__()
+    def __init__(self, kind: str, store: Store, parent: QWidget):
+        super().__init__(parent)  # without one it would be a window for a moment, and take the focus
         self.kind, self.adjustment, self._store = kind, Adjustment(kind, (1, 1), 1.0), store  # type: ignore[arg-type]  # one of `WORDS`
         self.slider = LensSlider(WORDS[kind], TIPS[kind], UNITS.get(kind, ""), store, self._with, DIGITS.get(kind, 3))
         self.back = QPushButton("↺", self)
@@ -226,7 +226,7 @@ class MisalignPanel:
         for one in wanted:
             kind = self.rows[one.kind]
             if taken[one.kind] == len(kind):
-                kind.append(ErrorRow(one.kind, self._store))
+                kind.append(ErrorRow(one.kind, self._store, self._page))
                 kind[-1].restyle(self._theme)
             placed.append(kind[taken[one.kind]])
             taken[one.kind] += 1
