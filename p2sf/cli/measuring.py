@@ -14,6 +14,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
+from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.comparison import Comparison, compared
 from p2sf.measure.frame import Frame, Noise
 from p2sf.measure.frame_fit import FrameFit
@@ -40,6 +41,12 @@ Unknown = Annotated[
 ]
 
 
+Built = Annotated[
+    Path | None,
+    Parameter(help="File for the lens as built: .toml, .zmx, .seq or .json, or .npz for its PSF database."),
+]
+
+
 def measure(
     pictures: Pictures,
     /,
@@ -57,6 +64,7 @@ def measure(
     full_scale: Annotated[float | None, Parameter(help="Counts from which a pixel is saturated.")] = None,
     channel: Annotated[str, Parameter(help="Of a colour picture: red, green or blue.")] = "green",
     clip: Clip = False,
+    built: Built = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -66,6 +74,7 @@ def measure(
     open; a second at another focus decides. The numbers go to an .npz.
     """
     check_output(output, (".npz",))
+    check_output(built, (".toml", ".zmx", ".seq", ".json", ".npz"))
     noise = Noise(gain or inf, read_noise, full_scale or inf)
     frames = [read_frame(path, pixel_um, dark=dark, flat=flat, noise=noise, channel=channel) for path in pictures]
     design, optics = _scale(lens, request, frames[0])
@@ -82,9 +91,22 @@ def measure(
     )
     if output:
         write_measurement(found, output)
+    if built:
+        _write_built(found, built)
     if as_json:
         return print_json({"file": None if output is None else str(output), **record(found)})
     return _show(found)
+
+
+def _write_built(found: Measurement, path: Path) -> None:
+    """Write the lens as built, and warn of what it leaves out."""
+    if found.whole is None:
+        raise RequestError(
+            "too few points can be used for a lens as built: five are needed, and there are {count}", count=found.used
+        )
+    write_as_built(found.whole, path)
+    for why in left_out(found.whole, path):
+        warn(why)
 
 
 def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, Optics]:

@@ -87,8 +87,8 @@ def placed_nodes(clear: ClearNodes, wavelength_um: float, place: Place) -> Pupil
     fx, fy, light = place(whole.xi, whole.eta)
     amplitude = whole.amplitude + np.zeros_like(fx)
     weight = whole.weight * amplitude * light
-    filtered = isinstance(whole.path_um, np.ndarray)
-    waves = -whole.path_um / wavelength_um if filtered else np.zeros_like(fx)
+    path = whole.path_um
+    waves = -path / wavelength_um if isinstance(path, np.ndarray) else np.zeros_like(fx)
     spreading = float(whole.weight @ amplitude**2 / (whole.weight @ amplitude) ** 2) / whole.share
     sizes = ((fx.size, 1),)
     return PupilNodes(fx, fy, whole.xi, whole.eta, weight / weight.sum(), waves, sizes, spreading)

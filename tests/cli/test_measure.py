@@ -6,6 +6,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 
@@ -23,11 +24,13 @@ def picture(tmp_path_factory):
 
 
 def test_a_picture_beside_its_lens(picture, answer, tmp_path, capsys):
-    file = tmp_path / "coefficients.npz"
+    file, built = tmp_path / "coefficients.npz", tmp_path / "built.toml"
     command = ("measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um")
-    found = answer(*command, "-o", str(file))
+    found = answer(*command, "-o", str(file), "--built", str(built))
     shift = found["frame"]["unknowns"]["sensor_shift_um"]
     assert abs(shift["value"] - 20.0) < 5 * shift["error"] and shift["unit"] == "µm"
+    moved = read_toml(built).sensor_mm - find_lens("cooke_triplet").sensor_mm
+    assert 1000 * moved == pytest.approx(shift["value"], rel=1e-6)
     assert len(found["points"]) == 6 and all(point["r2"][0] > 0.9 for point in found["points"])
     assert main(["compare", str(file), str(file)]) == 0
     out = capsys.readouterr().out

@@ -1,17 +1,22 @@
 """Frames: simulated through lenses, read from files, their points found, and one model fitted to all of them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PIL import Image
 
+from p2sf.database_files import load_database
 from p2sf.errors import Cancelled, P2SFError, RequestError
 from p2sf.files.writing import write_beside
 from p2sf.io.photo_files import write_photo
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import read_toml
+from p2sf.measure.as_built import left_out, lens_as_built, write_as_built
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
-from p2sf.measure.frame_fit import PointSum, fit_frame
+from p2sf.measure.frame_fit import FrameFit, PointSum, fit_frame
 from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
 from p2sf.measure.lens_pupil import lens_nodes
 from p2sf.measure.listings import listing_of, read_listing
@@ -21,6 +26,7 @@ from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import find_points, in_grid, window_half, window_of
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
+from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.psf.fitted import fitted_intensity
@@ -46,7 +52,10 @@ def frame(triplet):
 
 @pytest.mark.parametrize("azimuth", [0.0, 0.7, 2.5, -1.9])
 def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimuth):
-    """The kernels' transform repeats beyond their window, where the rim's rings go on: 1 % of the sharpest peak."""
+    """Kernels of plans settle for fewer samples: with four times the window and fine ones they converge to the sum.
+
+    0.3 % of the peak with a kernel's own window and samples, which plans count as error; 3e-4 here.
+    """
     source, shift = Source(field_deg=14.0), (0.7, -0.4)
     found = fit(triplet, source)
     nodes = lens_nodes(found, azimuth, (64, 64))
@@ -54,10 +63,10 @@ def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimut
     optics = lens_optics(triplet, np.inf, source.wavelength_um, PITCH)
     light = PixelSum(nodes, (25, 25), optics).light(waves - nodes.fx * shift[0] - nodes.fy * shift[1])
     pupil = pupil_map(triplet, source, "fitted", None)
-    window = PixelWindow(half_width(pupil, PITCH), PITCH, samples_across(pupil, PITCH, 2.0))
+    window = PixelWindow(4 * half_width(pupil, PITCH), PITCH, samples_across(pupil, PITCH, 4.0))
     cut = slice(window.half - 12, window.half + 13)
     kernel = pixel_kernel(pupil, azimuth, window, shift)[::-1][cut, cut].astype(float)
-    assert light / light.sum() == pytest.approx(kernel / kernel.sum(), abs=1.2e-2 * kernel.max() / kernel.sum())
+    assert light / light.sum() == pytest.approx(kernel / kernel.sum(), abs=1e-3 * kernel.max() / kernel.sum())
 
 
 def test_simulated_light_is_that_of_the_fitted_method_added_up(triplet):
@@ -167,6 +176,35 @@ def test_a_spacing_is_told_from_a_shift_by_its_field(triplet):
     points = model_points(model, truth, 5.0, [(0.0, 0.0), (0.0, 7.5), (-5.0, 3.0)], pixels=21)
     found = fit_frame(points, model)
     assert np.abs((found.values - truth) / found.bounds).max() < 5
+
+
+def test_the_lens_as_built_has_what_differs(triplet, tmp_path):
+    """A sensor that recedes towards +x and +y: where its points lie, from its axes; and a database without the tilt."""
+    optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
+    model = FrameModel(optics, 8.0, ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg", "w40", "spacing_um:2"), triplet)
+    values = np.array([25.0, 0.2, -0.1, 0.3, 40.0])
+    none = np.empty((0, 4))
+    whole = FrameFit(model, (), values, np.diag(0.01 * values**2), none, (), none[0:0], none[0:0], 1.0)
+    built = lens_as_built(whole)
+    assert built.surfaces[1].thickness == pytest.approx(triplet.surfaces[1].thickness + 0.040, abs=1e-12)
+    *_, sensor = built.frames
+    middle = sum(surface.thickness for surface in triplet.surfaces) + 0.040 + 0.025
+    for x, y in ((5.0, 0.0), (0.0, 5.0)):
+        z = (sensor.origin + sensor.rotation @ [x, y, 0.0])[2]
+        assert z - middle == pytest.approx(x * np.sin(np.deg2rad(0.2)) - y * np.sin(np.deg2rad(0.1)), abs=1e-6)
+    write_as_built(whole, tmp_path / "built.toml")
+    assert read_toml(tmp_path / "built.toml").surfaces == built.surfaces
+    write_as_built(whole, tmp_path / "built.npz")
+    found = load_database(tmp_path / "built.npz").database
+    straight = lens_as_built(whole, tilted=False)
+    direct = coefficients(straight, np.inf, np.tan(np.deg2rad(10)), 0.55)
+    read = found.coefficients(np.inf, np.tan(np.deg2rad(10)), 0.55)
+    assert [float(getattr(read, name)) for name in ("w40", "wd")] == pytest.approx(
+        [float(direct.w40), float(direct.wd)], abs=1e-6
+    )
+    assert len(left_out(whole, "a.npz")) == 2 and len(left_out(whole, "a.toml")) == 1
+    with pytest.raises(RequestError, match="beside the lens"):
+        lens_as_built(replace(whole, model=FrameModel(optics, 8.0)))
 
 
 def test_a_frame_at_two_focus_positions_has_no_twin():

@@ -189,6 +189,11 @@ def own_six(found: Measurement, number: int) -> tuple[float, ...] | None:
     return tuple(whole.model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm))).tolist())
 
 
+def has_lens_as_built(found: Measurement) -> bool:
+    """Return whether the picture tells of a lens as built: it was measured beside the lens, with enough points."""
+    return found.whole is not None and found.whole.model.lens is not None
+
+
 def as_free_pupil(fit: PointFit) -> dict[str, Any]:
     """Return the entries of the State that show a point's fitted pupil: W20 + Wd goes into Wd."""
     w40, w31, w22, focus = (round(float(value), 4) for value in fit.numbers[:4])

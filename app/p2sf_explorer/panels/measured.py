@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf.errors import P2SFError
+from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.measurement import Measurement, write_measurement
 from p2sf.messages import Message
 from p2sf_explorer.charts.overlay import Overlay
@@ -35,6 +36,7 @@ from p2sf_explorer.measuring.measurement import (
     PointPictures,
     answer,
     as_free_pupil,
+    has_lens_as_built,
     own_six,
     point_lines,
     point_rows,
@@ -55,6 +57,7 @@ TIP = (
     "of the lens and of how the sensor stands. Pictures are √ of brightness over the picture's peak, all on one scale."
 )
 PICTURES = "Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)"
+BUILT = "P2SF lens (*.toml);;PSF database (*.npz)"
 EMPTY = "Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF."
 HEADS = ("x, mm", "y, mm", "R²", "χ²", "not used because")
 PARTS = ("measured", "model", "difference")
@@ -74,6 +77,11 @@ class MeasuredPanel:
         self.take = small_button(
             "To pupil",
             "Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back",
+        )
+        self.built = small_button(
+            "As built…",
+            "Save this lens with the sensor where the picture tells it is, or its PSF database",
+            self._ask_built,
         )
         self.pixel = QDoubleSpinBox()
         self.beside = QCheckBox(tr("this lens"))
@@ -105,7 +113,7 @@ class MeasuredPanel:
         row = QHBoxLayout(controls)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(4)
-        for part in (self.open, self.stop_button, self.save, self.take, self.pixel, self.beside):
+        for part in (self.open, self.stop_button, self.save, self.built, self.take, self.pixel, self.beside):
             row.addWidget(part)
         row.addStretch(1)
         self.body = MeasuredBody(self.chart, self.list, self.table)
@@ -184,6 +192,7 @@ class MeasuredPanel:
         self.save.setVisible(not working)
         for button in (self.save, self.take):
             button.setEnabled(self._found is not None and self._found.used > 0)
+        self.built.setEnabled(self._found is not None and has_lens_as_built(self._found))
         self.overlay.say(self._refusal or ("" if self._found else tr("measuring") if self._path else tr(EMPTY)), 0)
         name = Path(self._path).name
         if self._found is not None and not text:
@@ -244,6 +253,23 @@ class MeasuredPanel:
             write_measurement(self._found, path)
         except P2SFError as error:
             self._store.refused.emit(error.message)
+
+    def _ask_built(self) -> None:
+        path, chosen = QFileDialog.getSaveFileName(self.widget, tr("Save the lens as built"), "built.toml", tr(BUILT))
+        if path:
+            self.save_built(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+
+    def save_built(self, path: str) -> None:
+        """Write the lens as built; say what it leaves out, or why it cannot be written."""
+        if self._found is None or self._found.whole is None:
+            return
+        try:
+            write_as_built(self._found.whole, path)
+        except P2SFError as error:
+            self._store.refused.emit(error.message)
+            return
+        for message in (Message("Saved {name}", name=Path(path).name), *left_out(self._found.whole, path)):
+            self._store.said.emit(message)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

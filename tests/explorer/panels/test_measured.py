@@ -5,6 +5,7 @@ import pytest
 
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
@@ -40,6 +41,9 @@ def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window,
     assert abs(shift - SHIFT_UM) < 5 * error < 30
     panel.save_as(str(tmp_path / "coefficients.npz"))
     assert read_measurement(tmp_path / "coefficients.npz")[1]["lens"] == "cooke_triplet"
+    panel.save_built(str(tmp_path / "built.toml"))
+    moved = read_toml(tmp_path / "built.toml").sensor_mm - with_f_number(find_lens("cooke_triplet"), 4.0).sensor_mm
+    assert 1000 * moved == pytest.approx(shift, rel=5e-3)  # the table shows three figures
     panel.list.selectRow(3)
     panel.take.click()
     what_if = window.store.state.what_if

@@ -73,6 +73,7 @@
 <message><source>Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 a Gaussian, larger even numbers a super-Gaussian.</source><translation>Potenz p der Amplitude exp(−(ρ/Breite)ᵖ): 2 eine Gauß-Funktion, größere gerade Zahlen eine Super-Gauß-Funktion.</translation></message>
 <message><source>Apodisation: where the amplitude has fallen to 1/e and the intensity to 1/e², over the rim's radius; ∞: even light. It dims the rings and widens the core.</source><translation>Apodisation: wo die Amplitude auf 1/e und die Intensität auf 1/e² gefallen ist, über dem Radius des Randes; ∞: gleichmäßiges Licht. Sie schwächt die Ringe und verbreitert den Kern.</translation></message>
 <message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
+<message><source>As built…</source><translation>Wie gebaut …</translation></message>
 <message><source>As designed</source><translation>Wie entworfen</translation></message>
 <message><source>As the grade</source><translation>Wie die Klasse</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
@@ -405,6 +406,7 @@
 <message><source>Overlays</source><translation>Vergleichskurven</translation></message>
 <message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
+<message><source>P2SF lens (*.toml);;PSF database (*.npz)</source><translation>P2SF-Objektiv (*.toml);;PSF-Datenbank (*.npz)</translation></message>
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET-Objektiv (*.json)</translation></message>
 <message><source>PCA</source><translation>PCA</translation></message>
 <message><source>PSF</source><translation>PSF</translation></message>
@@ -558,6 +560,7 @@
 <message><source>Save the PSF, a picture, or the state (Ctrl+E)</source><translation>PSF, Bild oder Zustand speichern (Strg+E)</translation></message>
 <message><source>Save the lens</source><translation>Objektiv speichern</translation></message>
 <message><source>Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)</source><translation>Das Objektiv als .toml, .zmx, .seq oder ISET-.json speichern (Strg+Umschalt+S)</translation></message>
+<message><source>Save the lens as built</source><translation>Das Objektiv speichern, wie es gebaut ist</translation></message>
 <message><source>Save the lens as it is now…</source><translation>Objektiv speichern, wie es jetzt ist …</translation></message>
 <message><source>Save the measurement</source><translation>Die Messung speichern</translation></message>
 <message><source>Save the numbers and their errors as .npz</source><translation>Die Zahlen und ihre Fehler als .npz speichern</translation></message>
@@ -568,6 +571,7 @@
 <message><source>Save the view as a picture, or the scene as glTF or OBJ</source><translation>Die Ansicht als Bild oder die Szene als glTF oder OBJ speichern</translation></message>
 <message><source>Save the way from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
 <message><source>Save the workspace</source><translation>Arbeitsbereich speichern</translation></message>
+<message><source>Save this lens with the sensor where the picture tells it is, or its PSF database</source><translation>Dieses Objektiv mit dem Sensor dort speichern, wo er nach dem Bild steht, oder seine PSF-Datenbank</translation></message>
 <message><source>Saved {count} frames, {first} to {last}</source><translation>{count} Bilder gespeichert, {first} bis {last}</translation></message>
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
@@ -1727,6 +1731,7 @@
 <message><source>the last thickness as the distance to the sensor</source><translation>die letzte Dicke als Abstand zum Sensor</translation></message>
 <message><source>the layout</source><translation>der Aufbau</translation></message>
 <message><source>the lens</source><translation>das Objektiv</translation></message>
+<message><source>the lens as built is the lens as designed and what differs: measure beside the lens</source><translation>das gebaute Objektiv ist das entworfene mit seinen Abweichungen: neben dem Objektiv messen</translation></message>
 <message><source>the lens has a ring of zoom and one of focus, and a Zemax file one list of configurations; save as TOML</source><translation>das Objektiv hat einen Zoomring und einen Fokusring, eine Zemax-Datei eine Liste von Konfigurationen; als TOML speichern</translation></message>
 <message><source>the lens has mirrors, which an ISET file cannot say; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
@@ -1996,6 +2001,7 @@
 <message><source>{count} numbers are off</source><translation>{count} Zahlen stimmen nicht</translation></message>
 <message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
+<message><source>{count} points can be used, and the lens as built needs five; take a picture of more points</source><translation>{count} Punkte sind brauchbar, und das gebaute Objektiv braucht fünf; mehr Punkte aufnehmen</translation></message>
 <message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
 <message><source>{count} samples {pixel_um:.3g} µm apart hold no contrast of a PSF of aperture {na:.3g}: λ/(4 NA) is {critical:.3g} µm; sample it so closely, or take the MTF of the lens</source><translation>{count} Proben im Abstand {pixel_um:.3g} µm halten keinen Kontrast einer PSF der Apertur {na:.3g}: λ/(4 NA) sind {critical:.3g} µm; so dicht abtasten oder die MTF des Objektivs nehmen</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
@@ -2048,6 +2054,8 @@
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
+<message><source>{names}: a database knows no tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
+<message><source>{names}: no part of the lens as built; measure spacings in their place</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
 <message><source>{name} are {count} numbers; write x and y</source><translation>{name} sind {count} Zahlen; x und y schreiben</translation></message>
