@@ -202,6 +202,11 @@ class PupilMask:
         return bool(self.blades and self.roundness < 1)
 
     @property
+    def annular(self) -> bool:
+        """Return whether all that stands in the stop is an obscuration, so that the pupil is a ring."""
+        return bool(self.obscuration) and not (self.spider or self.iris or self.shaded or self.phased)
+
+    @property
     def shaded(self) -> bool:
         """Return whether the open part lets light through unevenly."""
         return self.apodisation < inf or self.amplitude_map is not None

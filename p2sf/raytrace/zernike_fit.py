@@ -1,21 +1,22 @@
 """The exact wavefront of a source as a sum of terms that are orthogonal over the pupil in force (handbook 3.4).
 
 Over the whole disc these are Zernike's polynomials. Over the part that rims or lost rays leave clear they are the same
-polynomials made orthogonal there in turn, by Gram and Schmidt (Mahajan & Dai 2007). The mean squares then add up to the
-variance of the wavefront, whatever the pupil's shape.
+polynomials made orthogonal there in turn, by Gram and Schmidt (Mahajan & Dai 2007); over a ring these are the annular
+polynomials of Mahajan 1981. The mean squares then add up to the variance of the wavefront, whatever the pupil's shape.
 """
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, pencil
-from p2sf.raytrace.vignetting import clear_nodes, whole_nodes
+from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
 from p2sf.threads import one_blas_thread
 
 COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40
@@ -52,7 +53,8 @@ def zernike_fit(
 ) -> ZernikeFit:
     """Return the first ``count`` terms of the displayed OPD of exact rays; ``clip`` applies every clear semi-diameter.
 
-    Raises RequestError for an order or a count that does not exist, GeometryError where no part of the pupil is clear.
+    Raises RequestError for an order or a count that does not exist, GeometryError where no part of the pupil is clear,
+    and for what stands in the stop beside an obscuration.
     """
     terms = zernike_terms(order, count)
     nodes, waves = pupil_opd(lens, source, clip)
@@ -66,13 +68,30 @@ def pupil_opd(
 
     Those of the half disc ξ > 0, of a misaligned lens of the whole.
     """
-    check_unmasked(lens, Message("the decomposition of a wavefront"))
-    nodes = whole_nodes(counts).unfolded() if lens.misaligned else whole_nodes(counts)
+    nodes = open_nodes(lens, source, counts)
     turn = np.linspace(0, 2 * np.pi, 2 * RIM_RAYS) if lens.misaligned else np.linspace(0, np.pi, RIM_RAYS)
     tried = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))
     if not pencil(lens, source, *tried, clip).passed.all():
+        if not lens.mask.clear:
+            raise GeometryError(
+                "rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a whole "
+                "ring; leave {parameter} off, stop the lens down, or take the obscuration away",
+                parameter="clip",
+            )
         nodes = clear_nodes(lens, source, counts, clip)
     return nodes, displayed_opd(lens, source, nodes.xi, nodes.eta)
+
+
+def open_nodes(lens: Lens, source: Source, counts: tuple[int, int]) -> ClearNodes:
+    """Return nodes over the disc, or the ring about an obscuration; GeometryError for what else stands in the stop."""
+    mask = lens.mask
+    if not (mask.clear or mask.annular):
+        raise GeometryError(
+            "Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; take vanes, "
+            "blades, filters and phases away"
+        )
+    radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as else in the disc
+    return pupil_nodes(lens, source, (radial, counts[1]))
 
 
 def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:

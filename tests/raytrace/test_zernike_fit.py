@@ -5,15 +5,17 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from p2sf.lens.lens import AIMS, with_aim
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import AIMS, with_aim, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, opd_map, pencil, pupil_grid
 from p2sf.raytrace.vignetting import whole_nodes
-from p2sf.raytrace.zernike_fit import decomposed, pupil_opd, zernike_fit
+from p2sf.raytrace.zernike_fit import decomposed, open_nodes, pupil_opd, zernike_fit
 
 WHOLE = whole_nodes((24, 64))
 
@@ -161,3 +163,69 @@ def test_rims_end_the_pupil_of_a_misaligned_lens():
     nodes, waves = pupil_opd(lens, Source(field_deg=14), clip=True, counts=(8, 20))
     found = decomposed(nodes, waves, "noll", zernike_terms("noll", 37))
     assert 0.2 < found.clear < 0.95 and found.residual < 0.2 * found.rms
+
+
+def moment(dark: float, power: int) -> float:
+    """Return the mean of ρ^(2·power) over a ring."""
+    return (1 - dark ** (2 * power + 2)) / ((power + 1) * (1 - dark**2))
+
+
+def ring(dark: float):
+    """Return nodes over a ring, as a lens with an obscuration has them."""
+    return open_nodes(with_mask(find_lens("telephoto"), PupilMask(obscuration=dark)), Source(), (24, 64))
+
+
+@pytest.mark.parametrize("dark", [0.1, 0.36, 0.9])
+def test_over_a_ring_terms_are_the_annular_polynomials(dark):
+    """ρ⁴ in Legendre polynomials of 2(ρ² − ε²)/(1 − ε²) − 1, as Mahajan 1981 has them; coma by its moments."""
+    nodes, gap = ring(dark), 1 - dark**2
+    square, terms = nodes.xi**2 + nodes.eta**2, zernike_terms("noll", 37)
+    fourth = decomposed(nodes, square**2, "noll", terms)
+    expected = np.zeros(37)
+    expected[[0, 3, 10]] = moment(dark, 2), (1 + dark**2) * gap / (2 * sqrt(3)), gap**2 / (6 * sqrt(5))
+    assert np.allclose(fourth.waves, expected, rtol=0, atol=1e-12)
+    assert fourth.clear == pytest.approx(gap, rel=1e-12) and fourth.residual < 1e-12
+    coma = decomposed(nodes, square * nodes.eta, "noll", terms)
+    left = sqrt(moment(dark, 3) / 2 - moment(dark, 2) ** 2 / (2 * moment(dark, 1)))
+    assert abs(coma.waves[6]) == pytest.approx(left, rel=1e-9)
+    assert coma.rms_without_tilt == pytest.approx(left, rel=1e-9)
+
+
+def test_annular_terms_are_orthonormal_on_a_dense_grid():
+    """Each polynomial found from its own nodes, summed over a million cells of a ring; the edge's cells cost 1e-3."""
+    dark, terms = 0.4, zernike_terms("noll", 22)
+    nodes = ring(dark)
+    axis = (2 * np.arange(1000) + 1 - 1000) / 1000
+    xi, eta = (v.ravel() for v in np.meshgrid(axis, axis))
+    inside = (xi**2 + eta**2 < 1) & (xi**2 + eta**2 > dark**2)
+    even = tuple(term for term in terms if term.even)
+    plain = zernike_values(even, nodes.xi, nodes.eta)
+    found = np.array([decomposed(nodes, row, "noll", terms).waves[[t.even for t in terms]] for row in plain])
+    annular = np.linalg.solve(found, zernike_values(even, xi[inside], eta[inside]))
+    assert np.allclose(annular @ annular.T / inside.sum(), np.eye(len(even)), atol=3e-3)
+
+
+def test_the_axis_of_a_telescope_has_terms_of_spherical_aberration_only():
+    """The Hubble's error over its ring: RMS of a dense grid, all of it in Z11 and beyond, since the sensor is best."""
+    lens = find_lens("hubble")
+    found = zernike_fit(lens, Source(wavelength_um=0.6328))
+    xi, eta, inside = pupil_grid(400)
+    kept = inside & (xi**2 + eta**2 > lens.mask.obscuration**2)
+    waves = opd_map(lens, Source(wavelength_um=0.6328), 400)[kept]
+    assert found.rms == pytest.approx(waves.std(), rel=2e-3)
+    names = [found.terms[k].name for k in np.argsort(-found.share)[:2]]
+    assert "spherical aberration" in names[0] and found.share[10] > 0.99
+    assert found.rms_without_tilt == pytest.approx(sqrt(sum(found.rms_waves[1:] ** 2) + found.residual**2), rel=1e-9)
+
+
+def test_what_else_stands_in_the_stop_is_refused_and_so_is_a_clipped_ring():
+    for mask in (
+        PupilMask(blades=5),
+        PupilMask(obscuration=0.3, vanes=4),
+        PupilMask(apodisation=1),
+        PupilMask(cubic_um=1),
+    ):
+        with pytest.raises(GeometryError, match="take vanes, blades, filters and phases away"):
+            zernike_fit(with_mask(find_lens("telephoto"), mask), Source())
+    with pytest.raises(GeometryError, match="annular terms are over a whole ring"):
+        zernike_fit(with_mask(find_lens("cooke_triplet"), PupilMask(obscuration=0.3)), Source(field_deg=20), clip=True)

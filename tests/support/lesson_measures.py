@@ -198,7 +198,9 @@ def pupil(state: State) -> Pupil:
     rim = scale * np.stack([np.sin(turn), np.cos(turn)])
     spot = 4 * sum(abs(value) for value in w.values()) / abs(scale)
     one = np.ones_like(xi)
-    return pupil_through(scale * np.stack([xi, eta]), -shape(w, xi, eta), (xi, eta, one), rim, spot)
+    dark = lens.mask.obscuration
+    hole = dark * rim if dark else None
+    return pupil_through(scale * np.stack([xi, eta]), -shape(w, xi, eta), (xi, eta, one), rim, spot, hole)
 
 
 def shape(w: dict[str, float], xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -255,11 +257,12 @@ def airy_radius(state: State) -> float:
 
 
 def rms(state: State) -> float:
-    """Return the RMS of the wavefront about its mean, over a uniform grid of the pupil."""
-    node, weight = leggauss(24)
-    rho, angle = np.sqrt((1 + node) / 2)[:, None], 2 * np.pi * (np.arange(48) + 0.5) / 48
-    xi, eta = (rho * np.sin(angle)).ravel(), (rho * np.cos(angle)).ravel()
+    """Return the RMS of the wavefront about its mean, over a uniform grid of the pupil outside its obscuration."""
     lens, source = lens_and_source(state)
+    node, weight = leggauss(24)
+    dark = lens.mask.obscuration**2
+    rho, angle = np.sqrt((1 + dark + (1 - dark) * node) / 2)[:, None], 2 * np.pi * (np.arange(48) + 0.5) / 48
+    xi, eta = (rho * np.sin(angle)).ravel(), (rho * np.cos(angle)).ravel()
     if is_altered(state) or state.optics.method == "seidel":
         w = coefficients(state)
         waves = shape(w, xi, eta)

@@ -73,7 +73,8 @@ class Sums:
 class Pupil:
     """Polynomials over the box ``centre`` ± ``half`` (cycles/mm) of f: phase in waves, entrance-pupil point, density.
 
-    ``rim``: distance of the rim from the centre over the angle from +fx, in units of ``half``.
+    ``rim``: distance of the rim from the centre over the angle from +fx, in units of ``half``; ``hole``: of the edge of
+    the obscuration in the stop, if there is one.
     """
 
     half: float
@@ -84,6 +85,7 @@ class Pupil:
     rim: CubicSpline
     slope: float
     error: float
+    hole: CubicSpline | None = None
 
 
 def sums(lens: Lens, source: Source, aim: str = "stop", perfect: bool = False, cells: int | None = None) -> Sums:
@@ -122,13 +124,20 @@ def pupil_of(lens: Lens, source: Source, aim: str) -> Pupil:
     if not (np.isfinite(phase).all() and np.isfinite(rim).all()):
         raise LostRays(f"{np.isnan(phase).sum()} of {phase.size} rays are lost")
     slope = float(np.hypot(rays.x - chief.x, rays.y - chief.y).max())
-    return pupil_through(f, phase, (rays.pupil_x, rays.pupil_y, rays.density), rim, slope)
+    dark = lens.mask.obscuration
+    hole = phase_and_frequency(system, fill(system, source, dark * np.sin(turn), dark * np.cos(turn)), chief)[1]
+    return pupil_through(f, phase, (rays.pupil_x, rays.pupil_y, rays.density), rim, slope, hole if dark else None)
 
 
 def pupil_through(
-    f: np.ndarray, phase: np.ndarray, entering: tuple[np.ndarray, np.ndarray, np.ndarray], rim: np.ndarray, spot: float
+    f: np.ndarray,
+    phase: np.ndarray,
+    entering: tuple[np.ndarray, np.ndarray, np.ndarray],
+    rim: np.ndarray,
+    spot: float,
+    hole: np.ndarray | None = None,
 ) -> Pupil:
-    """Return the pupil through points of it: their f (2, ray), phase, (x, y, density) and, as f, its rim.
+    """Return the pupil through points of it: their f (2, ray), phase, (x, y, density) and, as f, its rim and its hole.
 
     ``spot``: how far from the chief ray the farthest ray lands, mm.
     """
@@ -136,7 +145,8 @@ def pupil_through(
     half = MARGIN * max(rim[0].max(), rim[1].max() - centre)
     u, v = f[0] / half, (f[1] - centre) / half
     fits, error = _fits(u, v, ((phase, 0), (entering[0], 1), (entering[1], 0), (entering[2], 0)))
-    return Pupil(half, *fits, _rim_curve(rim[0] / half, (rim[1] - centre) / half), spot * half, error)
+    outer, *inner = (_rim_curve(e[0] / half, (e[1] - centre) / half) for e in (rim, hole) if e is not None)
+    return Pupil(half, *fits, outer, spot * half, error, *inner)
 
 
 def _rays(radii: int, angles: int) -> tuple[np.ndarray, np.ndarray]:
@@ -211,7 +221,7 @@ def on_grid(pupil: Pupil, cells: int, perfect: bool) -> OnGrid:
     axis = (np.arange(cells) + 0.5) * (2 / cells) - 1
     step = 2 * pupil.half / cells
     amplitude, phase, (slope_x, slope_y) = _fields(pupil, axis)
-    covered = _coverage(pupil.rim, axis)
+    covered = _open_cells(pupil, axis)
     light = float((covered * amplitude**2).sum())
     centroid = (
         np.zeros(2) if perfect else -np.array([(covered * amplitude**2 * s).sum() for s in (slope_x, slope_y)]) / light
@@ -245,6 +255,12 @@ def _fields(pupil: Pupil, axis: np.ndarray) -> tuple[np.ndarray, np.ndarray, tup
     amplitude = np.abs(jacobian) * on(pupil.density)
     amplitude /= amplitude[len(axis) // 2, len(axis) // 2]
     return amplitude, on(pupil.phase), (on(pupil.phase, 0), on(pupil.phase, 1))
+
+
+def _open_cells(pupil: Pupil, axis: np.ndarray) -> np.ndarray:
+    """Return the part of every cell (v, u) inside the rim and outside the hole."""
+    inside = _coverage(pupil.rim, axis)
+    return inside if pupil.hole is None else inside - _coverage(pupil.hole, axis)
 
 
 def _coverage(rim: CubicSpline, axis: np.ndarray) -> np.ndarray:
@@ -331,6 +347,6 @@ def field_at(pupil: Pupil, x_um: np.ndarray, y_um: np.ndarray, cells: int) -> np
     """Return the field (y, x) at places in µm from the chief ray, from the polynomials, up to a constant phase."""
     axis = (np.arange(cells) + 0.5) * (2 / cells) - 1
     amplitude, phase, _ = _fields(pupil, axis)
-    grid = _coverage(pupil.rim, axis) * amplitude * np.exp(2j * np.pi * phase)
+    grid = _open_cells(pupil, axis) * amplitude * np.exp(2j * np.pi * phase)
     along, across = (np.exp(2j * np.pi * pupil.half / 1000 * np.outer(places, axis)) for places in (y_um, x_um))
     return along @ grid @ across.T

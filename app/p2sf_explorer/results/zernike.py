@@ -2,10 +2,13 @@
 
 from dataclasses import dataclass
 
-from p2sf.lens.lens import check_unmasked
+import numpy as np
+
 from p2sf.messages import Message, Number
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
-from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, decomposed
+from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decomposed, open_nodes, pupil_opd
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.pupil import pupil_samples
 from p2sf_explorer.results.first_order import NONE, Row
@@ -22,11 +25,22 @@ class ZernikeView:
 
 def zernike(live: Live) -> ZernikeView:
     """Return the terms of the wavefront over the part of the pupil that passes light (handbook 3.4)."""
-    check_unmasked(live.setup.lens, Message("the decomposition of a wavefront"))
     exact = live.pupil.kind == "exact rays"
-    nodes, waves, _ = pupil_samples(live.setup, exact, live.quality, live.state.optics.clip)
+    if live.setup.lens.mask.clear:
+        nodes, waves, _ = pupil_samples(live.setup, exact, live.quality, live.state.optics.clip)
+    else:
+        nodes, waves = _over_the_ring(live, exact)
     fits = {order: decomposed(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
     return ZernikeView(fits, live.pupil.kind)
+
+
+def _over_the_ring(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:
+    """Return nodes about the obscuration and the wavefront there, waves; GeometryError for what else is in the stop."""
+    lens, source = live.setup.lens, live.setup.source
+    if exact:
+        return pupil_opd(lens, source, live.state.optics.clip)
+    nodes = open_nodes(lens, source, COUNTS)
+    return nodes, np.asarray(wavefront(live.setup.coefficients, nodes.xi, nodes.eta))
 
 
 def rows(fit: ZernikeFit) -> tuple[Row, ...]:

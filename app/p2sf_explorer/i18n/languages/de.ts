@@ -854,6 +854,7 @@
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
+<message><source>Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; take vanes, blades, filters and phases away</source><translation>Zernike-Terme gelten über eine Scheibe oder einen Ring, und in der Blende steht mehr als eine Abschattung; Streben, Lamellen, Filter und Phasen wegnehmen</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
 <message><source>Zoom</source><translation>Zoom</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
@@ -1478,6 +1479,7 @@
 <message><source>rims and holes of mirrors hide {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
+<message><source>rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a whole ring; leave {parameter} off, stop the lens down, or take the obscuration away</source><translation>Ränder begrenzen eine Pupille mit Abschattung, oder Strahlen von ihr gehen verloren, und Ringterme gelten über einen ganzen Ring; {parameter} weglassen, abblenden oder die Abschattung wegnehmen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>roundness</source><translation>Rundung</translation></message>
 <message><source>sagittal</source><translation>sagittal</translation></message>
