@@ -4,7 +4,7 @@ from functools import reduce
 from math import isfinite, pi
 from typing import NamedTuple
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, FloatOrArray
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
 from p2sf.lens.even_terms import power_terms
@@ -16,6 +16,7 @@ from p2sf.lensfile.codev import ORDERS, TILT_NAMES
 from p2sf.lensfile.conjugates import FAR, limiting_rim
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
+from p2sf.lensfile.source_text import digits
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
@@ -49,13 +50,8 @@ def lens_to_seq(lens: Lens) -> str:
     surfaces = [line for row in rows for line in _surface(lens, row, stop, private)]
     image = placement_of(reduce(Motion.then, (placement.motion for placement in lens.sensor_before), along_z(0.0)))
     behind = f" {_glass(lens.object_medium, private)}" if lens.object_medium != AIR else ""
-    head = [*_head(lens), f"SO 0.0 {_number(FAR)}{behind}"]
+    head = [*_head(lens), f"SO 0.0 {digits(FAR)}{behind}"]
     return "\n".join([*head, *surfaces, "SI 0.0 0.0", *_tilts("", image), *_catalogue(lens, private), "GO", ""])
-
-
-def _number(value: FloatOrArray) -> str:
-    """Return a number in the digits that read back as itself."""
-    return repr(float(value))
 
 
 def _head(lens: Lens) -> list[str]:
@@ -67,10 +63,10 @@ def _head(lens: Lens) -> list[str]:
         "LEN",
         f"TITLE '{title.replace(chr(39), chr(8217))}'",
         "DIM M",
-        *[f"{keyword} {_number(lens.aperture.value)}"] * bool(keyword),
-        f"WL {' '.join(map(_number, waves))}",
+        *[f"{keyword} {digits(lens.aperture.value)}"] * bool(keyword),
+        f"WL {' '.join(map(digits, waves))}",
         f"REF {waves.index(sorted(waves)[len(waves) // 2]) + 1}",
-        f"YAN {' '.join(map(_number, lens.fields_deg))}",
+        f"YAN {' '.join(map(digits, lens.fields_deg))}",
     ]
 
 
@@ -111,7 +107,7 @@ def _surface(lens: Lens, row: Row, stop: int, private: dict[Medium, str]) -> lis
     radius = surface.radius if isfinite(surface.radius) else 0.0
     thickness = surface.thickness if row.number >= 0 else 0.0
     glass = "REFL" if surface.reflects else _glass(row.medium, private)
-    lines = [" ".join(f"S {_number(radius)} {_number(thickness)} {glass}".split())]
+    lines = [" ".join(f"S {digits(radius)} {digits(thickness)} {glass}".split())]
     lines += ["STO"] * (number == stop)
     lines += [*_shape(surface, number), *_phase(surface.diffraction, lens), *_rim(lens, surface, number == stop)]
     return [*lines, *_tilts(row.kind, row.placement)]
@@ -123,7 +119,7 @@ def _tilts(kind: str, placement: Placement) -> list[str]:
         placement = placement_of(placement.motion)
     a, b, c = placement.tilt_deg
     numbers = zip(TILT_NAMES, (*placement.decentre, -a, -b, c), strict=True)
-    return [*(f"{name} {_number(value)}" for name, value in numbers if value), *[kind] * bool(kind)]
+    return [*(f"{name} {digits(value)}" for name, value in numbers if value), *[kind] * bool(kind)]
 
 
 def _shape(surface: Surface, number: int) -> list[str]:
@@ -136,11 +132,11 @@ def _shape(surface: Surface, number: int) -> list[str]:
         )
     radius, terms = power_terms(surface)
     if radius == 1 and all(power in LETTERS for power in terms):
-        conic = [f"K {_number(surface.conic)}"] * bool(surface.conic or terms)
+        conic = [f"K {digits(surface.conic)}"] * bool(surface.conic or terms)
         return [
             *["ASP"] * bool(conic),
             *conic,
-            *(f"{LETTERS[power]} {_number(a)}" for power, a in sorted(terms.items())),
+            *(f"{LETTERS[power]} {digits(a)}" for power, a in sorted(terms.items())),
         ]
     if max(terms) > HIGHEST_ODD:
         raise LensFileError(
@@ -150,7 +146,7 @@ def _shape(surface: Surface, number: int) -> list[str]:
             most=HIGHEST_ODD,
         )
     numbers = [("K", surface.conic), *((f"AR{power}", a) for power, a in sorted(terms.items()))]
-    return [f"SPS ODD {_number(radius)}", *(f"SCO {name} {_number(value)}" for name, value in numbers if value)]
+    return [f"SPS ODD {digits(radius)}", *(f"SCO {name} {digits(value)}" for name, value in numbers if value)]
 
 
 def _phase(diffraction: Diffraction | None, lens: Lens) -> list[str]:
@@ -160,15 +156,15 @@ def _phase(diffraction: Diffraction | None, lens: Lens) -> list[str]:
     wave = lens.reference_wavelength_um
     unit = wave / (UM_PER_MM * 2 * pi)
     terms = (a * unit / diffraction.normalisation_mm ** (2 * k) for k, a in enumerate(diffraction.coefficients, 1))
-    numbers = [f"HCO C{k} {_number(value)}" for k, value in enumerate(terms, 1) if value]
-    return ["DIF DOE", f"HOR {_number(diffraction.order)}", f"HWL {_number(wave * NM_PER_UM)}", "HCT R", *numbers]
+    numbers = [f"HCO C{k} {digits(value)}" for k, value in enumerate(terms, 1) if value]
+    return ["DIF DOE", f"HOR {digits(diffraction.order)}", f"HWL {digits(wave * NM_PER_UM)}", "HCT R", *numbers]
 
 
 def _rim(lens: Lens, surface: Surface, is_stop: bool) -> list[str]:
     rim, shaped = surface.semi_diameter, surface.rim
     if is_stop and lens.aperture.kind == "stop_semi_diameter":
         rim = lens.aperture.value
-    lines = [f"CIR {_number(rim)}"] * isfinite(rim) + [f"CIR OBS {_number(surface.inner_radius)}"] * bool(
+    lines = [f"CIR {digits(rim)}"] * isfinite(rim) + [f"CIR OBS {digits(surface.inner_radius)}"] * bool(
         surface.inner_radius
     )
     if shaped is None:
@@ -177,7 +173,7 @@ def _rim(lens: Lens, surface: Surface, is_stop: bool) -> list[str]:
     sides = zip(("REX", "REY"), shaped.half_widths or (), strict=False)
     return [
         *lines,
-        *(f"{name} {_number(side)}" for name, side in (*sides, *numbers.items()) if side and isfinite(side)),
+        *(f"{name} {digits(side)}" for name, side in (*sides, *numbers.items()) if side and isfinite(side)),
     ]
 
 
@@ -188,7 +184,7 @@ def _glass(medium: Medium, private: dict[Medium, str]) -> str:
     if isinstance(medium, CatalogueGlass) and medium.label.count(" ") == 1 and (word := _makers_name(medium)):
         return word
     if isinstance(medium, ModelGlass):
-        return f"{_number(medium.nd)}:{_number(medium.vd)}"
+        return f"{digits(medium.nd)}:{digits(medium.vd)}"
     return f"'{private.setdefault(medium, f'PRIVATE{len(private) + 1}')}'"
 
 
@@ -210,6 +206,6 @@ def _catalogue(lens: Lens, private: dict[Medium, str]) -> list[str]:
             waves = [wave * NM_PER_UM for wave in medium.wavelengths_um]
         else:
             waves = list(ANY_WAVELENGTH_NM) if isinstance(medium, ConstantIndex) else sorted(lens.wavelengths_nm)
-        numbers = " ".join(_number(medium.index(wave / NM_PER_UM)) for wave in waves)
-        lines += [f"PWL {' '.join(map(_number, waves))}", f"'{name}' {numbers}"]
+        numbers = " ".join(digits(medium.index(wave / NM_PER_UM)) for wave in waves)
+        lines += [f"PWL {' '.join(map(digits, waves))}", f"'{name}' {numbers}"]
     return ["PRV", *lines, "END"] if lines else []

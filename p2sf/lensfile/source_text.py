@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from p2sf.conventions import FloatOrArray
 from p2sf.errors import LensFileError
 from p2sf.files.atomic import write_whole
 from p2sf.messages import Message
@@ -156,6 +157,11 @@ def whole(word: str, what: str | Message, source: LensText, line: int) -> int:
     if value != int(value) or abs(value) > 1e6:
         raise source.error('{what} "{word}" is not a whole number; correct it', line, what=what, word=word[:40])
     return int(value)
+
+
+def digits(value: FloatOrArray) -> str:
+    """Return a number, also one of numpy's, in the digits that read back as itself."""
+    return repr(float(value))
 
 
 def read_text(path: str | os.PathLike) -> str:

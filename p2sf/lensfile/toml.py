@@ -71,7 +71,7 @@ from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial, Shape
 from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.columns import KINDS as RINGS
 from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
-from p2sf.lensfile.source_text import read_text, write_text
+from p2sf.lensfile.source_text import digits, read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
 from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements, read_rim, rim_text
 from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
@@ -102,7 +102,7 @@ def lens_to_toml(lens: Lens) -> str:
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
     head = _joined(axes, [_head(replace(column, **_texts_of(lens))) for column in columns])
     rings = "".join(axis_text(axis, _text, _list) for axis in axes)
-    opening = joined(axes, lens.aperture.kind, [_number(column.aperture.value) for column in columns])
+    opening = joined(axes, lens.aperture.kind, [digits(column.aperture.value) for column in columns])
     aperture = f"\n[aperture]\n{lens.aperture.kind} = {opening}\n"
     surfaces = [_surface_text(lens, columns, number) for number in range(1, len(lens.surfaces) + 1)]
     pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
@@ -144,14 +144,14 @@ def _surface_text(lens: Lens, columns: tuple[Lens, ...], number: int) -> str:
 
 def _lines(surface: Surface) -> tuple[_Line, ...]:
     return (
-        _Line("radius", _number(surface.radius)),
-        _Line("thickness", _number(surface.thickness)),
+        _Line("radius", digits(surface.radius)),
+        _Line("thickness", digits(surface.thickness)),
         _Line("glass", _medium(surface.medium), '"air"'),
-        _Line("semi_diameter", _number(surface.semi_diameter), "inf"),
-        _Line("inner_radius", _number(surface.inner_radius), "0.0"),
+        _Line("semi_diameter", digits(surface.semi_diameter), "inf"),
+        _Line("inner_radius", digits(surface.inner_radius), "0.0"),
         _Line("rim", rim_text(surface.rim) if surface.rim else ""),
-        _Line("conic", _number(surface.conic), "0.0"),
-        _Line("ideal_focal_length", _number(surface.ideal_focal_length), "inf"),
+        _Line("conic", digits(surface.conic), "0.0"),
+        _Line("ideal_focal_length", digits(surface.ideal_focal_length), "inf"),
         _Line("aspheric", _list(surface.aspheric), "[]"),
         _Line("shape", _shape(surface.shape) if surface.shape else ""),
         _Line("diffraction", _diffraction(surface.diffraction) if surface.diffraction else ""),
@@ -169,22 +169,18 @@ def _shape(shape: Shape) -> str:
         kind, numbers = ("extended asphere", numbers[1::2]) if even else ("extended odd asphere", numbers)
     else:
         kind = type(shape).__name__
-    radius = _number(shape.normalisation_mm)
+    radius = digits(shape.normalisation_mm)
     return f'{{ type = "{kind}", normalisation_radius = {radius}, coefficients = {_list(numbers)} }}'
 
 
 def _diffraction(diffraction: Diffraction) -> str:
-    order, radius = _number(diffraction.order), _number(diffraction.normalisation_mm)
+    order, radius = digits(diffraction.order), digits(diffraction.normalisation_mm)
     numbers = _list(diffraction.coefficients)
     return f"{{ order = {order}, normalisation_radius = {radius}, coefficients = {numbers} }}"
 
 
-def _number(x: float) -> str:
-    return repr(float(x))
-
-
 def _list(numbers: Iterable[float]) -> str:
-    return f"[{', '.join(map(_number, numbers))}]"
+    return f"[{', '.join(map(digits, numbers))}]"
 
 
 def _text(text: str) -> str:
@@ -199,16 +195,16 @@ def _medium(medium: Medium) -> str:
     if medium == AIR:
         return '"air"'
     if isinstance(medium, ConstantIndex):
-        return _number(medium.value)
+        return digits(medium.value)
     if isinstance(medium, CatalogueGlass | Mirror):
         return _text(medium.label)
     if isinstance(medium, ModelGlass):
-        return f"{{ nd = {_number(medium.nd)}, vd = {_number(medium.vd)} }}"
+        return f"{{ nd = {digits(medium.nd)}, vd = {digits(medium.vd)} }}"
     if isinstance(medium, TabulatedIndex):
         label = "" if medium.label == "table" else f", label = {_text(medium.label)}"
         return f"{{ wavelengths_um = {_list(medium.wavelengths_um)}, n = {_list(medium.values)}{label} }}"
     if isinstance(medium, ShiftedIndex):
-        return f"{{ glass = {_medium(medium.medium)}, shift = {_number(medium.shift)} }}"
+        return f"{{ glass = {_medium(medium.medium)}, shift = {digits(medium.shift)} }}"
     if isinstance(medium, FormulaGlass):
         numbers = f"coefficients = {_list(medium.coefficients)}, range_um = {_list(medium.range_um)}"
         return f"{{ agf_formula = {medium.formula}, {numbers}, name = {_text(medium.name)} }}"

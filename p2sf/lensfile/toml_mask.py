@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.toml_table import Constraint, Table, shown
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMap, PupilMask
@@ -98,8 +99,8 @@ def mask_lines(mask: PupilMask) -> Iterator[tuple[str, str, str]]:
 
 
 def _written(value: float) -> str:
-    return repr(int(value)) if isinstance(value, int | np.integer) else repr(float(value))
+    return repr(int(value)) if isinstance(value, int | np.integer) else digits(value)
 
 
 def _list(numbers: Any) -> str:
-    return f"[{', '.join(repr(float(x)) for x in numbers)}]"
+    return f"[{', '.join(digits(x) for x in numbers)}]"

@@ -9,6 +9,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
+from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.toml_table import Constraint, Table, shown
 from p2sf.messages import Message
 
@@ -81,7 +82,7 @@ def placements_text(placements: Iterable[Placement]) -> str:
 
 def _text(placement: Placement) -> str:
     parts = [
-        f"{key} = [{', '.join(map(repr, map(float, numbers)))}]"
+        f"{key} = [{', '.join(map(digits, numbers))}]"
         for key, numbers in (
             ("decentre", placement.decentre),
             ("tilt_deg", placement.tilt_deg),
@@ -111,6 +112,6 @@ def read_rim(surface: Table, scale: float) -> Rim | None:
 def rim_text(rim: Rim) -> str:
     """Return a rim as `read_rim` reads it, in mm."""
     pairs = (("decentre", rim.decentre), ("half_widths", rim.half_widths))
-    parts = [f"{key} = [{', '.join(repr(float(x)) for x in pair)}]" for key, pair in pairs if pair]
-    parts += [f"turn_deg = {float(rim.turn_deg)!r}"] * bool(rim.turn_deg)
+    parts = [f"{key} = [{', '.join(digits(x) for x in pair)}]" for key, pair in pairs if pair]
+    parts += [f"turn_deg = {digits(rim.turn_deg)}"] * bool(rim.turn_deg)
     return f"{{ {', '.join(parts)} }}"

@@ -21,7 +21,7 @@ from p2sf.lensfile.columns import columns_of
 from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
-from p2sf.lensfile.source_text import write_text
+from p2sf.lensfile.source_text import digits, write_text
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns, focused_vergence
@@ -160,12 +160,12 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
         "MODE SEQ",
         f"NAME {' '.join((lens.title or lens.name).split())}",
         "UNIT MM X W X CM MR CPMM",
-        f"{keyword} {lens.aperture.value!r} 0" if keyword else "FLOA",
+        f"{keyword} {digits(lens.aperture.value)} 0" if keyword else "FLOA",
         f"GCAT {' '.join(makers)}",
         f"FTYP 0 0 {len(fields)} {len(waves)} 0 0 0",
         f"XFLN {' '.join('0' for _ in fields)}",
-        f"YFLN {' '.join(repr(float(field)) for field in fields)}",
-        *(f"WAVM {i} {wave / NM_PER_UM!r} 1" for i, wave in enumerate(waves, 1)),
+        f"YFLN {' '.join(digits(field) for field in fields)}",
+        *(f"WAVM {i} {digits(wave / NM_PER_UM)} 1" for i, wave in enumerate(waves, 1)),
         f"PWAV {primary}",
     ]
 
@@ -188,8 +188,9 @@ def _zemax_break(
     x: float, y: float, a: float, b: float, c: float, order: float, behind: float, more: float = 0.0
 ) -> list[str]:
     """Return the lines of a coordinate break: decentres, tilts, order and the thickness behind it."""
-    numbers = [f"  PARM {place} {value!r}" for place, value in enumerate((x, y, a, b, c, int(order)), 1)]
-    return ["  TYPE COORDBRK", "  CURV 0.0", *numbers, f"  DISZ {behind + more!r}"]
+    numbers = [f"  PARM {place} {digits(value)}" for place, value in enumerate((x, y, a, b, c), 1)]
+    numbers.append(f"  PARM 6 {int(order)}")
+    return ["  TYPE COORDBRK", "  CURV 0.0", *numbers, f"  DISZ {digits(behind + more)}"]
 
 
 def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list[str]:
@@ -200,12 +201,12 @@ def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list
     return [
         *["  STOP"] * (number == stop),
         f"  TYPE {kind}",
-        f"  CURV {surface.curvature!r}",
+        f"  CURV {digits(surface.curvature)}",
         *numbers,
-        f"  DISZ {surface.thickness!r}",
+        f"  DISZ {digits(surface.thickness)}",
         *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
-        *[f"  CONI {surface.conic!r}"] * bool(surface.conic),
-        f"  DIAM {rim if isfinite(rim) else 0!r} {int(isfinite(rim))} 0 0 1",
+        *[f"  CONI {digits(surface.conic)}"] * bool(surface.conic),
+        f"  DIAM {digits(rim) if isfinite(rim) else 0} {int(isfinite(rim))} 0 0 1",
         *_zemax_rim(surface, number),
     ]
 
@@ -214,20 +215,20 @@ def _zemax_rim(surface: Surface, number: int) -> list[str]:
     """Return the lines of a hole and of a rim that is decentred or a rectangle, which takes the place of a circle's."""
     rim, hole = surface.rim, surface.inner_radius
     if rim is None:
-        return [f"  OBSC 0 {hole!r}"] * bool(hole)
+        return [f"  OBSC 0 {digits(hole)}"] * bool(hole)
     if rim.turn_deg or (rim.half_widths and hole):
         raise LensFileError(
             "surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save "
             "as TOML",
             surface=number,
         )
-    x, y = map(float, rim.decentre)
+    x, y = map(digits, rim.decentre)
     if rim.half_widths:
-        across, up = map(float, rim.half_widths)
-        clear = f"  SQAP {across!r} {up!r} 0"
+        across, up = map(digits, rim.half_widths)
+        clear = f"  SQAP {across} {up} 0"
     else:
-        clear = f"  CLAP {float(hole)!r} {float(min(surface.semi_diameter, UNLIMITED))!r} 0"
-    return [clear, f"  OBDC {x!r} {y!r}"]
+        clear = f"  CLAP {digits(hole)} {digits(min(surface.semi_diameter, UNLIMITED))} 0"
+    return [clear, f"  OBDC {x} {y}"]
 
 
 def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
@@ -239,11 +240,11 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     radius, terms = power_terms(surface)
     odd, top = any(power % 2 for power in terms), max(terms, default=0)
     step = 1 if odd else 2
-    parameters = [f"  PARM {power // step} {value!r}" for power, value in sorted(terms.items())]
+    parameters = [f"  PARM {power // step} {digits(value)}" for power, value in sorted(terms.items())]
     if isinstance(surface.shape, Qbfs):
         return "QED_TYPE", _forbes_data(surface, surface.shape, number)
     if surface.ideal:
-        return "PARAXIAL", [f"  PARM 1 {surface.ideal_focal_length!r}"]
+        return "PARAXIAL", [f"  PARM 1 {digits(surface.ideal_focal_length)}"]
     if surface.diffraction is not None:
         if odd or radius != 1 or top > HIGHEST_ZEMAX_ORDER:
             raise LensFileError(
@@ -252,7 +253,11 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
                 surface=number,
             )
         d = surface.diffraction
-        return "BINARY_2", [f"  PARM 0 {d.order!r}", *parameters, *_extra_data(d.normalisation_mm, d.coefficients)]
+        return "BINARY_2", [
+            f"  PARM 0 {digits(d.order)}",
+            *parameters,
+            *_extra_data(d.normalisation_mm, d.coefficients),
+        ]
     if not terms:
         return "STANDARD", []
     if radius == 1 and top <= (HIGHEST_ZEMAX_ODD if odd else HIGHEST_ZEMAX_ORDER):
@@ -278,16 +283,16 @@ def _extra_data(radius: float, numbers: tuple[float, ...]) -> list[str]:
 
 
 def _extra_lines(values: tuple[float, ...]) -> list[str]:
-    return [f"  XDAT {place} {float(x)!r} 0 0 1 0 0" for place, x in enumerate(values, 1)]
+    return [f"  XDAT {place} {digits(x)} 0 0 1 0 0" for place, x in enumerate(values, 1)]
 
 
 def _zemax_glass(medium: Medium) -> str:
     if medium == MIRROR:
         return "  GLAS MIRROR 0 0 1.5 40 0 0 0 0 0 0"
     if isinstance(medium, ConstantIndex):
-        return f"  GLAS ___BLANK 1 0 {medium.value!r} 0 0 0 0 0 0 0"
+        return f"  GLAS ___BLANK 1 0 {digits(medium.value)} 0 0 0 0 0 0 0"
     if isinstance(medium, ModelGlass):
-        return f"  GLAS ___BLANK 1 0 {medium.nd!r} {medium.vd!r} 0 0 0 0 0 0"
+        return f"  GLAS ___BLANK 1 0 {digits(medium.nd)} {digits(medium.vd)} 0 0 0 0 0 0"
     if isinstance(medium, CatalogueGlass) and medium.label == SILICA_LABEL:
         return "  GLAS SILICA 0 0 1.5 40 0 0 0 0 0 0"
     if isinstance(medium, CatalogueGlass) and " " in medium.label:
@@ -319,9 +324,11 @@ def lens_to_agf(lens: Lens) -> str:
 
 def _agf_entry(glass: FormulaGlass) -> str:
     nd, vd = nd_and_vd(glass)
-    coefficients = " ".join(map(repr, glass.coefficients))
+    coefficients = " ".join(map(digits, glass.coefficients))
     low, high = glass.range_um
-    return f"NM {glass.name} {glass.formula} 0 {nd:.6f} {vd:.4f} 0 0\nCD {coefficients}\nLD {low!r} {high!r}\n"
+    return (
+        f"NM {glass.name} {glass.formula} 0 {nd:.6f} {vd:.4f} 0 0\nCD {coefficients}\nLD {digits(low)} {digits(high)}\n"
+    )
 
 
 def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
@@ -347,8 +354,8 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
         row = _iset_row(_iset_surface(surface, number), _iset_index(surface.medium, wave, spectral))
         plain = not surface.bare or surface.medium != lens.media[number - 1]
         if number == stop:
-            opening = {"radius": 0, "thickness": 0.0, "ior": 0, "semi_aperture": _stop_rim(lens, stop, wave)}
-            rows += [opening] if plain else [opening | {"thickness": surface.thickness}]
+            opening = {"radius": 0, "thickness": 0.0, "ior": 0, "semi_aperture": float(_stop_rim(lens, stop, wave))}
+            rows += [opening] if plain else [opening | {"thickness": float(surface.thickness)}]
         if number != stop or plain:
             rows.append(row)
     focal = -1 / trace(lens, 1, wave).last[2] if trace(lens, 1, wave).last[2] else inf
@@ -360,7 +367,7 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
         "surfaces": rows,
     }
     if isfinite(focal):
-        top["metadata"] = {"focalLength": focal / 1000}  # ISET keeps it in metres
+        top["metadata"] = {"focalLength": float(focal) / 1000}  # ISET keeps it in metres
     return json.dumps(top, indent=1) + "\n"
 
 
@@ -382,16 +389,16 @@ def _iset_surface(surface: Surface, number: int) -> Surface:
 
 def _iset_row(surface: Surface, ior: float | list[list[float]]) -> dict[str, Any]:
     row: dict[str, Any] = {
-        "radius": surface.radius if isfinite(surface.radius) else 0,
-        "thickness": surface.thickness,
+        "radius": float(surface.radius) if isfinite(surface.radius) else 0,
+        "thickness": float(surface.thickness),
         "ior": ior,
     }
     if isfinite(surface.semi_diameter):
-        row["semi_aperture"] = surface.semi_diameter
+        row["semi_aperture"] = float(surface.semi_diameter)
     if surface.conic:
-        row["conic_constant"] = surface.conic
+        row["conic_constant"] = float(surface.conic)
     if surface.aspheric:
-        row["aspheric_coefficients"] = list(surface.aspheric)
+        row["aspheric_coefficients"] = [float(a) for a in surface.aspheric]
     return row
 
 

@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.glass.media import TabulatedIndex, catalogue_glass
+from p2sf.glass.media import ConstantIndex, ModelGlass, TabulatedIndex, catalogue_glass
 from p2sf.lens import RadialPolynomial, Source
 from p2sf.lens.even_terms import sag
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
+from p2sf.lens.placement import Placement
+from p2sf.lens.rim import Rim
+from p2sf.lens.shapes import Diffraction
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.agf import read_agf
 from p2sf.lensfile.library import find_lens, shipped_lenses
@@ -132,6 +135,32 @@ def test_own_glasses_travel_in_a_catalogue_beside_the_lens(tmp_path):
     write_lens(lens, tmp_path / "out.zmx")
     assert (tmp_path / "out.agf").exists()
     assert load_lens(tmp_path / "out.zmx").media == lens.media
+
+
+def made_of(number, bare: bool) -> Lens:
+    """Return a lens all of whose numbers were made by ``number``; ``bare`` leaves out what ISET cannot say."""
+    x = [number(value) for value in (20.0, 3.5, 0.2, -0.5, 1e-6, 45.0, 1.5, 64.0)]
+    radius, gap, small, conic, term, back, index, abbe = x
+    before = () if bare else (Placement(small, conic, term, small, conic, gap),)
+    rim, phase = (None, None) if bare else (Rim((small, conic), (gap, gap)), Diffraction((small, term), radius, gap))
+    glasses = ModelGlass(index, abbe), ConstantIndex(index)
+    front = Surface(radius, gap, glasses[0], conic, (term,), radius, diffraction=phase)
+    rows = (
+        front,
+        Surface(-radius, small, glasses[1], semi_diameter=radius, before=before, rim=rim),
+        Surface(back, back),
+    )
+    return Lens(rows, Aperture("stop_semi_diameter", gap), 3, fields_deg=(gap,), wavelengths_nm=(number(550.0),))
+
+
+@pytest.mark.parametrize("ending", [".toml", ".zmx", ".seq", ".json"])
+def test_numpy_numbers_are_written_as_plain_ones(ending, tmp_path):
+    """Those of double precision in the same digits; single ones are rounded anew where a format has 1/radius."""
+    texts = []
+    for number in (float, np.float64, np.float32):
+        write_lens(made_of(number, ending == ".json"), tmp_path / f"out{ending}")
+        texts.append((tmp_path / f"out{ending}").read_text())
+    assert texts[0] == texts[1] and "np." not in texts[2]
 
 
 def test_an_ending_nobody_writes(tmp_path):
