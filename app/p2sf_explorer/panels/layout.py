@@ -32,7 +32,7 @@ from p2sf_explorer.layout_view.source_point import DrawnSetup, SourceHandle, spa
 from p2sf_explorer.layout_view.surface_highlight import SurfaceHighlight
 from p2sf_explorer.state.scales import nice, signed
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card, chooser, select
+from p2sf_explorer.widgets.card import Card, chooser, select, select_or_add
 from p2sf_explorer.widgets.thumbnail import glass
 
 TIP = (
@@ -49,7 +49,7 @@ WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": 
 OTHER_FIELDS = ("marginal", "third", "warning", "muted")  # colours of the fans whose source is not at the ring
 COLOURED = (("kind", "by kind"), ("field", "by field"), ("wavelength", "by wavelength"))
 COLOURED_TIP = "Rays coloured by their kind, or from every field or at every wavelength that the lens states"
-LARGER = (("1", "tilts as they are"), ("10", "tilts ×10"), ("30", "tilts ×30"), ("100", "tilts ×100"))
+LARGER = (10, 30, 100)
 LARGER_TIP = "By what tilts and decentres of the Misalign panel are enlarged in the drawing"
 COUNTS = (3, 5, 7, 11, 21)
 COUNT_TIP = "How many rays come from each point"
@@ -84,7 +84,8 @@ class LayoutPanel:
         self.count = chooser(tuple((str(n), tr("{count} rays", count=n)) for n in COUNTS), COUNT_TIP, self.widget)
         self.coloured.activated.connect(lambda: store.update(rays_coloured=self.coloured.currentData()))
         self.count.activated.connect(lambda: store.update(rays_count=int(self.count.currentData())))
-        self.larger = chooser(LARGER, LARGER_TIP, self.widget)
+        factors = tuple((str(n), tr("tilts ×{factor}", factor=n)) for n in LARGER)
+        self.larger = chooser((("1", "tilts as they are"), *factors), LARGER_TIP, self.widget)
         self.larger.activated.connect(lambda: store.update(exaggerated=int(self.larger.currentData())))
         self.larger.hide()
         self.widget.add_tool(self.larger)
@@ -95,11 +96,10 @@ class LayoutPanel:
         """Paint the lens if it has changed, rays and marks always."""
         display = live.state.display
         select(self.coloured, display.rays_coloured)
-        select(self.larger, str(display.exaggerated))
+        factor, count = display.exaggerated, display.rays_count
+        select_or_add(self.larger, str(factor), tr("tilts ×{factor}", factor=factor))
         self.larger.setVisible(bool(live.state.optics.errors))
-        if self.count.findData(str(display.rays_count)) < 0:
-            self.count.addItem(tr("{count} rays", count=display.rays_count), str(display.rays_count))
-        select(self.count, str(display.rays_count))
+        select_or_add(self.count, str(count), tr("{count} rays", count=count))
         if live.state.optics.lens != self._lens:
             self._lens = live.state.optics.lens
             self._store.select(None)

@@ -369,6 +369,13 @@ def select(box: QComboBox, value: str) -> None:
         box.blockSignals(False)
 
 
+def select_or_add(box: QComboBox, value: str, words: str) -> None:
+    """Show a value without a signal; one that is not offered joins the others under its ``words``."""
+    if box.findData(value) < 0:
+        box.addItem(words, value)
+    select(box, value)
+
+
 SIDE_PX = 196
 LINE_SPACE = 4  # pixels between the controls of a line
 

@@ -127,3 +127,10 @@ def test_the_layout_says_that_it_is_seen_along_x_and_by_what_it_exaggerates(wind
     assert "not symmetric: seen along x" in legend.text() and "×30" in legend.text()
     window.store.update(errors=())
     assert "×30" not in legend.text() and "seen along x" not in legend.text()
+
+
+def test_an_exaggeration_from_a_link_is_among_those_to_choose(window, panel):
+    larger = window.panels["layout"].larger
+    for factor, words in ((20, "tilts ×20"), (100, "tilts ×100"), (1, "tilts as they are")):
+        window.store.update(errors=(("tilt_y", 3, 5, 0.1),), exaggerated=factor)
+        assert larger.currentText() == words and not larger.isHidden()

@@ -1876,9 +1876,7 @@
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
 <message><source>tilts as they are</source><translation>Kippungen wie sie sind</translation></message>
-<message><source>tilts ×10</source><translation>Kippungen ×10</translation></message>
-<message><source>tilts ×100</source><translation>Kippungen ×100</translation></message>
-<message><source>tilts ×30</source><translation>Kippungen ×30</translation></message>
+<message><source>tilts ×{factor}</source><translation>Kippungen ×{factor}</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
 <message><source>time of a PSF among many, µs</source><translation>Zeit einer PSF unter vielen, µs</translation></message>
 <message><source>time of one PSF, ms</source><translation>Zeit einer PSF, ms</translation></message>
