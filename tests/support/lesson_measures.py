@@ -21,10 +21,13 @@ from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import is_altered, is_heard
+from tests.support import space_pupil
 from tests.support.pupil_sums import Pupil, Sums, field_at, phase_and_frequency, pupil_of, pupil_through, sums_of
 from tests.support.skew_rays import (
     System,
+    back_to_sphere,
     entrance_pupil,
+    exit_pupil_mm,
     system_of,
     through_paraxial_pupil,
     through_stop,
@@ -159,6 +162,7 @@ def third_order_focus(times_w22: float) -> Callable[[State], float]:
 
 
 def fill(lens: Lens):
+    assert not lens.misaligned, "these rays know no tilts and decentres"
     return {"stop": through_stop, "paraxial": through_paraxial_pupil}[lens.aim]
 
 
@@ -189,6 +193,7 @@ def ray_focus(along: bool) -> Callable[[State], float]:
 def pupil(state: State) -> Pupil:
     """Return the pupil that makes the picture: of exact rays, or of the coefficients that were changed by hand."""
     lens, source = lens_and_source(state)
+    assert not lens.misaligned, "this sum knows no tilts and decentres"
     if not is_altered(state):
         return pupil_of(lens, source, lens.aim)
     w, scale = coefficients(state), -1000 * numerical_aperture(state) / source.wavelength_um  # a real image: u' < 0
@@ -259,25 +264,34 @@ def airy_radius(state: State) -> float:
 def rms(state: State) -> float:
     """Return the RMS of the wavefront about its mean, over a uniform grid of the pupil outside its obscuration."""
     lens, source = lens_and_source(state)
+    by_coefficients = is_altered(state) or state.optics.method == "seidel"
+    if lens.misaligned and not by_coefficients:
+        return space_pupil.rms_waves(lens, source)
     node, weight = leggauss(24)
     dark = lens.mask.obscuration**2
     rho, angle = np.sqrt((1 + dark + (1 - dark) * node) / 2)[:, None], 2 * np.pi * (np.arange(48) + 0.5) / 48
     xi, eta = (rho * np.sin(angle)).ravel(), (rho * np.cos(angle)).ravel()
-    if is_altered(state) or state.optics.method == "seidel":
-        w = coefficients(state)
-        waves = shape(w, xi, eta)
-    else:
-        system = system_of(lens, source.wavelength_um)
-        rays, chief = (fill(lens)(system, source, *points) for points in ((xi, eta), (np.zeros(1), np.zeros(1))))
-        waves = phase_and_frequency(system, rays, chief)[0]
+    waves = shape(coefficients(state), xi, eta) if by_coefficients else on_sphere(lens, source, xi, eta)
     share = np.repeat(weight, angle.size) / (2 * angle.size)
     return float(np.sqrt(share @ (waves - share @ waves) ** 2))
 
 
+def on_sphere(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return the paths of rays less the chief ray's, waves, on the reference sphere through the exit pupil."""
+    system = system_of(lens, source.wavelength_um)
+    rays, chief = (fill(lens)(system, source, *points) for points in ((xi, eta), (np.zeros(1), np.zeros(1))))
+    away = np.stack([rays.x - chief.x, rays.y - chief.y])
+    radius = (system.thickness[-1] - exit_pupil_mm(system)) / chief.k[2].item()
+    back = back_to_sphere((rays.k[:2] * away).sum(0), (away**2).sum(0), radius)
+    return (rays.path - chief.path - system.last * back) / system.wavelength
+
+
 def centroid_y(state: State) -> float:
     """Return the centroid of the light, µm: the mean landing point −∂w/∂f of the pupil's light."""
-    found = sums(state)
-    return float(found.centroid_um)
+    lens, source = lens_and_source(state)
+    if lens.misaligned:
+        return float(space_pupil.centroid_um(lens, source)[1])
+    return float(sums(state).centroid_um)
 
 
 def spread(axis: int) -> Callable[[State], float]:

@@ -123,6 +123,26 @@ def entrance_pupil(system: System) -> tuple[float, float]:
     return y / u, abs(system.rim * before_stop / (system.index[0] * u))
 
 
+def exit_pupil_mm(system: System) -> float:
+    """Return the place of the paraxial image of the stop in image space, behind the last surface."""
+    y, u = 0.0, 1.0
+    for j in range(system.stop, len(system.shapes)):
+        before, after = system.index[j], system.index[j + 1]
+        u = (before * u - y * (after - before) * system.shapes[j].curvature) / after
+        if j < len(system.shapes) - 1:
+            y += u * system.thickness[j]
+    return -y / u
+
+
+def back_to_sphere(along: np.ndarray, square: np.ndarray, radius: float) -> np.ndarray:
+    """Return how much farther than the chief ray a ray goes back from the sensor to the reference sphere, mm.
+
+    The sphere has its centre where the chief ray meets the sensor, ``radius`` behind the exit pupil. Of the vector from
+    there to the ray's own place ``along`` is the part along the ray and ``square`` the square of the length.
+    """
+    return along + np.sign(radius) * np.sqrt(along**2 + radius**2 - square) - radius
+
+
 def _towards_object(system: System):
     """Yield (mirrored surface, gap before it, index before it, index behind it) from the stop to the object."""
     for j in range(system.stop - 1, -1, -1):

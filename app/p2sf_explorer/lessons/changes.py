@@ -7,6 +7,7 @@ from typing import Any
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.state.build_errors import BuildError
 from p2sf_explorer.state.limits import ADDED, PLAIN
 from p2sf_explorer.state.state import ENTRIES, State, changed, entry
 from p2sf_explorer.state.state_files import present_name
@@ -53,6 +54,8 @@ def _value(name: str, word: str) -> object:
     known |= {ADDED + term: 0.0 for term in TERMS}
     if name not in known or not word:
         raise P2SFError('"{entry}" sets nothing; write entries such as field_deg 10, tab mtf', entry=f"{name} {word}")
+    if name == "errors":
+        return () if word == "none" else tuple(_error(one) for one in word.split("+"))
     if isinstance(known[name], bool):
         return TRUTH.get(word, word)
     if isinstance(known[name], tuple):
@@ -63,6 +66,16 @@ def _value(name: str, word: str) -> object:
         return NUMBERS[word] if word in NUMBERS else (int if PLAIN.get(name) is int else float)(word)
     except ValueError:
         raise P2SFError('{name} is "{word}"; give a number', name=name, word=word) from None
+
+
+def _error(text: str) -> BuildError:
+    """Return an error of the build: its kind, its surface or surfaces such as 3-4, and its amount."""
+    try:
+        kind, span, amount = text.split()
+        first, _, last = span.partition("-")
+        return kind, int(first), int(last or first), float(amount)
+    except ValueError:
+        raise P2SFError('"{text}" is no error of a build; write such as decentre_y 3-4 0.2', text=text) from None
 
 
 class LessonError(P2SFError):

@@ -9,7 +9,7 @@ import pytest
 from p2sf.errors import P2SFError
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.quantities import QUANTITIES
-from p2sf_explorer.compute.setup import prescription, ranges
+from p2sf_explorer.compute.setup import state_ranges
 from p2sf_explorer.lessons.changes import applied
 from p2sf_explorer.lessons.claims import Claim, holds, measured, parse_claim
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, parse_lesson, read_lesson, shipped_lessons
@@ -90,7 +90,7 @@ def test_whatever_a_lesson_sets_can_be_set_by_the_slider(lesson):
     for number, step in enumerate(lesson.steps):
         first = lesson.state(number)
         for state in (first, *(applied(first, claim.first) for claim in step.claims)):
-            limits = ranges(prescription(state))
+            limits = state_ranges(state)
             for quantity in QUANTITIES:
                 value, scale = quantity.shown(state, limits), quantity.scale(limits)
                 if quantity.key == "focus_mm" and state.optics.focus_mm is None and value < 0:
@@ -208,6 +208,16 @@ def test_reading_an_entry_does_not_check_a_state_for_every_name_there_is(monkeyp
     monkeypatch.setattr(Optics, "__post_init__", lambda group: (made.append(group), check(group)))
     assert changes("field_deg 10, tab mtf") == (("field_deg", 10.0), ("tab", "mtf"))
     assert len(made) <= 8
+
+
+def test_a_step_may_set_the_errors_of_a_build():
+    assert changes("errors decentre_y 3-4 -0.2") == (("errors", (("decentre_y", 3, 4, -0.2),)),)
+    both = changes("errors decentre_x 1 0.1+tilt_x 7 3.2")
+    assert both == (("errors", (("decentre_x", 1, 1, 0.1), ("tilt_x", 7, 7, 3.2))),)
+    assert changes("errors none") == (("errors", ()),)
+    for bad in ("errors decentre_y 3-4", "errors decentre_y three 0.2", "errors 0.2"):
+        with pytest.raises(P2SFError, match="is no error of a build; write such as decentre_y 3-4"):
+            changes(bad)
 
 
 def test_every_measure_is_used_or_at_least_measures():

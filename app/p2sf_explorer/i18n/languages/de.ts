@@ -12,6 +12,7 @@
 <message><source>"{name}:" is no entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
 <message><source>"{text}" in a claim is no number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is no claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
+<message><source>"{text}" is no error of a build; write such as decentre_y 3-4 0.2</source><translation>"{text}" ist kein Fehler eines Exemplars; etwa decentre_y 3-4 0.2 schreiben</translation></message>
 <message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
 <message><source>% of peak</source><translation>% der Spitze</translation></message>
 <message><source>+ no astigmatism (third order)</source><translation>+ kein Astigmatismus (dritte Ordnung)</translation></message>
