@@ -29,6 +29,7 @@ LAYERS = (
     "p2sf_explorer.results p2sf_explorer.layout_view p2sf_explorer.handbook",
     "p2sf_explorer.matrix p2sf_explorer.measuring p2sf_explorer.tolerancing p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d p2sf_explorer.exactness",
+    "p2sf_explorer.tolerance_view",
     "p2sf_explorer.panels p2sf_explorer.playback p2sf_explorer.exporting",
     "p2sf_explorer.crash p2sf_explorer.desktop p2sf_explorer.docking",
     "p2sf_explorer.shell",

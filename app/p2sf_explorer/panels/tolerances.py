@@ -3,21 +3,12 @@
 from functools import partial
 from math import inf
 
-import numpy as np
-from PySide6.QtCore import QLocale, QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QColor, QPainter, QResizeEvent
+from PySide6.QtCore import QLocale, QSignalBlocker
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QDoubleSpinBox,
-    QGridLayout,
     QHBoxLayout,
-    QHeaderView,
-    QLabel,
     QMenu,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QTableWidget,
-    QTableWidgetItem,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -27,16 +18,17 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.tolerance import GRADES, Tolerance
-from p2sf.tolerance.criteria import LARGE_IS_GOOD
-from p2sf.tolerance.errors_of_build import UNITS, Kind
+from p2sf.tolerance.errors_of_build import Kind
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import decimal_separator, local, tr
-from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.tolerance_view.arrangement import OF_KINDS, KindRow, TolerancesBody
+from p2sf_explorer.tolerance_view.histogram import Histogram
+from p2sf_explorer.tolerance_view.tables import BuildList, ErrorTable, error_words
 from p2sf_explorer.tolerancing.analysis import (
     Analyst,
     Figures,
@@ -61,7 +53,6 @@ TIP = (
 GRADE_TIP = "What workshops offer under this name; ± values below are typed over."
 CRITERION_TIP = "What a lens is judged by, in the worst of three fields: axis, seven tenths and edge."
 LIMIT_TIP = "What every field of a good lens keeps; at first, what four lenses of five keep."
-WORST_TIP = "Worst builds: click to see one as A beside the lens as designed, B"
 COMPENSATOR_TIP = "What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least."
 GRADE_WORDS = (("commercial", "commercial grade"), ("precision", "precision grade"), ("high", "high precision grade"))
 CRITERION_WORDS = (
@@ -79,32 +70,7 @@ AXES = {
 SIGNS = {"rms_waves": "RMS ≤ {limit} λ", "strehl": "Strehl ratio ≥ {limit}", "mtf": "contrast ≥ {limit}"} | {
     "boresight_um": "shift ≤ {limit} µm"
 }
-HARMS = {"rms_waves": "adds, λ", "strehl": "takes", "mtf": "takes", "boresight_um": "shifts, µm"}
-SHORT = {"rms_waves": "RMS, λ", "strehl": "Strehl", "mtf": "contrast", "boresight_um": "shift, µm"}
 SUFFIXES = {"rms_waves": " λ", "strehl": "", "mtf": "", "boresight_um": " µm"}
-ERROR_WORDS: dict[Kind, str] = {
-    "decentre_x": "decentre x, surface {where}",
-    "decentre_y": "decentre y, surface {where}",
-    "tilt_x": "tilt x, surface {where}",
-    "tilt_y": "tilt y, surface {where}",
-    "radius": "radius, surface {where}",
-    "thickness": "thickness behind surface {where}",
-    "index": "index behind surface {where}",
-}
-# What one value of a grade is for: name and kinds.
-OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
-    ("decentre", ("decentre_x", "decentre_y")),
-    ("tilt", ("tilt_x", "tilt_y")),
-    ("radius", ("radius",)),
-    ("thickness", ("thickness",)),
-    ("refractive index", ("index",)),
-)
-# From where parts stand side by side, below which errors are alone, and the least size.
-WIDE, LOW, LEAST = (
-    720,
-    320,
-    (120, 90),
-)  # pixels at scale 1
 
 
 class TolerancesPanel:
@@ -345,12 +311,6 @@ def _row(parts: tuple[QWidget, ...]) -> QWidget:
     return body
 
 
-def error_words(one: Tolerance) -> str:
-    """Return how an error is named."""
-    first, last = one.piece
-    return tr(ERROR_WORDS[one.kind], where=str(first) if first == last else f"{first}–{last}")
-
-
 def _compensator_words(row: tuple[str, int, int]) -> str:
     kind, first, _ = row
     return error_words(Tolerance(kind, first, 0.0)) if first else tr("back focus")  # type: ignore[arg-type]  # known
@@ -361,276 +321,3 @@ def _sentence(view: Figures) -> str:
     share, error = (local(f"{100 * value:.1f}") for value in (view.share, view.error))
     nominal = tr("as designed {value}", value=local(f"{view.nominal:.{view.places}f}"))
     return f"{tr('{share} % ± {error} % keep {limit}', share=share, error=error, limit=limit)} · {nominal}"
-
-
-class KindRow(QWidget):
-    """One value for all errors of a kind, each under its name; two lines where one has no room."""
-
-    def __init__(self, boxes: dict[str, QDoubleSpinBox], end: QWidget):
-        super().__init__()
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setSpacing(4)
-        self._parts: list[QWidget] = []
-        for (name, kinds), box in zip(OF_KINDS, boxes.values(), strict=True):
-            unit = UNITS[kinds[0]]
-            box.setPrefix("± ")
-            box.setSuffix(f" {unit}" if unit not in ("", "°") else unit)
-            part, label = QWidget(), QLabel(tr(name))
-            label.setObjectName("muted")
-            line = QHBoxLayout(part)
-            line.setContentsMargins(0, 0, 0, 0)
-            line.setSpacing(4)
-            line.addWidget(label)
-            line.addWidget(box)
-            self._parts.append(part)
-        self._parts.append(end)
-        self._columns = 0
-        self._arrange(len(self._parts))
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Take as many columns as fit."""
-        super().resizeEvent(event)
-        widest = max(part.sizeHint().width() for part in self._parts) + self._grid.spacing()
-        self._arrange(max(1, min(len(self._parts), self.width() // widest)))
-
-    def _arrange(self, columns: int) -> None:
-        if columns == self._columns:
-            return
-        self._columns = columns
-        for number, part in enumerate(self._parts):
-            self._grid.addWidget(part, number // columns, number % columns, Qt.AlignmentFlag.AlignLeft)
-        for column in range(len(self._parts)):
-            self._grid.setColumnStretch(column, 0)
-        self._grid.setColumnStretch(columns, 1)
-
-
-class TolerancesBody(QWidget):
-    """Values of ``kinds``, and below them errors, charts and builds side by side, or where that is too narrow stacked.
-
-    Where it is too low, the errors alone. Its least size does not depend on which, or it would turn to and fro.
-    """
-
-    def __init__(self, errors: QWidget, charts: tuple[QWidget, QWidget], worst: QWidget, kinds: QWidget):
-        super().__init__()
-        self._errors, self._charts, self._worst, self._kinds = errors, QWidget(), worst, kinds
-        self._chart_box = QGridLayout(self._charts)
-        self._grid = QGridLayout(self)
-        for grid in (self._grid, self._chart_box):
-            grid.setContentsMargins(0, 0, 0, 0)
-            grid.setSpacing(6)
-            grid.setSizeConstraint(QGridLayout.SizeConstraint.SetNoConstraint)
-        self._both, self._scale, self._arranged = charts, 1.0, ""
-        self._arrange("wide")
-
-    def minimumSizeHint(self) -> QSize:
-        """Return the least size."""
-        return QSize(*(round(side * self._scale) for side in LEAST))
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the scale of a theme."""
-        self._scale = theme.scale
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Turn to where there is room."""
-        super().resizeEvent(event)
-        if self.height() < LOW * self._scale:
-            self._arrange("low")
-        else:
-            self._arrange("wide" if self.width() >= WIDE * self._scale else "tall")
-
-    def _arrange(self, how: str) -> None:
-        if how == self._arranged:
-            return
-        self._arranged = how
-        wide, low = how == "wide", how == "low"
-        for number, chart in enumerate(self._both):
-            self._chart_box.addWidget(chart, number if wide else 0, 0 if wide else number)
-        places = ((1, 0), (1, 1), (1, 2)) if wide else ((2, 0), (1, 0), (3, 0))
-        self._grid.addWidget(self._kinds, 0, 0, 1, 3)
-        for part, place in zip((self._errors, self._charts, self._worst), places, strict=True):
-            self._grid.addWidget(part, *place)
-        for column, stretch in enumerate((6, 5, 3) if wide else (1, 0, 0)):
-            self._grid.setColumnStretch(column, stretch)
-        for row, stretch in enumerate((0, 1, 0, 0) if wide else (0, 4, 5, 3)):
-            self._grid.setRowStretch(row, stretch)
-        for part in (self._kinds, self._charts, self._worst):
-            part.setVisible(not low)
-
-
-class Histogram(NotedChart):
-    """How many builds have which value; those that keep the limit in another colour than those that do not."""
-
-    def __init__(self) -> None:
-        super().__init__("", "builds")
-        self._view: Figures | None = None
-
-    def show_counts(self, view: Figures) -> None:
-        """Show a histogram."""
-        self._view = view
-        self.update()
-
-    def rows_of_data(self) -> list[list[str]]:
-        """Return the bars as rows."""
-        view = self._view
-        if view is None:
-            return []
-        rows = zip(view.edges[:-1], view.edges[1:], view.counts, strict=True)
-        return [["from", "to", "builds"], *([f"{low:.9g}", f"{high:.9g}", str(count)] for low, high, count in rows)]
-
-    def paint_over(self, painter: QPainter) -> None:
-        """Paint the bars, then lines and text."""
-        if self._view is not None:
-            edges, _ = self.to_pixels(self._view.edges, np.zeros(1))
-            _, tops = self.to_pixels(np.zeros(1), np.asarray(self._view.counts, float))
-            floor = self.area.bottom()
-            good = self._view.criterion in LARGE_IS_GOOD
-            for left, right, top, start in zip(edges[:-1], edges[1:], tops, self._view.edges, strict=False):
-                kept = (start >= self._view.limit) == good
-                colour = QColor(self.theme.positive if kept else self.theme.negative)
-                painter.fillRect(QRectF(float(left), float(top), float(right - left), floor - float(top)), colour)
-        super().paint_over(painter)
-
-
-class _Table(QTableWidget):
-    """A table of rows that are chosen whole, in the look of the theme."""
-
-    def __init__(self, heads: tuple[str, ...], name: str):
-        super().__init__(0, len(heads))
-        self.setHorizontalHeaderLabels([tr(head) for head in heads])
-        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setTabKeyNavigation(False)
-        self.setShowGrid(False)
-        self.verticalHeader().hide()
-        header = self.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setSectionResizeMode(len(heads) - 1, QHeaderView.ResizeMode.Stretch)
-        self.setAccessibleName(tr(name))
-        self.setMinimumHeight(60)
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the scale of a theme."""
-        self.verticalHeader().setDefaultSectionSize(theme.px(22))
-        self.viewport().update()
-
-    def put(self, row: int, column: int, text: str, right: bool = False) -> QTableWidgetItem:
-        """Write a cell."""
-        item = QTableWidgetItem(text)
-        side = Qt.AlignmentFlag.AlignRight if right else Qt.AlignmentFlag.AlignLeft
-        item.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
-        item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
-        self.setItem(row, column, item)
-        return item
-
-
-SHARE_ROLE = Qt.ItemDataRole.UserRole
-
-
-class BarDelegate(QStyledItemDelegate):
-    """Paints a bar behind a number, as long as its share of the largest."""
-
-    def __init__(self, table: QTableWidget):
-        super().__init__(table)
-        self.colour = QColor(LIGHT.marginal)
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        """Paint bar and number."""
-        share = index.data(SHARE_ROLE) or 0.0
-        room = QRectF(option.rect).adjusted(2, 3, -2, -3)
-        painter.fillRect(QRectF(room.left(), room.top(), room.width() * min(share, 1.0), room.height()), self.colour)
-        super().paint(painter, option, index)
-
-
-class ErrorTable(_Table):
-    """Errors, the most harmful first; a ± value may be typed over (``typed``: which, and its new amount)."""
-
-    typed = Signal(object, float)
-
-    def __init__(self) -> None:
-        super().__init__(("error", "±", HARMS["rms_waves"]), "Errors by their harm")
-        self.setEditTriggers(
-            QAbstractItemView.EditTrigger.DoubleClicked
-            | QAbstractItemView.EditTrigger.EditKeyPressed
-            | QAbstractItemView.EditTrigger.AnyKeyPressed
-        )
-        self._bars = BarDelegate(self)
-        self.setItemDelegateForColumn(2, self._bars)
-        self._rows: tuple[Tolerance, ...] = ()
-        self.itemChanged.connect(self._on_typed)
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the colours of a theme."""
-        self._bars.colour = QColor(theme.marginal)
-        self._bars.colour.setAlpha(90)
-        super().restyle(theme)
-
-    def show_errors(self, view: Figures, settings: ToleranceView) -> None:
-        """Show a row for each error; own values are in bold."""
-        own = {(kind, first, max(first, last)) for kind, first, last, _ in settings.own}
-        most = max((abs(harm) for _, _, harm in view.errors), default=0.0) or 1.0
-        with QSignalBlocker(self):
-            self.setHorizontalHeaderItem(2, QTableWidgetItem(tr(HARMS[view.criterion])))
-            self.setRowCount(len(view.errors))
-            self._rows = tuple(one for one, _, _ in view.errors)
-            for row, (one, _, harm) in enumerate(view.errors):
-                self.put(row, 0, error_words(one))
-                amount = self.put(row, 1, local(_written_amount(one)), right=True)
-                amount.setFlags(amount.flags() | Qt.ItemFlag.ItemIsEditable)
-                font = amount.font()
-                font.setBold((one.kind, *one.piece) in own or (one.kind, 0, 0) in own)
-                amount.setFont(font)
-                digits = significant(harm, 2) if abs(harm) >= 1e-3 * most else "0"
-                self.put(row, 2, local(digits), right=True).setData(SHARE_ROLE, max(harm, 0.0) / most)
-
-    def _on_typed(self, item: QTableWidgetItem) -> None:
-        one = self._rows[item.row()]
-        try:
-            unit = UNITS[one.kind]
-            value = read_number(item.text(), "tolerance", {"": 1.0, unit: 1.0})
-        except P2SFError:
-            value = -1.0
-        if value >= 0:
-            self.typed.emit(one, value)
-        else:
-            with QSignalBlocker(self):
-                item.setText(local(_written_amount(one)))
-
-
-def _written_amount(one: Tolerance) -> str:
-    unit = UNITS[one.kind]
-    return f"{one.amount:g}{unit}" if unit in ("", "°") else f"{one.amount:g} {unit}"
-
-
-class BuildList(_Table):
-    """The worst builds; a click, or Enter, opens one (``opened``: its number from 0)."""
-
-    opened = Signal(int)
-
-    def __init__(self) -> None:
-        super().__init__(("build", SHORT["rms_waves"]), WORST_TIP)
-        self.setToolTip(tr(WORST_TIP))
-        self._numbers: tuple[int, ...] = ()
-        self.cellClicked.connect(lambda row, _: self._open(row))
-        self.cellActivated.connect(lambda row, _: self._open(row))
-
-    def show_builds(self, view: Figures, opened: int) -> None:
-        """List builds, the one on screen chosen."""
-        with QSignalBlocker(self):
-            self.setHorizontalHeaderItem(1, QTableWidgetItem(tr(SHORT[view.criterion])))
-            self._numbers = tuple(number for number, _ in view.worst)
-            self.setRowCount(len(view.worst))
-            for row, (number, value) in enumerate(view.worst):
-                self.put(row, 0, str(number + 1), right=True)
-                self.put(row, 1, local(f"{value:.{view.places}f}"), right=True)
-            if opened - 1 in self._numbers:
-                self.selectRow(self._numbers.index(opened - 1))
-            else:
-                self.clearSelection()
-
-    def _open(self, row: int) -> None:
-        if row < len(self._numbers):
-            self.opened.emit(self._numbers[row])

@@ -9,8 +9,8 @@ from p2sf.lensfile.library import find_lens
 from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.panels.tolerances import TolerancesBody
 from p2sf_explorer.state.state import ToleranceView, changed, new_state
+from p2sf_explorer.tolerance_view.arrangement import TolerancesBody
 from p2sf_explorer.tolerancing import analysis
 from p2sf_explorer.widgets.copying import data_of
 from tests.support.tolerances import exact_quality

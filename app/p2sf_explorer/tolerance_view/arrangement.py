@@ -1,0 +1,115 @@
+"""How the Tolerances panel is arranged in the room it has: one value for each kind, charts, and tables."""
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QWidget
+
+from p2sf.tolerance.errors_of_build import UNITS, Kind
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.i18n.tr import tr
+
+# What one value of a grade is for: name and kinds.
+OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
+    ("decentre", ("decentre_x", "decentre_y")),
+    ("tilt", ("tilt_x", "tilt_y")),
+    ("radius", ("radius",)),
+    ("thickness", ("thickness",)),
+    ("refractive index", ("index",)),
+)
+# Pixels at scale 1: from where parts stand side by side, below which errors are alone, and the least size.
+WIDE, LOW, LEAST = 720, 320, (120, 90)
+
+
+class KindRow(QWidget):
+    """One value for all errors of a kind, each under its name; two lines where one has no room."""
+
+    def __init__(self, boxes: dict[str, QDoubleSpinBox], end: QWidget):
+        super().__init__()
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(4)
+        self._parts: list[QWidget] = []
+        for (name, kinds), box in zip(OF_KINDS, boxes.values(), strict=True):
+            unit = UNITS[kinds[0]]
+            box.setPrefix("± ")
+            box.setSuffix(f" {unit}" if unit not in ("", "°") else unit)
+            part, label = QWidget(), QLabel(tr(name))
+            label.setObjectName("muted")
+            line = QHBoxLayout(part)
+            line.setContentsMargins(0, 0, 0, 0)
+            line.setSpacing(4)
+            line.addWidget(label)
+            line.addWidget(box)
+            self._parts.append(part)
+        self._parts.append(end)
+        self._columns = 0
+        self._arrange(len(self._parts))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take as many columns as fit."""
+        super().resizeEvent(event)
+        widest = max(part.sizeHint().width() for part in self._parts) + self._grid.spacing()
+        self._arrange(max(1, min(len(self._parts), self.width() // widest)))
+
+    def _arrange(self, columns: int) -> None:
+        if columns == self._columns:
+            return
+        self._columns = columns
+        for number, part in enumerate(self._parts):
+            self._grid.addWidget(part, number // columns, number % columns, Qt.AlignmentFlag.AlignLeft)
+        for column in range(len(self._parts)):
+            self._grid.setColumnStretch(column, 0)
+        self._grid.setColumnStretch(columns, 1)
+
+
+class TolerancesBody(QWidget):
+    """Values of ``kinds``, and below them errors, charts and builds side by side, or where that is too narrow stacked.
+
+    Where it is too low, the errors alone. Its least size does not depend on which, or it would turn to and fro.
+    """
+
+    def __init__(self, errors: QWidget, charts: tuple[QWidget, QWidget], worst: QWidget, kinds: QWidget):
+        super().__init__()
+        self._errors, self._charts, self._worst, self._kinds = errors, QWidget(), worst, kinds
+        self._chart_box = QGridLayout(self._charts)
+        self._grid = QGridLayout(self)
+        for grid in (self._grid, self._chart_box):
+            grid.setContentsMargins(0, 0, 0, 0)
+            grid.setSpacing(6)
+            grid.setSizeConstraint(QGridLayout.SizeConstraint.SetNoConstraint)
+        self._both, self._scale, self._arranged = charts, 1.0, ""
+        self._arrange("wide")
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least size."""
+        return QSize(*(round(side * self._scale) for side in LEAST))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the scale of a theme."""
+        self._scale = theme.scale
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Turn to where there is room."""
+        super().resizeEvent(event)
+        if self.height() < LOW * self._scale:
+            self._arrange("low")
+        else:
+            self._arrange("wide" if self.width() >= WIDE * self._scale else "tall")
+
+    def _arrange(self, how: str) -> None:
+        if how == self._arranged:
+            return
+        self._arranged = how
+        wide, low = how == "wide", how == "low"
+        for number, chart in enumerate(self._both):
+            self._chart_box.addWidget(chart, number if wide else 0, 0 if wide else number)
+        places = ((1, 0), (1, 1), (1, 2)) if wide else ((2, 0), (1, 0), (3, 0))
+        self._grid.addWidget(self._kinds, 0, 0, 1, 3)
+        for part, place in zip((self._errors, self._charts, self._worst), places, strict=True):
+            self._grid.addWidget(part, *place)
+        for column, stretch in enumerate((6, 5, 3) if wide else (1, 0, 0)):
+            self._grid.setColumnStretch(column, stretch)
+        for row, stretch in enumerate((0, 1, 0, 0) if wide else (0, 4, 5, 3)):
+            self._grid.setRowStretch(row, stretch)
+        for part in (self._kinds, self._charts, self._worst):
+            part.setVisible(not low)
