@@ -12,7 +12,7 @@ from p2sf.metrics import transfer
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
 from p2sf.metrics.perfect import diffraction_mtf
-from p2sf.metrics.transfer import end_weights, otf_slices
+from p2sf.metrics.transfer import OtfSlice, end_weights, otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.fit import fit
 from tests.support.overlap import overlap
@@ -88,8 +88,11 @@ def test_nothing_is_better_than_the_same_pupil_without_phase(name, aim):
             except GeometryError:  # a pupil that folds has no curve
                 continue
             for one in otf_slices(pupil):
-                assert (np.abs(one.values) - one.perfect).max() < 2e-7
-                own, perfect = one.at(np.linspace(0, one.cut_off, 5 * one.values.size + 1))
+                count = 20  # behind a mask there is no table of lags, and a point takes ten times as long
+                if isinstance(one, OtfSlice):
+                    assert (np.abs(one.values) - one.perfect).max() < 2e-7
+                    count = one.values.size
+                own, perfect = one.at(np.linspace(0, one.cut_off, 5 * count + 1))
                 assert (np.abs(own) - perfect).max() < 1e-6
 
 

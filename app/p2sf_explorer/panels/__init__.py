@@ -117,12 +117,12 @@ REGISTRY = (
         "p2sf_explorer.scene3d.scene:scene",
         "Lens",
     ),
-    tab("Lens", "import", "Import", "1.1", "import_report:ImportReportPanel", "import_report:report"),
     tab("Tools", "image", "Image", "10.1", "image:ImagePanel", "image:question"),
     tab("Tools", "measured", "Measured", "11.3", "measured:MeasuredPanel", "measuring.measurement:question"),
     tab("Tools", "tolerances", "Tolerances", "8.8", "tolerances:TolerancesPanel", "tolerancing.analysis:question"),
     tab("Tools", "database", "Database", "7.1", "database:DatabasePanel", "database:question"),
     tab("Tools", "accuracy", "Accuracy", "6.1", "accuracy:AccuracyPanel"),
+    tab("Tools", "import", "Import", "1.1", "import_report:ImportReportPanel", "import_report:report"),
 )
 
 

@@ -2,8 +2,6 @@
 
 from math import inf
 
-import numpy as np
-
 from p2sf.conventions import UM_PER_MM
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
@@ -65,8 +63,8 @@ class MtfPanel(CurvesPanel):
         if live is None:
             return view.method
         curves = {"perfect lens": view.perfect, "sagittal": view.sagittal, "tangential": view.tangential}
-        none = np.full(view.clear.size, np.nan)
-        self.show_curves(view.frequency_per_mm, curves | {CLEAR_PUPIL: view.clear if view.masked else none})
+        self.curves[CLEAR_PUPIL].set_data(*((view.frequency_per_mm, view.clear) if view.masked else ((), ())))
+        self.show_curves(view.frequency_per_mm, curves)
         usual, steady = (0.0, 1.04), "xy" if live.difference else "x"
         self.set_range((0.0, float(view.frequency_per_mm[-1])), signed_range(live, curves, usual), steady)
         self._mark(live.state.display.pixel_um)

@@ -35,6 +35,7 @@ def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window,
     assert panel.overlay.text and not panel.save.isVisibleTo(panel.widget)
     qtbot.waitUntil(lambda: panel._found is not None, timeout=60000)
     assert panel.list.rowCount() == 6 and not panel.overlay.text
+    assert panel.chart.read(*panel.chart.from_pixels(panel.chart.room(panel.chart.tiles[0]).center()))
     values = dict(zip((row[0] for row in panel.table.rows), panel.table.values, strict=True))
     assert values["W40"].endswith("λ (3.862)")
     shift, error = (float(text) for text in values["sensor shift"].removesuffix(" µm").split(" ± "))

@@ -17,7 +17,8 @@ from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.widgets.card import chart_at
 from p2sf_explorer.widgets.copying import copy_menu, data_of, picture_of
 
-WITHOUT = {"coefficients", "lens", "first_order", "solid", "import", "image"}  # tables, sliders, photos, a 3D scene
+# Tables, sliders, photos, a 3D scene; nothing until a picture is measured.
+WITHOUT = {"coefficients", "lens", "misalign", "first_order", "solid", "import", "image", "measured"}
 KEYS = [entry.key for entry in REGISTRY if entry.key not in WITHOUT]
 LEFT, SHIFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.NoModifier
 
@@ -27,6 +28,8 @@ def charts(window, qtbot, request):
     """Return the charts of a panel with their pictures, unlocked and whole; afterwards so again."""
     key = request.param
     window.store.update(f_number=8.0, field_deg=5.0, method="seidel")
+    if key == "tolerances":  # in a low tab it has room for its table alone
+        window.store.update(lens="achromat_f6", stage=key)
     window.open_panel(key)
     panel = window.panels[key]
     if key == "accuracy":

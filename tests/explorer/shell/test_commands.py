@@ -139,7 +139,8 @@ def reachable(window) -> list:
 
 def test_every_control_is_reached_by_tab_and_shows_its_focus(window):
     window.store.replace(with_lens(window.store.state, "double_gauss_28", lens_to_toml(focusing_zoom())))
-    window.store.update(show_pupil_shape=True, blades=6, vanes=3, apodisation=0.8)  # for which every row is shown
+    # For these every row is shown.
+    window.store.update(show_pupil_shape=True, blades=6, vanes=3, apodisation=0.8, show_field_x=True)
     window.store.update(field_deg=11.0)
     window.store.undo()  # so that Redo is enabled
     chain = reachable(window)
