@@ -7,6 +7,7 @@ import pytest
 
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import AIMS, with_aim
+from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import f_number, find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
@@ -81,7 +82,9 @@ def test_two_angles_are_a_slope_and_the_direction_it_runs_in():
     assert setup.source.field_slope == pytest.approx(np.hypot(across, along), rel=ROUND_OFF)
     assert np.tan(np.deg2rad(setup.source.azimuth_deg)) == pytest.approx(across / along, rel=ROUND_OFF)
     assert setup.source.field_xy_deg == pytest.approx((-3.0, 4.0), rel=ROUND_OFF)
-    assert asked(field_x_deg=5.0).source.field_xy_deg == pytest.approx((5.0, 0.0), abs=1e-14)
+    for across in (5.0, -5.0):
+        assert asked(field_x_deg=across).source.field_xy_deg == (pytest.approx(across, rel=ROUND_OFF), 0.0)
+    assert Source(field_deg=5.0, azimuth_deg=180.0).field_xy_deg == (0.0, pytest.approx(-5.0, rel=ROUND_OFF))
     assert asked(field_deg=-4.0, field_x_deg=0.0).source == asked(field_deg=-4.0).source
 
 

@@ -96,7 +96,8 @@ class Source:
         """Return the angles (x, y) of the chief ray at the entrance pupil, degrees, as ``field_deg`` takes them."""
         turn = radians(self.azimuth_deg)
         x, y = (float(degrees_from_slope(self.field_slope * part)) for part in (sin(turn), cos(turn)))
-        return x if self.azimuth_deg else 0.0, y
+        off_axis = self.azimuth_deg % 180  # a right angle's cosine is not quite 0, nor a straight one's sine
+        return x if off_axis else 0.0, y if off_axis != 90 else 0.0
 
     def __repr__(self) -> str:
         place = f"depth_mm={_shown(self.depth_mm)}, field_deg={_shown(degrees_from_slope(self.field_slope))}"
