@@ -58,7 +58,8 @@ def warn(message: Message | None) -> None:
         print(f"warning: {text(message)}", file=sys.stderr)
 
 
-def _field(source: Source) -> str:
+def field_text(source: Source) -> str:
+    """Return the angle of a field, or both of one beside the plane of x = 0, in degrees."""
     if not source.azimuth_deg:
         return f"{source.field_deg:.6g}°"
     x, y = source.field_xy_deg
@@ -69,6 +70,6 @@ def heading(setup: Setup) -> str:
     """Return one line that says which lens and which source a table is about."""
     lens, source = setup.prescription, setup.source
     depth = f"{text(source.depth_mm)} mm" if not isinf(source.depth_mm) else "∞"
-    place = f"object at {depth}, field {_field(source)}, {source.wavelength_um * 1000:.7g} nm"
+    place = f"object at {depth}, field {field_text(source)}, {source.wavelength_um * 1000:.7g} nm"
     turned = f", {text(lens.positions.words)}" if lens.positions else ""
     return f"{lens.title or lens.name}{turned}: {place}"

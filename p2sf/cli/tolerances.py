@@ -1,5 +1,6 @@
 """`p2sf tolerance`: which tolerance hurts, and what share of built lenses meets a specification."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -7,9 +8,12 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Whole, check_whole
-from p2sf.cli.screen import print_json, print_table, warn
+from p2sf.cli.screen import field_text, print_json, print_table, warn
 from p2sf.errors import RequestError
+from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message
+from p2sf.parameters import check_positive
 from p2sf.request import Setup, set_up
 from p2sf.tolerance import (
     Builds,
@@ -34,6 +38,7 @@ COLUMNS: dict[Criterion, str] = {
     "mtf": "takes from the least contrast",
     "boresight_um": "moves the image by, µm",
 }
+CLEAR_STOP = Message("a mask stands in the stop; RMS, Strehl ratio and contrast of builds are those of the clear stop")
 MOST_BUILDS, SHOWN = 1_000_000, 12
 PERCENTILES = 10, 50, 90
 
@@ -67,9 +72,10 @@ def tolerance(
     check_whole("builds", builds, 1, MOST_BUILDS)
     given: dict[Criterion, float | None] = {"rms_waves": rms_waves, "strehl": strehl, "mtf": mtf}
     given["boresight_um"] = boresight_um
-    for name, value in (*given.items(), ("frequency_per_mm", frequency_per_mm)):
+    for name, value in given.items():
         if value is not None and not 0 <= value < np.inf:
             raise RequestError("{parameter} is {value}; give a number, 0 or more", parameter=name, value=value)
+    check_positive("frequency_per_mm", frequency_per_mm)
     limits = {name: value for name, value in given.items() if value is not None}
     setup = set_up(find_lens(lens), request)
     if own is None:
@@ -87,7 +93,8 @@ def tolerance(
     if as_json:
         return print_json(record)
     warn(setup.stop.warning)
-    return show(setup, record)
+    warn(None if setup.lens.mask.clear else CLEAR_STOP)
+    return show(setup, known.sources, record)
 
 
 def record_of(
@@ -136,9 +143,9 @@ def record_of(
     }
 
 
-def show(setup: Setup, record: dict[str, Any]) -> None:
+def show(setup: Setup, sources: Sequence[Source], record: dict[str, Any]) -> None:
     """Print what hurts most, and the yield."""
-    fields = ", ".join(f"{field:.4g}°" for field in record["fields_deg"])
+    fields = ", ".join(map(field_text, sources))
     lens = setup.prescription
     title = f"{lens.title or lens.name}: fields {fields}, {setup.source.wavelength_um * 1000:.7g} nm"
     columns = ("error", "±", "", COLUMNS[record["criterion"]])

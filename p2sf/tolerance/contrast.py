@@ -17,6 +17,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.parameters import check_positive
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.tolerance.differentials import FINE, Differentials, fly
@@ -93,6 +94,7 @@ class _PupilMap:
 
 def pairs_of(known: Differentials, field: int, frequency_per_mm: float) -> tuple[Pairs | None, Pairs | None]:
     """Return the pairs for patterns along x (sagittal) and along y (tangential); None beyond the cut-off."""
+    check_positive("frequency_per_mm", frequency_per_mm)
     pupil, shift = _PupilMap(known, field), frequency_per_mm / UM_PER_MM
     source, lens = known.sources[field], known.lens
     sagittal, tangential = (_settled(pupil, lens, source, shift * np.array(axis)) for axis in ((1.0, 0.0), (0.0, 1.0)))

@@ -228,6 +228,11 @@ def test_contrast_beyond_the_cut_off_is_nothing(known):
     assert (evaluate(known, np.zeros((1, len(FEW))), frequency_per_mm=2000.0).mtf == 0).all()
 
 
+def test_a_pattern_without_a_frequency_is_refused(known):
+    with pytest.raises(RequestError, match="frequency_per_mm is 0; give a positive finite number"):
+        evaluate(known, np.zeros((1, len(FEW))), frequency_per_mm=0.0)
+
+
 def test_contrast_that_no_sum_resolves_is_refused():
     wide = differentials(with_sensor(gauss(), gauss().sensor_mm + 8), FIELDS[:1], FEW[:1])
     with pytest.raises(RequestError, match="the contrast at 100 cycles per mm is too small to be summed"):
