@@ -22,7 +22,16 @@ from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import is_altered, is_heard
 from tests.support import space_pupil
-from tests.support.pupil_sums import Pupil, Sums, field_at, phase_and_frequency, pupil_of, pupil_through, sums_of
+from tests.support.pupil_sums import (
+    Pupil,
+    Sums,
+    field_at,
+    part_inside,
+    phase_and_frequency,
+    pupil_of,
+    pupil_through,
+    sums_of,
+)
 from tests.support.skew_rays import (
     System,
     back_to_sphere,
@@ -235,6 +244,68 @@ def intensity(state: State, x_um: np.ndarray, y_um: np.ndarray, cells: int = CEL
     return np.abs(field_at(pupil(state), x_um, y_um, cells)) ** 2
 
 
+def beside_centre(state: State) -> tuple[float, float]:
+    """Return the radius of the first dark ring, µm, and the brightest light beyond it over that in the middle."""
+    radius = np.linspace(0, 5, 2001) * airy_radius(state)
+    values = intensity(state, np.zeros(1), radius, FEW_CELLS)[:, 0]
+    dark = int(np.argmax(np.diff(values) > 0))
+    return float(radius[dark]), float(values[dark:].max() / values[0])
+
+
+def around(state: State, radii_um: np.ndarray) -> np.ndarray:
+    """Return the mean intensity on circles by direction, 2° apart, of what was put into the pupil by hand.
+
+    |Σ exp(i2π(W + (NA/λ)(ξx + ηy)))|² over a square grid of the iris, every cell by the part of it that is open.
+    """
+    assert is_altered(state), "the plain sum is of coefficients added by hand"
+    lens, source = lens_and_source(state)
+    axis = (np.arange(FEW_CELLS) + 0.5) * (2 / FEW_CELLS) - 1
+    xi, eta = np.meshgrid(axis, axis)
+    field = iris(lens.mask, xi, eta, axis[1] - axis[0]) * np.exp(2j * np.pi * shape(coefficients(state), xi, eta))
+    turn = np.deg2rad(np.arange(0, 360, 2))[:, None]
+    scale = 2 * np.pi * numerical_aperture(state) / source.wavelength_um
+    along, across = (scale * (radii_um * wave(turn)).ravel() for wave in (np.cos, np.sin))
+    rows = np.exp(1j * np.outer(across, axis)) @ field.T
+    found = np.abs((rows * np.exp(1j * np.outer(along, axis))).sum(1)) ** 2
+    return found.reshape(-1, radii_um.size).mean(1)
+
+
+def iris(mask, xi: np.ndarray, eta: np.ndarray, cell: float) -> np.ndarray:
+    """Return the part of every cell that the blades leave open: each is a half plane, or a disc through its corners."""
+    inside = part_inside((1 - np.hypot(xi, eta)) / cell, np.arctan2(eta, xi))
+    if not mask.blades or mask.roundness == 1:
+        return inside
+    for k in range(mask.blades):
+        angle = np.deg2rad(mask.blade_angle_deg) + np.pi * (2 * k + 1) / mask.blades
+        across, along = xi * np.sin(angle) + eta * np.cos(angle), xi * np.cos(angle) - eta * np.sin(angle)
+        half, distance = np.sin(np.pi / mask.blades), np.cos(np.pi / mask.blades)
+        if mask.roundness == 0:
+            depth, normal = distance - across, np.pi / 2 - angle + 0 * across
+        else:
+            radius = 1 / mask.roundness
+            away = across - (distance - np.sqrt(radius**2 - half**2))
+            depth = radius - np.hypot(away, along)
+            normal = np.pi / 2 - angle + np.arctan2(along, away)
+        inside = inside * part_inside(depth / cell, normal)
+    return inside
+
+
+def spikes(state: State) -> np.ndarray:
+    return around(state, np.linspace(3, 5, 21) * airy_radius(state))
+
+
+def blur(state: State) -> np.ndarray:
+    """Return the light near the edge of the geometric blur, whose radius is the slope 2·Wd of the wavefront."""
+    wd = coefficients(state)["wd"] * lens_and_source(state)[1].wavelength_um / numerical_aperture(state)
+    return around(state, np.linspace(0.92, 0.96, 5) * 2 * abs(wd))
+
+
+def bright_directions(values: np.ndarray) -> int:
+    """Return how often the values rise through half the brightest on their way around."""
+    bright = values > values.max() / 2
+    return sum(b and not a for a, b in zip(np.roll(bright, 1), bright, strict=True))
+
+
 def strehl(state: State) -> float:
     """Return the highest intensity over that of the same pupil without phase."""
     flat = replace(pupil(state), phase=np.zeros((1, 1)))
@@ -398,6 +469,11 @@ REFEREE: dict[str, Callable[[State], float]] = {
     "strehl": strehl,
     "centre_over_peak": centre_over_peak,
     "radius_80_um": radius_80,
+    "dark_ring_um": lambda state: beside_centre(state)[0],
+    "ring_over_peak": lambda state: beside_centre(state)[1],
+    "spikes": lambda state: bright_directions(spikes(state)),
+    "spike_over_gap": lambda state: float(spikes(state).max() / np.median(spikes(state))),
+    "blur_corners": lambda state: bright_directions(blur(state)),
     "centroid_y_um": centroid_y,
     "spread_x_um": spread(1),
     "spread_y_um": spread(0),

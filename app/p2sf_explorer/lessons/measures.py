@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from p2sf_explorer.results.image import ImageResult
 
 CONTRAST_PER_MM = 50.0  # the frequency at which contrast is quoted: a line pair of 20 µm
+FINE = 4000  # points from the middle of the PSF to its window's edge
+DIRECTIONS = 720
+SPIKES = np.linspace(3, 5, 21)  # Airy radii between which spikes are looked for
+CORNERS = np.linspace(0.92, 0.96, 5)  # of the blur's radius, where a disc is bright and a polygon between corners dark
 BLUE_RED_NM = 486.1327, 656.2725  # Fraunhofer's F and C
 
 Measure = Callable[[State], float]
@@ -171,6 +175,43 @@ def _contrast(direction: str) -> Measure:
     return of_live(contrast)
 
 
+def _beside_centre(live: Live) -> tuple[float, float]:
+    """Return the radius of the first dark ring, µm, and the brightest light beyond it over that in the middle."""
+    from scipy.interpolate import CubicSpline
+
+    psf = live.psf
+    fine = np.linspace(0, psf.x_um[-1], FINE)
+    values = CubicSpline(psf.x_um, psf.values[np.abs(psf.y_um).argmin()])(fine)
+    dark = int(np.argmax(np.diff(values) > 0))
+    return float(fine[dark]), float(values[dark:].max() / values[0])
+
+
+def _around(live: Live, radii_um: np.ndarray) -> np.ndarray:
+    """Return the mean intensity on these circles about the chief ray, by direction over one turn."""
+    from scipy.interpolate import RectBivariateSpline
+
+    psf = live.psf
+    turn = np.linspace(0, 2 * np.pi, DIRECTIONS, endpoint=False)[:, None]
+    spline = RectBivariateSpline(psf.y_um, psf.x_um, psf.values)
+    found: np.ndarray = spline.ev(radii_um * np.cos(turn), radii_um * np.sin(turn)).mean(1)
+    return found
+
+
+def _rays_of_star(live: Live) -> np.ndarray:
+    return _around(live, live.airy_radius_um * SPIKES)
+
+
+def _blur(live: Live) -> np.ndarray:
+    c = live.setup.coefficients
+    return _around(live, 2 * abs(float(c.wd)) * float(c.wavelength_um) / float(c.na) * CORNERS)
+
+
+def _runs(values: np.ndarray) -> int:
+    """Return how many separate directions are brighter than half the brightest."""
+    bright = values > values.max() / 2
+    return int((bright & ~np.roll(bright, 1)).sum())
+
+
 def _energy(live: Live) -> Energy:
     return energy_in(measured_parts(measure_request(live)), "")
 
@@ -187,6 +228,11 @@ MEASURES: dict[str, Measure] = {
     "centre_over_peak": of_live(lambda live: live.psf.values[tuple(n // 2 for n in live.psf.values.shape)]
                                 / live.psf.values.max()),
     "radius_80_um": of_live(lambda live: _energy(live).radius_80_um),
+    "dark_ring_um": of_live(lambda live: _beside_centre(live)[0]),
+    "ring_over_peak": of_live(lambda live: _beside_centre(live)[1]),
+    "spikes": of_live(lambda live: _runs(_rays_of_star(live))),
+    "spike_over_gap": of_live(lambda live: _rays_of_star(live).max() / np.median(_rays_of_star(live))),
+    "blur_corners": of_live(lambda live: _runs(_blur(live))),
     "centroid_y_um": of_live(lambda live: _energy(live).centroid_um),
     "spread_x_um": _spread("x"),
     "spread_y_um": _spread("y"),
