@@ -14,6 +14,7 @@ PAGES = {
     "find": "Find it in two minutes",
     "tutorial": "Tutorial",
     "import": "Import a lens",
+    "lens_files": "Write a lens file",
     "export": "Export",
     "notebook": "In a notebook",
     "theory": "Theory",

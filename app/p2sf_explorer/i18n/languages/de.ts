@@ -853,6 +853,7 @@
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
 <message><source>You can go on. If something looks wrong, undo the last step (Ctrl+Z), or close the explorer and start it again.</source><translation>Es kann weitergehen. Sieht etwas falsch aus, den letzten Schritt zurücknehmen (Strg+Z) oder den Explorer schließen und neu starten.</translation></message>
 <message><source>Worst builds: click to see one as A beside the lens as designed, B</source><translation>Schlechteste Exemplare: ein Klick zeigt eines als A neben dem Objektiv wie entworfen, B</translation></message>
+<message><source>Write a lens file</source><translation>Eine Objektivdatei schreiben</translation></message>
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
