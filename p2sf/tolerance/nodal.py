@@ -282,7 +282,8 @@ def _node(value: Callable[[complex], complex], guess: complex, widest: float) ->
         here = value(field)
         if abs(here) < NOTHING:
             return field
-        up, aside = ((value(field + one * step) - here) / step for one in (1, 1j))
+        # Central ones: the curvature in a one-sided difference would tilt the parallel slopes on a curve of zeros.
+        up, aside = ((value(field + one * step) - value(field - one * step)) / (2 * step) for one in (1, 1j))
         slopes = np.array([[up.real, aside.real], [up.imag, aside.imag]])
         if not abs(np.linalg.det(slopes)) > SINGULAR * np.square(slopes).sum():  # NaN too
             return None

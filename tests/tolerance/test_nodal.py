@@ -149,3 +149,10 @@ def test_nodes_of_exact_rays_have_no_aberration_to_either_side():
 def test_a_lost_chief_ray_is_refused_with_the_surface(gauss):
     with pytest.raises(GeometryError, match=r"surface 6; surface 3 is decentred by"):
         third_order(displaced(gauss, 3, 5, Placement(decentre_y=40.0)), inf, WAVE)
+
+
+def test_a_ring_without_astigmatism_has_no_nodes():
+    """Astigmatism of this lens vanishes on the axis, and all along a circle of fields of 18.6°."""
+    axis = np.linspace(-14.0, 14.0, 5)
+    found = field_aberrations(find_lens("double_gauss_28"), np.inf, 0.5875618, axis, axis)
+    assert found.astigmatism_nodes_deg == pytest.approx(np.zeros((1, 2)), abs=1e-6)
