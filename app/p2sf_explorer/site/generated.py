@@ -47,7 +47,7 @@ def navigation() -> list[dict[str, object]]:
         {"P2SF Explorer": "index.md"},
         entry("find.md"),
         entry("tutorial.md"),
-        {"How to": [entry(path) for path in ("import.md", "lens_files.md", "export.md", "notebook.md", "plans.md", "window.md")] + [
+        {"How to": [entry(f"{name}.md") for name in ("import", "lens_files", "export", "notebook", "plans", "window")] + [
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
         ]},
         {"Lessons": lessons},
