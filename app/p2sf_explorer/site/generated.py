@@ -43,11 +43,12 @@ def navigation() -> list[dict[str, object]]:
 
     lessons: list[object] = ["lessons/index.md"]
     lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
+    how_to = [entry(f"{name}.md") for name in ("import", "lens_files", "export", "notebook", "plans", "window")]
     return [
         {"P2SF Explorer": "index.md"},
         entry("find.md"),
         entry("tutorial.md"),
-        {"How to": [entry(f"{name}.md") for name in ("import", "lens_files", "export", "notebook", "plans", "window")] + [
+        {"How to": [*how_to, 
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
         ]},
         {"Lessons": lessons},
