@@ -48,7 +48,7 @@ def navigation() -> list[dict[str, object]]:
         {"P2SF Explorer": "index.md"},
         entry("find.md"),
         entry("tutorial.md"),
-        {"How to": [*how_to, 
+        {"How to": [*how_to,
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
         ]},
         {"Lessons": lessons},
