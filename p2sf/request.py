@@ -77,7 +77,7 @@ class Request:
     stop
         Take the stop from the file, or let the narrowest rim decide (auto).
     aim
-        Fill the rim of the real stop with exact rays (its former name is real), or the paraxial entrance pupil.
+        Fill the rim of the real stop with exact rays, or the paraxial entrance pupil.
     obscuration
         Radius of a dark disc in the middle of the stop over the rim's, 0 to 0.99.
     vanes

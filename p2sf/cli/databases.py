@@ -71,7 +71,7 @@ class CameraOptions:
     stop
         Take the stop from the file, or let the narrowest rim for an object at infinity decide (auto).
     aim
-        Fill the rim of the real stop with exact rays (its former name is real), or the paraxial entrance pupil.
+        Fill the rim of the real stop with exact rays, or the paraxial entrance pupil.
     """
 
     zoom: float | str | None = None

@@ -31,7 +31,8 @@ PixelUm = Annotated[float | None, Parameter(help="Pixel pitch in µm, unless the
 FocusUm = Annotated[
     list[float], Parameter(help="How much farther from the lens the sensor was at each picture, µm; 0 for the first.")
 ]
-Field = Annotated[Path | None, Parameter(help="A picture of the same sensor: without light, or of even light.")]
+Dark = Annotated[Path | None, Parameter(help="A picture of the same sensor without light, to be subtracted.")]
+Flat = Annotated[Path | None, Parameter(help="A picture of the same sensor in even light, to be divided by.")]
 Numbers = Annotated[str, Parameter(help="What each point is fitted by: seidel, 26 or 46 numbers.")]
 Unknown = Annotated[
     list[str],
@@ -57,8 +58,8 @@ def measure(
     focus_um: FocusUm | None = None,
     model: Numbers = "seidel",
     unknowns: Unknown | None = None,
-    dark: Field = None,
-    flat: Field = None,
+    dark: Dark = None,
+    flat: Flat = None,
     gain: Annotated[float | None, Parameter(help="Electrons per count; without it shot noise is left out.")] = None,
     read_noise: Annotated[float | None, Parameter(help="Of a dark pixel in counts; estimated otherwise.")] = None,
     full_scale: Annotated[float | None, Parameter(help="Counts from which a pixel is saturated.")] = None,

@@ -29,7 +29,7 @@ StopName = Annotated[
 ]
 AimName = Annotated[
     AimChoice | None,
-    Parameter(help="Fill the real stop with exact rays (its former name is real), or the paraxial entrance pupil."),
+    Parameter(help="Fill the real stop with exact rays, or the paraxial entrance pupil."),
 ]
 Ring = Annotated[
     float | str | None,

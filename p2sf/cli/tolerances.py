@@ -45,7 +45,18 @@ PERCENTILES = 10, 50, 90
 GradeOption = Annotated[Literal["commercial", "precision", "high"], Parameter(help="Usual tolerances of this grade.")]
 SetFile = Annotated[Path | None, Parameter("--set", negative="", help="Tolerances of one's own, a file in TOML.")]
 BuildsOption = Annotated[Whole, Parameter(help="How many lenses are built at random.")]
-Limit = Annotated[float | None, Parameter(help="What every field of a good lens keeps.", negative="")]
+RmsLimit = Annotated[
+    float | None, Parameter(help="A good lens has at most this RMS wavefront at every field, waves.", negative="")
+]
+StrehlLimit = Annotated[
+    float | None, Parameter(help="A good lens has at least this Strehl ratio at every field.", negative="")
+]
+MtfLimit = Annotated[
+    float | None, Parameter(help="A good lens has at least this contrast at every field.", negative="")
+]
+ShiftLimit = Annotated[
+    float | None, Parameter(help="The image of a good lens is shifted by at most this at every field, µm.", negative="")
+]
 By = Annotated[Criterion, Parameter(help="What errors are sorted by.")]
 Frequency = Annotated[float, Parameter(help="Of the contrast, cycles per mm on the sensor.", negative="")]
 Seed = Annotated[Whole, Parameter(help="Another number draws other lenses.")]
@@ -59,10 +70,10 @@ def tolerance(
     grade: GradeOption = "precision",
     own: SetFile = None,
     builds: BuildsOption = 10_000,
-    rms_waves: Limit = None,
-    strehl: Limit = None,
-    mtf: Limit = None,
-    boresight_um: Limit = None,
+    rms_waves: RmsLimit = None,
+    strehl: StrehlLimit = None,
+    mtf: MtfLimit = None,
+    boresight_um: ShiftLimit = None,
     criterion: By = "rms_waves",
     frequency_per_mm: Frequency = 10.0,
     seed: Seed = 0,
