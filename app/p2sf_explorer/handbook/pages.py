@@ -16,6 +16,7 @@ PAGES = {
     "import": "Import a lens",
     "lens_files": "Write a lens file",
     "export": "Export",
+    "measure": "Measure a lens",
     "notebook": "In a notebook",
     "theory": "Theory",
     "numerics": "Numerical accuracy",

@@ -1,9 +1,10 @@
 """A picture of points, measured: its points, picture beside model, coefficients with errors beside the lens's own."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QLocale, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -28,7 +29,7 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.i18n.tr import decimal_separator, local, tr
 from p2sf_explorer.measuring.measurement import (
     LensRequest,
     MeasurementRequest,
@@ -66,7 +67,7 @@ PITCH_UM = 3.45  # of a usual industrial camera
 
 
 class MeasuredPanel:
-    """Controls in a row; below them three pictures of the point chosen, the list of points, and the numbers."""
+    """Controls in two rows; below them three pictures of the point chosen, the list of points, and the numbers."""
 
     def __init__(self, store: Store):
         self._store = store
@@ -100,6 +101,7 @@ class MeasuredPanel:
         self._show_readout()
 
     def _lay_out(self) -> None:
+        self.pixel.setLocale(QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C))
         self.pixel.setRange(0.05, 1000.0)
         self.pixel.setDecimals(3)
         self.pixel.setSuffix(" µm")
@@ -109,19 +111,17 @@ class MeasuredPanel:
         self.pixel.setAccessibleName(tr("Pixel pitch"))
         self.beside.setChecked(True)
         self.beside.setToolTip(tr("Fit departures from the lens on screen; without it, the lens gives the scale only"))
-        controls = QWidget()
-        row = QHBoxLayout(controls)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
-        for part in (self.open, self.stop_button, self.save, self.built, self.take, self.pixel, self.beside):
-            row.addWidget(part)
-        row.addStretch(1)
         self.body = MeasuredBody(self.chart, self.list, self.table)
         whole = QWidget()
         column = QVBoxLayout(whole)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(4)
-        column.addWidget(controls)
+        # In one row they are wider than the panel of a small window.
+        for parts in (
+            (self.open, self.stop_button, self.save, self.built, self.take),
+            (self.pixel, self.beside),
+        ):
+            column.addLayout(_row(parts))
         column.addWidget(self.body, 1)
         self.widget.set_body(whole)
         self.note.setObjectName("muted")
@@ -279,6 +279,16 @@ class MeasuredPanel:
     def stop(self) -> None:
         """End the worker's thread."""
         self.worker.stop()
+
+
+def _row(parts: Sequence[QWidget]) -> QHBoxLayout:
+    """Return controls beside each other, from the left."""
+    row = QHBoxLayout()
+    row.setSpacing(4)
+    for part in parts:
+        row.addWidget(part)
+    row.addStretch(1)
+    return row
 
 
 class MeasuredBody(QWidget):

@@ -347,6 +347,7 @@
 <message><source>Map over depth and field</source><translation>Karte über Abstand und Feld</translation></message>
 <message><source>Matrix</source><translation>Matrix</translation></message>
 <message><source>Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or of A and B. A click on a picture, or Enter, makes its point the present one, which a frame marks; dashed: the nearest to it.</source><translation>Matrix: dasselbe Bild bei mehreren Feldern und mehreren Wellenlängen, Abständen oder Sensorversätzen, oder von A und B. Ein Klick auf ein Bild, oder Enter, macht seinen Punkt zum jetzigen, den ein Rahmen zeigt; gestrichelt: der nächste an ihm.</translation></message>
+<message><source>Measure a lens</source><translation>Ein Objektiv vermessen</translation></message>
 <message><source>Measured</source><translation>Gemessen</translation></message>
 <message><source>Measured: the points of a photograph, the wavefront that explains each with its errors, and what all of them tell of the lens and of how the sensor stands. Pictures are √ of brightness over the picture's peak, all on one scale.</source><translation>Gemessen: die Punkte einer Aufnahme, die Wellenfront, die jeden erklärt, mit ihren Fehlern, und was alle zusammen über das Objektiv und die Lage des Sensors sagen. Die Bilder zeigen √ der Helligkeit über der Spitze des Bildes, alle auf einer Skala.</translation></message>
 <message><source>Method</source><translation>Methode</translation></message>
