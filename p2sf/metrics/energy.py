@@ -19,7 +19,7 @@ from scipy.special import j1
 from p2sf.conventions import protected
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of, uniform_disc
-from p2sf.metrics.masked_transfer import masked_cells
+from p2sf.metrics.mask_lines import masked_cells
 from p2sf.metrics.perfect import circle_energy
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count

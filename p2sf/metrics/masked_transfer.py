@@ -1,245 +1,130 @@
-"""Transfer function and cells of a pupil behind a mask, whose lines are several intervals (handbook 6.3).
+"""Autocorrelation of a pupil behind a mask, whose lines are several intervals (handbook 6.3).
 
-The edges of the mask, curves over the stop, are mapped to spatial frequency. On a line of constant fy the open part is
-a set of intervals; its autocorrelation at a lag is the integral over their overlaps with themselves moved by the lag,
-each by Gauss–Legendre. Lines stand close at the ends of every edge, where the intervals change as a root does.
+Each line is sampled at even steps, with weights at the ends of every interval, and its autocorrelation is by FFT. The
+weights at both ends of an interval meet where it is moved by less than END steps: there its own sum is made anew with
+the weights of what it shares with itself. Lines stand close at the ends of every edge, where the intervals change as a
+root does.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import pairwise
-from math import ceil, hypot, pi
+from math import ceil, hypot, inf
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebval, chebval2d, chebvander
+from scipy import fft
 
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of
-from p2sf.pupil.mask import PupilMask, mask_slopes
-from p2sf.pupil.mask_nodes import exit_distance, outline_radius
-from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.metrics.line_ends import END, interval_weights
+from p2sf.metrics.mask_lines import box_edges, light_on_grid, open_intervals, places_between
+from p2sf.pupil.mask import mask_slopes
+from p2sf.pupil.phasors import cosine_sine
+from p2sf.pupil.quadrature import even_count
 
-CURVE = 1024  # points along an edge of the pupil: chords between them depart from it by 5e-6 of the radius
-NEWTON_STEPS = 6
-FEWEST_ROWS, ROWS_PER_WAVE, FEWEST_PER_PANEL = 160, 3.0, 8
-FEWEST_NODES, NODES_PER_WAVE = 14, 7.0
-MOST_SLOPE = 300.0  # waves: beyond, a table of contrasts takes minutes
-CLOSE = 1e-8  # of the box: ends of edges no farther apart are one
+FEWEST_ROWS, ROWS_PER_WAVE, ROWS_OF_RING = 320, 3.0, 160
 NARROW = 0.35  # power of a ring's width by which it needs more lines
-TABLE = 192  # frequencies of a table up to the cut-off, at least
-SUBCELLS = 6  # along each side of a cell, by which the open part of cells on edges is found
-
-Intervals = list[tuple[float, float]]
+FEWEST_SAMPLES, SAMPLES_PER_WAVE, SAMPLES_PER_WIDTH = 256, 8.0, 12.0
+MOST_SAMPLES = 2**25  # of all lines, seconds of work
+MARGIN = 4  # samples beyond the box at either end, more than END
+AT_ONCE = 2**15  # samples of the lines in one block
 
 
 @dataclass(frozen=True, eq=False)
-class MaskedSlice:
-    """The optical transfer function along one axis behind a mask, as `transfer.OtfSlice` has it."""
+class MaskedLines:
+    """The lines of a pupil along one axis, in the box's coordinates, and what of each is open.
 
-    pupil: FrequencyPupil
+    ``places``, ``weights``: of the lines, (lines,). ``low``, ``high``: the ends of their intervals, (intervals, lines).
+    ``samples``: steps along the box.
+    """
+
     along_y: bool
-    cancelled: Callable[[], bool]
-
-    @property
-    def cut_off(self) -> float:
-        """Return the frequency from which on nothing is transferred, cycles per µm."""
-        return self.pupil.cut_off_per_um[1 if self.along_y else 0]
-
-    @property
-    def step(self) -> float:
-        """Return the step of frequency that follows the blur, cycles per µm."""
-        reach = reach_of(self.pupil)
-        return self.cut_off / (TABLE + 8 * ceil(reach.y if self.along_y else reach.x))
-
-    def at(self, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the transfer function about the centroid along y, and that of the pupil without phase."""
-        own, perfect = self._lines.at(2 * np.minimum(frequency / self.cut_off, 1.0))
-        return (own.conj() if self.pupil.turned and not self.along_y else own), perfect
-
-    @cached_property
-    def _lines(self) -> "_MaskedLines":
-        return _MaskedLines(self.pupil, self.along_y, self.cancelled)
+    samples: int
+    places: np.ndarray
+    weights: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
 
 
-class _MaskedLines:
-    """The lines of a pupil along one axis, in the box's coordinates, and the intervals of each that are open."""
-
-    def __init__(self, pupil: FrequencyPupil, along_y: bool, cancelled: Callable[[], bool]):
-        reach = reach_of(pupil)
-        slopes = mask_slopes(pupil.mask)
-        more = 0.0
-        if pupil.mask.phased:
-            more = hypot(slopes.path_radial_um, slopes.path_angular_um) / abs(pupil.wavelength_um)
-        along, across = (reach.y, reach.in_column) if along_y else (reach.x, reach.in_row)
-        if along + more > MOST_SLOPE:
+def masked_lines(pupil: FrequencyPupil) -> tuple[MaskedLines, MaskedLines]:
+    """Return the rows and the columns of a pupil behind a mask. Raises SamplingError for too large a blur."""
+    mask, reach, slopes = pupil.mask, reach_of(pupil), mask_slopes(pupil.mask)
+    more = hypot(slopes.path_radial_um, slopes.path_angular_um) / abs(pupil.wavelength_um) if mask.phased else 0.0
+    light, dark = box_edges(pupil)
+    found = []
+    for along_y, along, across in ((False, reach.x, reach.in_row), (True, reach.y, reach.in_column)):
+        samples = even_count(
+            max(FEWEST_SAMPLES, SAMPLES_PER_WIDTH / (1 - mask.obscuration)) + SAMPLES_PER_WAVE * (along + more)
+        )
+        fewest = max(FEWEST_ROWS, ROWS_OF_RING / (1 - mask.obscuration) ** NARROW)
+        halved = along_y and mask.even  # columns at −x are the same
+        rows = ceil((fewest + ROWS_PER_WAVE * (across + more)) / (2 if halved else 1))
+        if rows * samples > MOST_SAMPLES:
             raise SamplingError(
                 "a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or "
                 "stop down",
                 waves=along + more,
             )
-        self.pupil, self.along_y, self.cancelled = pupil, along_y, cancelled
-        self.count = ceil(FEWEST_NODES + NODES_PER_WAVE * (along + more))
-        curves = [
-            curve if along_y else curve[::-1] for curve in (to_box(pupil, *edge) for edge in edges_of(pupil.mask))
-        ]
-        rows = FEWEST_ROWS / (1 - pupil.mask.obscuration) ** NARROW + ROWS_PER_WAVE * (across + more)
-        self.places, self.weights = _places(curves, ceil(rows))
-        self.open = [_open_intervals(curves, float(place)) for place in self.places]
-
-    def at(self, lags: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return Σ P(x)·P*(x − lag) and the same of |P|, over those at lag 0."""
-        lags = np.append(0.0, lags)
-        own, perfect = np.zeros(lags.size, complex), np.zeros(lags.size)
-        for place, weight, intervals in zip(self.places, self.weights, self.open, strict=True):
-            if self.cancelled():
-                raise Cancelled("the transfer function was stopped")
-            one, other = self._line(float(place), intervals, lags)
-            own += weight * one
-            perfect += weight * other
-        return own[1:] / perfect[0], perfect[1:] / perfect[0]
-
-    def _line(self, place: float, intervals: Intervals, lags: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        own, perfect = np.zeros(lags.size, complex), np.zeros(lags.size)
-        node, share = gauss_legendre(self.count)
-        for low, high in intervals:
-            for left, right in intervals:
-                begin, end = np.maximum(low, left + lags), np.minimum(high, right + lags)
-                some = np.flatnonzero(end > begin)
-                if not some.size:
-                    continue
-                half = (end[some] - begin[some])[:, None] / 2
-                x = (begin[some] + end[some])[:, None] / 2 + half * node
-                here, phase = self._values(place, x)
-                there, moved = self._values(place, x - lags[some, None])
-                light = here * there * share * half
-                own[some] += (light * np.exp(2j * pi * (phase - moved))).sum(1)
-                perfect[some] += light.sum(1)
-        return own, perfect
-
-    def _values(self, place: float, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return modulus and phase, in waves about the centroid along y, on a line of the box."""
-        pupil = self.pupil
-
-        def on_line(table: np.ndarray) -> np.ndarray:
-            across = chebvander(np.array([place]), len(table) - 1)[0]
-            values: np.ndarray = chebval(along, table @ across if self.along_y else across @ table)
-            return values
-
-        x, y = (np.full_like(along, place), along) if self.along_y else (along, np.full_like(along, place))
-        xi, eta = x * on_line(pupil.stretch), on_line(pupil.up)
-        phase = on_line(pupil.phase) + pupil.centroid_um * pupil.half_y * y
-        if pupil.mask.phased:
-            phase = phase + pupil.mask.path_um(xi, eta) / pupil.wavelength_um
-        return np.abs(on_line(pupil.density)) * pupil.mask.amplitude(xi, eta), phase
+        inner, outer = ([curve if along_y else curve[::-1] for curve in curves] for curves in (light, dark))
+        places, weights = places_between([*inner, *outer], rows, 0.0 if halved else -inf)
+        found.append(MaskedLines(along_y, samples, places, weights, *open_intervals(inner, outer, places)))
+    return found[0], found[1]
 
 
-def masked_slices(pupil: FrequencyPupil, cancelled: Callable[[], bool]) -> tuple[MaskedSlice, MaskedSlice]:
-    """Return the transfer function along x and along y behind a mask. Raises SamplingError for too large a blur."""
-    return MaskedSlice(pupil, False, cancelled), MaskedSlice(pupil, True, cancelled)
+def masked_sum(
+    pupil: FrequencyPupil, lines: MaskedLines, cancelled: Callable[[], bool]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the autocorrelations of the pupil about its centroid and of its modulus at the lags 0 … samples."""
+    step, size = 2 / lines.samples, lines.samples + 2 * MARGIN
+    along = np.arange(size) * step - 1 - (MARGIN - 0.5) * step
+    length = fft.next_fast_len(2 * size)
+    own, perfect = np.zeros(length), np.zeros(length // 2 + 1)
+    near = np.zeros((2, END), complex)
+    for start in range(0, lines.places.size, AT_ONCE // size + 1):
+        if cancelled():
+            raise Cancelled("the transfer function was stopped")
+        some = slice(start, start + AT_ONCE // size + 1)
+        low, high = ((end[:, some] - along[0]) / step for end in (lines.low, lines.high))
+        each = [interval_weights(*ends, size) for ends in zip(low, high, strict=True)]
+        total = np.sum(each, axis=0)
+        modulus, wave = _line_values(pupil, lines, some, along, total > 0)
+        own += _power(fft.fft(total * wave, length))
+        perfect += _power(fft.rfft(total * modulus, length))
+        for lag in range(END):
+            shared = _lacking(low, high, each, lag, size)
+            for k, values in enumerate((wave, modulus)):
+                near[k, lag] += np.sum(shared * values[:, lag:] * values[:, : size - lag].conj())
+    both = fft.ifft(own)[: lines.samples + 1], fft.irfft(perfect, length)[: lines.samples + 1].astype(complex)
+    for values, more in zip(both, near, strict=True):
+        values[:END] += more
+    return both[0], both[1].real
 
 
-def edges_of(mask: PupilMask) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the closed edges over the stop, ξ and η each: of the iris, then of what is dark inside."""
-    corners = [angle % (2 * pi) for angle in mask.corner_angles]
-    theta = np.unique(np.concatenate([np.linspace(0, 2 * pi, CURVE, endpoint=False), corners]))
-    outer = outline_radius(mask, theta)
-    curves = [(outer * np.sin(theta), outer * np.cos(theta))]
-    if mask.obscuration:
-        curves.append((mask.obscuration * np.sin(theta), mask.obscuration * np.cos(theta)))
-    return curves + [_vane_edge(mask, angle) for angle in mask.vane_angles]
+def _line_values(
+    pupil: FrequencyPupil, lines: MaskedLines, some: slice, along: np.ndarray, wanted: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the modulus and the pupil function about the centroid on some lines, (lines, samples).
 
-
-def _vane_edge(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the edge of a vane from the middle to beyond the iris; where vanes meet they overlap."""
-    half, sine, cosine = mask.vane_width, np.sin(angle), np.cos(angle)
-    aside = np.linspace(-half, half, CURVE // 16)
-    one = np.ones_like(aside)
-    end = exit_distance(mask, aside * cosine, -aside * sine, sine * one, cosine * one)
-    sides = np.linspace(0, 1, CURVE // 8)
-    along = np.concatenate([end, sides[::-1] * end[-1], sides * end[0]])
-    across = np.concatenate([aside, np.full(sides.size, half), np.full(sides.size, -half)])
-    return across * cosine + along * sine, along * cosine - across * sine
-
-
-def to_box(pupil: FrequencyPupil, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return the points of the box whose rays pass (ξ, η) of the pupil, (2, points), by Newton's method."""
-    size = (
-        float(chebval2d(0.0, 0.0, pupil.stretch)),
-        float(chebval2d(1.0, 0.0, pupil.up) - chebval2d(-1.0, 0.0, pupil.up)) / 2,
-    )
-    x, y = np.clip(xi / size[0], -1, 1), np.clip(eta / size[1], -1, 1)
-    step = 1e-6
-    for _ in range(NEWTON_STEPS):
-        here, right, above = (_stop_point(pupil, x + dx, y + dy) for dx, dy in ((0, 0), (step, 0), (0, step)))
-        (a, c), (b, d) = (right - here) / step, (above - here) / step
-        miss_x, miss_y, area = xi - here[0], eta - here[1], a * d - b * c
-        x, y = x + (d * miss_x - b * miss_y) / area, y + (a * miss_y - c * miss_x) / area
-    return np.stack([x, y])
-
-
-def _stop_point(pupil: FrequencyPupil, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    return np.stack([x * chebval2d(y, x, pupil.stretch), chebval2d(y, x, pupil.up)])
-
-
-def _places(curves: list[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return lines and weights between the ends and corners of all edges, where Gauss–Legendre in an angle crowds."""
-    breaks = set()
-    for curve in curves:
-        across = curve[0]
-        turning = (across >= np.roll(across, 1)) != (np.roll(across, -1) >= across)
-        breaks |= set(np.round(across[turning], 9).tolist())
-    low, high = float(curves[0][0].min()), float(curves[0][0].max())
-    inside = [low, *sorted(b for b in breaks if low + CLOSE < b < high - CLOSE), high]
-    places, weights = [], []
-    for low, high in pairwise(inside):
-        node, weight = gauss_legendre(max(FEWEST_PER_PANEL, ceil(count * (high - low) / (inside[-1] - inside[0]))))
-        angle = node * pi / 2
-        places.append((low + high + (high - low) * np.sin(angle)) / 2)
-        weights.append((high - low) / 2 * np.cos(angle) * weight * pi / 2)
-    return np.concatenate(places), np.concatenate(weights)
-
-
-def _open_intervals(curves: list[np.ndarray], place: float) -> Intervals:
-    """Return the intervals of a line inside the first curve and outside all others."""
-    found = _inside(curves[0], place)
-    for curve in curves[1:]:
-        for low, high in _inside(curve, place):
-            parts = [((a, min(b, low)), (max(a, high), b)) for a, b in found]
-            found = [(a, b) for pair in parts for a, b in pair if b > a]
-    return found
-
-
-def _inside(curve: np.ndarray, place: float) -> Intervals:
-    """Return the intervals of a line inside a closed curve, (2, points): across the lines, and along them."""
-    across, along = curve
-    above = across > place
-    cut = np.flatnonzero(above != np.roll(above, -1))
-    following = (cut + 1) % across.size
-    part = (place - across[cut]) / (across[following] - across[cut])
-    crossings = np.sort(along[cut] + part * (along[following] - along[cut])).tolist()
-    return list(zip(crossings[::2], crossings[1::2], strict=False))
-
-
-def masked_cells(pupil: FrequencyPupil, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return amplitude with the open share of each cell, amplitude without, and the mask's phase, (y, x).
-
-    The open share is counted on SUBCELLS² points of each cell.
+    Both by the root of the lines' weights.
     """
-    wide, high = x[1] - x[0], y[1] - y[0]
-    place = (np.arange(SUBCELLS) + 0.5) / SUBCELLS - 0.5
-    fine = [(np.repeat(a, SUBCELLS), step) for a, step in ((x, wide), (y, high))]
-    fine_x, fine_y = (a + np.tile(place, a.size // SUBCELLS) * step for a, step in fine)
-    order = len(pupil.up) - 1
-    along, across = chebvander(fine_y, order), chebvander(fine_x, order)
-    xi, eta = fine_x * (along @ pupil.stretch @ across.T), along @ pupil.up @ across.T
-    open_ = pupil.mask.opens(xi, eta) & (xi * xi + eta * eta <= 1)
-    share = open_.reshape(y.size, SUBCELLS, x.size, SUBCELLS).mean((1, 3))
-    along, across = chebvander(y, order), chebvander(x, order)
-    xi, eta = x * (along @ pupil.stretch @ across.T), along @ pupil.up @ across.T
-    inside = share > 0
-    density = np.where(inside, np.abs(pupil.on_grid(x, y)[1]) * pupil.mask.amplitude(xi * inside, eta * inside), 0.0)
-    phase = pupil.on_grid(x, y)[0]
-    if pupil.mask.phased:
-        phase = phase + pupil.mask.path_um(xi * inside, eta * inside) / pupil.wavelength_um
-    return share * density, density, phase
+    places, weights = lines.places[some], lines.weights[some]
+    if lines.along_y:
+        modulus, phase = (values.T for values in light_on_grid(pupil, places, along, wanted.T))
+        phase = phase + pupil.centroid_um * pupil.half_y * along
+    else:
+        modulus, phase = light_on_grid(pupil, along, places, wanted)
+    modulus = modulus * np.sqrt(weights)[:, None]
+    cosine, sine = cosine_sine(phase, np.float64)
+    return modulus, modulus * (cosine + 1j * sine)
+
+
+def _power(spectrum: np.ndarray) -> np.ndarray:
+    power: np.ndarray = (spectrum.real**2 + spectrum.imag**2).sum(0)
+    return power
+
+
+def _lacking(low: np.ndarray, high: np.ndarray, each: list[np.ndarray], lag: int, size: int) -> np.ndarray:
+    """Return what the products of the weights at a lag lack of those of the shared interval, (lines, samples − lag)."""
+    lack = np.zeros((low.shape[1], size - lag))
+    for bottom, top, weight in zip(low, high, each, strict=True):
+        lack += interval_weights(bottom + lag, top, size)[:, lag:] - weight[:, lag:] * weight[:, : size - lag]
+    return lack

@@ -21,7 +21,6 @@ from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
 from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays, turned
-from p2sf.metrics.masked_transfer import MaskedSlice
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import check_seidel, coefficients
 from p2sf.psf.methods import choose
@@ -229,9 +228,7 @@ def mtf_of(
     return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg)
 
 
-def _transfer(
-    parts: Parts, slices: Sequence[OtfSlice | MaskedSlice], frequency: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return Σ share·OTF about the centroid of all parts, and the same of the pupils without phase."""
     total, bound = np.zeros(frequency.shape, complex), np.zeros(frequency.shape)
     up, right = centroid_of(parts), centroid_x_of(parts)

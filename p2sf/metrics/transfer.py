@@ -20,7 +20,8 @@ from scipy import fft
 from p2sf.conventions import protected
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
-from p2sf.metrics.masked_transfer import MaskedSlice, masked_slices
+from p2sf.metrics.line_ends import ENDS, end_weights
+from p2sf.metrics.masked_transfer import MaskedLines, masked_lines, masked_sum
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
@@ -29,9 +30,6 @@ FEWEST_LINES, LINES_PER_WAVE, LINES_PER_END = 48, 2.5, 0.75
 FEWEST_SAMPLES, SAMPLES_PER_WAVE = 128, 8.0
 MOST_SAMPLES = 2**25  # of all lines: slopes of some 1500 waves, seconds of work
 AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
-END = 3  # samples at the end of a line whose weights differ from 1
-ENDS = np.arange(END)[:, None]
-GREGORY = np.array([1 / 2, 1 / 12, 0.0])  # −B₁, B₂/2, B₃/3: see `end_weights`
 CALIBRATED = 512  # lines: with more, what a calibration mends is below 1e-6
 SMALLEST = 1e-6  # of a calibrating contrast: below, both are nothing
 
@@ -81,15 +79,14 @@ class OtfSlice:
         return real + 1j * imaginary, perfect
 
 
-def otf_slices(
-    pupil: FrequencyPupil, cancelled: Stop = never
-) -> tuple["OtfSlice | MaskedSlice", "OtfSlice | MaskedSlice"]:
+def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice, OtfSlice]:
     """Return the transfer function along x and along y. Raises SamplingError where that takes too many samples.
 
     ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
     """
     if not pupil.mask.clear:
-        return masked_slices(pupil, cancelled)
+        lines = masked_lines(pupil)
+        return _masked_slice(pupil, lines[0], cancelled), _masked_slice(pupil, lines[1], cancelled)
     across, along = _line_counts(reach_of(pupil), pupil.even)
     if not pupil.even:
         other = pupil.transposed
@@ -109,6 +106,14 @@ def _slice(
     own, perfect = line_sum(pupil, counts, cancelled)
     factor = _calibration(counts, line_sum, pupil.even) if counts[0] <= CALIBRATED else np.ones(own.size)
     return OtfSlice(cut_off / counts[1], own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
+
+
+def _masked_slice(pupil: FrequencyPupil, lines: MaskedLines, cancelled: Stop) -> OtfSlice:
+    own, perfect = masked_sum(pupil, lines, cancelled)
+    cut_off = pupil.cut_off_per_um[1 if lines.along_y else 0]
+    if pupil.turned and not lines.along_y:
+        own = own.conj()
+    return OtfSlice(cut_off / lines.samples, own / own[0].real, perfect / perfect[0], lines.along_y)
 
 
 def line_spread(transfer: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
@@ -140,7 +145,7 @@ def _waves(transfer: np.ndarray, step: float, position_um: np.ndarray, first: in
 
 
 def otf_samples(pupil: FrequencyPupil) -> int:
-    """Return how many samples both slices of the transfer function take together."""
+    """Return how many samples both slices of the transfer function take together, behind no mask."""
     across, along = _line_counts(reach_of(pupil), pupil.even)
     return across[0] * across[1] + along[0] * along[1]
 
@@ -275,19 +280,6 @@ def _blocks(lines: int, samples: int, length: int, cancelled: Stop) -> Iterator[
 def _even_length(least: int) -> int:
     length: int = 2 * fft.next_fast_len(-(-least // 2))
     return length
-
-
-def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the last sample of lines that end at ``ends`` steps, and the weights of the last END, (END, lines).
-
-    Σ weight·f is then ∫f to the end, exact for polynomials of degree END − 1: Gregory's rule (Davis & Rabinowitz 1984,
-    §2.9) for an end up to half a step on either side of the last sample. The moments of the weights are ∫uᵐdu from 0 to
-    the end, and those of plain samples (Euler–Maclaurin) −Bₘ₊₁(1)·(−1)ᵐ/(m + 1).
-    """
-    last = np.floor(ends + 0.5).astype(int)
-    powers = np.arange(1, END + 1)[:, None]
-    moments = (ends - last) ** powers / powers - GREGORY[:, None]
-    return last, 1 + np.linalg.solve(np.vander(-np.arange(float(END)), END, increasing=True).T, moments)
 
 
 @lru_cache(maxsize=64)

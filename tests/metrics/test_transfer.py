@@ -8,11 +8,12 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import with_aim, with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics import transfer
+from p2sf.metrics import line_ends, transfer
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
+from p2sf.metrics.line_ends import end_weights
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
 from p2sf.metrics.perfect import diffraction_mtf
-from p2sf.metrics.transfer import OtfSlice, end_weights, otf_slices
+from p2sf.metrics.transfer import OtfSlice, otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.fit import fit
 from tests.support.overlap import overlap
@@ -119,7 +120,7 @@ def test_the_perfect_curve_hardly_depends_on_the_sampling():
 def test_an_end_between_two_samples_is_integrated_exactly():
     ends = np.array([9.5, 9.77, 10.0, 10.31, 10.499])
     last, weight = end_weights(ends)
-    for power in range(transfer.END):
+    for power in range(line_ends.END):
         for end, at, own in zip(ends, last, weight.T, strict=True):
             places = np.arange(at, -400.0, -1)
             factor = np.ones(places.size)

@@ -61,7 +61,7 @@ def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
 
 
 def mtf_is_live(request: MeasureRequest) -> bool:
-    """Return whether the transfer function is computed within a frame; behind a mask it takes seconds."""
+    """Return whether the transfer function is computed within a frame; behind a mask it takes some 40 ms."""
     return request.lens.mask.clear and otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, P2SFError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
 from p2sf.metrics.perfect import airy_radius_um
@@ -369,11 +369,7 @@ def _fan(place: Place, trace: Callable[[Lens, SourceLike, bool, str], Fan], word
 
 
 def _contrast(place: Place, pixel_um: float) -> Tile:
-    """Return the contrast of both patterns up to the cut-off; figure: the smaller at the sensor's Nyquist frequency.
-
-    GeometryError behind a mask, where one takes seconds.
-    """
-    check_unmasked(place.setup.lens, Message("a matrix of transfer functions"))
+    """Return the contrast of both patterns up to the cut-off; figure: the smaller at the sensor's Nyquist frequency."""
     setup, clip = place.setup, place.state.optics.clip and not place.six
     six = tuple(float(value) for value in vars(setup.coefficients).values()) if place.six else ()
     found = contrast_of(MeasureRequest(setup.lens, setup.source, clip, six))

@@ -108,8 +108,9 @@ def test_the_pupil_has_the_rms_of_the_rays(quality):
         assert float(tile.content.values[inside].std()) == pytest.approx(rms, rel=0.1, abs=5e-3)  # a pixel wider
 
 
-def test_contrast_is_that_of_the_library():
-    request = request_of(TRIPLET, matrix_what="mtf", matrix_rows=2, matrix_columns=2)
+@pytest.mark.parametrize("obscuration", [0.0, 0.35])
+def test_contrast_is_that_of_the_library(obscuration):
+    request = request_of(TRIPLET, matrix_what="mtf", matrix_rows=2, matrix_columns=2, obscuration=obscuration)
     assert matrix(live(changed(TRIPLET, matrix_what="mtf"))).tiles is None, "it takes longer than a frame"
     for state, tile in each(request, worked(request)[0]):
         setup, x = paraxial_setup(state), tile.content.x

@@ -904,7 +904,6 @@
 <message><source>a mask stands in the stop, and {what} knows a clear round stop only; take the mask away</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
 <message><source>a mask stands in the stop; RMS, Strehl ratio and contrast of builds are those of the clear stop</source><translation>in der Blende steht eine Maske; RMS, Strehl-Zahl und Kontrast gebauter Objektive sind die der freien Blende</translation></message>
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
-<message><source>a matrix of transfer functions</source><translation>eine Matrix von Übertragungsfunktionen</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a model with a pupil map is fitted to points straight above, below or beside the axis only</source><translation>ein Modell mit Pupillenabbildung wird nur an Punkte genau über, unter oder neben der Achse angepasst</translation></message>

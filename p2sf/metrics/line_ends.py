@@ -1,0 +1,38 @@
+"""Weights of even samples along a line that ends between two of them."""
+
+import numpy as np
+
+END = 3  # samples at the end of a line whose weights differ from 1
+ENDS = np.arange(END)[:, None]
+GREGORY = np.array([1 / 2, 1 / 12, 0.0])  # −B₁, B₂/2, B₃/3: see `end_weights`
+
+
+def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the last sample of lines that end at ``ends`` steps, and the weights of the last END, (END, lines).
+
+    Σ weight·f is then ∫f to the end, exact for polynomials of degree END − 1: Gregory's rule (Davis & Rabinowitz 1984,
+    §2.9) for an end up to half a step on either side of the last sample. The moments of the weights are ∫uᵐdu from 0 to
+    the end, and those of plain samples (Euler–Maclaurin) −Bₘ₊₁(1)·(−1)ᵐ/(m + 1).
+    """
+    last = np.floor(ends + 0.5).astype(int)
+    powers = np.arange(1, END + 1)[:, None]
+    moments = (ends - last) ** powers / powers - GREGORY[:, None]
+    return last, 1 + np.linalg.solve(np.vander(-np.arange(float(END)), END, increasing=True).T, moments)
+
+
+def interval_weights(low: np.ndarray, high: np.ndarray, size: int) -> np.ndarray:
+    """Return positive weights (lines, size) of samples for intervals, in steps, one a line; 0 where low ≥ high.
+
+    At both ends those of `end_weights`. Where the ends are nearer than the samples they change, the weights are scaled
+    to the length of the interval, which is right for a constant.
+    """
+    last, top = end_weights(high)
+    behind, bottom = end_weights(size - 1 - low)
+    place, line, first = np.arange(size), np.arange(low.size), size - 1 - behind
+    weight = ((place >= first[:, None]) & (place <= last[:, None])).astype(float)
+    weight[line, last - ENDS] *= top
+    weight[line, first + ENDS] *= bottom
+    total = weight.sum(1)
+    length = np.maximum(high - low, 0.0)
+    weight *= np.divide(length, total, out=np.zeros_like(total), where=total > 0)[:, None]
+    return weight
