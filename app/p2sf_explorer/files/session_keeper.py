@@ -76,9 +76,11 @@ class SessionKeeper(QObject):
 
     def _write_on(self) -> None:
         """Write what waits, the latest of it, until the end."""
-        while not self._closed:
+        while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._closed or self._waiting)
+                if self._closed:
+                    return
             with self._writing:  # taken within, so that nothing older is written after `keep`
                 if session := self._take():
                     keep_session(*session)

@@ -88,8 +88,9 @@ def test_the_next_start_finds_the_last_window(window):
     state, geometry = last_session()
     assert state == kept
     again = SessionKeeper(window, window.store, lambda: window.floating.open, geometry)
-    for filtering in (keeping, again):
-        window.removeEventFilter(filtering)
+    for keeper in (keeping, again):
+        window.removeEventFilter(keeper)
+        keeper.stop()  # or its thread would write what the next test changes
     window.resize(1440, 900)  # no screen here is that large, so Qt brings the window back inside
 
 

@@ -206,8 +206,9 @@ def test_own_windows_stand_where_they_stood_when_opened_again_and_at_the_next_st
     assert state.display.windows == ("mtf",)
     again = SessionKeeper(window, window.store, lambda: window.floating.open, geometry)
     assert window.floating.open["mtf"].size() == QSize(433, 377)
-    for filtering in (keeping, again):
-        window.removeEventFilter(filtering)
+    for keeper in (keeping, again):
+        window.removeEventFilter(keeper)
+        keeper.stop()  # or its thread would write what the next test changes
 
 
 SCREENS = {"wide": QRect(0, 0, 3840, 2160), "laptop": QRect(0, 25, 1440, 860), "small": QRect(0, 0, 800, 600)}

@@ -104,6 +104,7 @@ def test_each_survives_restart_link_and_snapshot(window, bar, tmp_path, name):
     window.store.replace(state)
     keeper = SessionKeeper(window, window.store, lambda: window.floating.open, {})
     keeper.keep()
+    keeper.stop()  # or its thread would write what the next test changes
     window.removeEventFilter(keeper)
     again = MainWindow(last_session()[0], measured=False)
     try:
