@@ -180,7 +180,7 @@ def _of_source(
     turn, shift = np.empty((count, 2, rays + 1)), np.empty((count, 2, rays))
     for place, step in enumerate(steps):
         one = tolerances[place : place + 1]
-        more, less = (fly(build(lens, one, [error], wavelength), source, *nodes) for error in (step, -step))
+        more, less = (fly(build(lens, one, [error]), source, *nodes) for error in (step, -step))
         first[place] = (more.phase - less.phase) / (2 * step)
         chief[place] = (more.chief_um - less.chief_um) / (2 * step)
         turn[place] = (more.cosines - less.cosines) / (2 * step)

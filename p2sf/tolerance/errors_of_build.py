@@ -1,12 +1,12 @@
 """What may be off in a built lens, by how much, and the lens that comes of it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, isinf
 from typing import Literal
 
 from p2sf.errors import GeometryError
-from p2sf.glass.media import AIR, ConstantIndex
+from p2sf.glass.media import AIR, ShiftedIndex
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
@@ -82,12 +82,12 @@ def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance,
     return tuple(found)
 
 
-def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float], wavelength_um: float) -> Lens:
-    """Return the lens with these errors, one for each tolerance in its unit; indices are those at one wavelength.
+def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) -> Lens:
+    """Return the lens with these errors, one for each tolerance in its unit; indices are off at every wavelength alike.
 
     Errors of one piece are one break of the coordinates, and pieces named later are moved on top of earlier ones.
     """
-    surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[str, float]]()
+    surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[Kind, float]]()
     for tolerance, error in zip(tolerances, errors, strict=True):
         place = tolerance.first - 1
         if not 1 <= tolerance.first <= tolerance.piece[1] <= len(surfaces):
@@ -105,8 +105,7 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float], 
         elif tolerance.kind == "thickness":
             surfaces[place] = replace(surface, thickness=surface.thickness + error)
         elif tolerance.kind == "index":
-            index = float(surface.medium.index(wavelength_um)) + error
-            surfaces[place] = replace(surface, medium=ConstantIndex(index))
+            surfaces[place] = replace(surface, medium=ShiftedIndex(surface.medium, error))
         else:
             piece = moves.setdefault(tolerance.piece, {})
             piece[tolerance.kind] = piece.get(tolerance.kind, 0.0) + error
@@ -116,7 +115,7 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float], 
     return built
 
 
-def placed(errors: dict[str, float]) -> Placement:
+def placed(errors: Mapping[Kind, float]) -> Placement:
     """Return the break of a piece with these decentres and tilts."""
     x, y, a, b = (errors.get(kind, 0.0) for kind in MOVES)
     return Placement(decentre_x=x, decentre_y=y, tilt_x_deg=a, tilt_y_deg=b)

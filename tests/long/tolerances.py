@@ -62,8 +62,7 @@ def _agrees(known: Differentials, found: Builds, number: int, focus: int) -> np.
     def exact(shift: float) -> tuple[np.ndarray, np.ndarray]:
         moved = errors.copy()
         moved[focus] += shift
-        um = known.sources[0].wavelength_um
-        return exact_quality(build(known.lens, known.tolerances, moved, um), known.sources)
+        return exact_quality(build(known.lens, known.tolerances, moved), known.sources)
 
     # The best focus of exact rays, by a parabola through three.
     low, middle, high = ((exact(shift)[0] ** 2).sum() for shift in (-REFOCUS_MM, 0.0, REFOCUS_MM))

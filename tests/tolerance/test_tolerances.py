@@ -64,7 +64,7 @@ def straight(known, waves: np.ndarray) -> np.ndarray:
 
 
 def phases(lens, tolerances, errors) -> np.ndarray:
-    built = build(lens, tolerances, errors, UM)
+    built = build(lens, tolerances, errors)
     return np.array([one.phase for one in (differentials(built, [source], ()) for source in FIELDS)])[:, 0]
 
 
@@ -111,7 +111,7 @@ def test_builds_are_those_of_exact_rays(lens, known):
     errors = np.random.default_rng(2).uniform(-1, 1, (6, len(FEW))) * known.amounts
     found = evaluate(known, errors)
     for number, one in enumerate(errors):
-        rms, strehl = exact_quality(build(lens, FEW, one, UM), FIELDS)
+        rms, strehl = exact_quality(build(lens, FEW, one), FIELDS)
         assert found.rms_waves[number] == pytest.approx(rms, rel=5e-3)
         assert found.strehl[number] == pytest.approx(strehl, abs=3e-3)
 
@@ -175,8 +175,8 @@ def test_usual_tolerances_are_of_all_that_can_be_off(lens):
     [
         (lambda lens: Tolerance("colour", 1, 0.1), 'tolerance "colour" is unknown'),
         (lambda lens: Tolerance("radius", 1, -0.1), "the tolerance of radius at surface 1 is -0.1"),
-        (lambda lens: build(lens, [Tolerance("tilt_x", 3, 0.1, 99)], [0.1], UM), "surfaces 3 to 99 do not exist"),
-        (lambda lens: build(lens, [Tolerance("tilt_x", 3, 90.0)], [90.0], UM), "surface 3: a tilt of 90°"),
+        (lambda lens: build(lens, [Tolerance("tilt_x", 3, 0.1, 99)], [0.1]), "surfaces 3 to 99 do not exist"),
+        (lambda lens: build(lens, [Tolerance("tilt_x", 3, 90.0)], [90.0]), "surface 3: a tilt of 90°"),
         (
             lambda lens: differentials(lens, [Source(), Source(wavelength_nm=500)], FEW),
             "the fields of tolerances have several wavelengths",
@@ -207,7 +207,7 @@ def test_contrast_of_builds_is_that_of_their_own_pupils(round_errors, frequency)
     errors = np.random.default_rng(5).uniform(-2, 2, (4, len(known.tolerances))) * known.amounts
     found = evaluate(known, errors, frequency_per_mm=frequency)
     for number, one in enumerate(errors):
-        built = build(known.lens, known.tolerances, one, UM)
+        built = build(known.lens, known.tolerances, one)
         for field, source in enumerate(known.sources):
             exact = mtf_of([PupilPart(pupil_of_rays(built, source))], "", [frequency])
             both = [exact.sagittal[0], exact.tangential[0]]
@@ -242,7 +242,7 @@ def test_contrast_that_no_sum_resolves_is_refused():
 def test_boresight_is_where_the_chief_ray_of_a_build_lands(lens, known):
     """To first order: what is left is of second order in the errors."""
     errors = 0.5 * known.amounts[None]
-    landed = [chief_um(build(lens, FEW, one, UM)) for one in (errors[0], 0 * errors[0])]
+    landed = [chief_um(build(lens, FEW, one)) for one in (errors[0], 0 * errors[0])]
     assert evaluate(known, errors).boresight_um[0] == pytest.approx(landed[0] - landed[1], rel=5e-3, abs=0.05)
 
 

@@ -2,10 +2,11 @@
 
 from math import inf
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf.tolerance.errors_of_build import Kind
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.build_errors import BuildError
 from p2sf_explorer.state.limits import ADDED, PLAIN
@@ -73,7 +74,7 @@ def _error(text: str) -> BuildError:
     try:
         kind, span, amount = text.split()
         first, _, last = span.partition("-")
-        return kind, int(first), int(last or first), float(amount)
+        return cast(Kind, kind), int(first), int(last or first), float(amount)  # the state checks the kind
     except ValueError:
         raise P2SFError('"{text}" is no error of a build; write such as decentre_y 3-4 0.2', text=text) from None
 

@@ -4,13 +4,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QPushButton, QScrollArea, QWidget
 
 from p2sf.lens.lens import Lens
+from p2sf.tolerance.errors_of_build import Kind
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.lens_sliders import LensSlider
 from p2sf_explorer.results.lens_table import Misalignment, fringes, misalignment_of, of_piece
-from p2sf_explorer.state.build_errors import amount_of, with_error, without_piece
+from p2sf_explorer.state.build_errors import BuildErrors, amount_of, with_error, without_piece
 from p2sf_explorer.state.built import Adjustment, Piece
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.scales import Linear, signed, significant
@@ -26,7 +27,7 @@ TIP = (
 PIECE_TIP = "The piece that the sliders move: an element, a group, the whole lens or the sensor"
 FIELD_X_TIP = "A slider for the field along x also where the lens is symmetric"
 RESET_TIP = "Set this number right again"
-WORDS = {
+WORDS: dict[Kind, str] = {
     "decentre_x": "Decentre x",
     "decentre_y": "Decentre y",
     "tilt_x": "Tilt about x",
@@ -35,7 +36,7 @@ WORDS = {
     "thickness": "Thickness {surface}",
     "index": "Index behind {surface}",
 }
-TIPS = {
+TIPS: dict[Kind, str] = {
     "decentre_x": "Decentre x: the piece is moved sideways, out of the layout's plane.",
     "decentre_y": "Decentre y: the piece is moved up.",
     "tilt_x": "Tilt about x: right-handed; a positive one turns y towards z, the piece's top away from the object.",
@@ -44,8 +45,15 @@ TIPS = {
     "thickness": "Thickness: its error behind this surface; what follows moves with it.",
     "index": "Index: the error of the glass behind this surface, the same at every wavelength.",
 }
-UNITS = {"decentre_x": " mm", "decentre_y": " mm", "tilt_x": "°", "tilt_y": "°", "radius": " %", "thickness": " mm"}
-DIGITS = {"index": 5}
+UNITS: dict[Kind, str] = {
+    "decentre_x": " mm",
+    "decentre_y": " mm",
+    "tilt_x": "°",
+    "tilt_y": "°",
+    "radius": " %",
+    "thickness": " mm",
+}
+DIGITS: dict[Kind, int] = {"index": 5}
 GRAIN = 500  # of the reach: the step to which a slider rounds
 WIDE_PX = 760  # at scale 1: from this width on there are two columns of sliders
 COLUMNS = 2
@@ -54,9 +62,9 @@ COLUMNS = 2
 class ErrorRow(QWidget):
     """One number that may be off: its slider, and a button that sets it right."""
 
-    def __init__(self, kind: str, store: Store, parent: QWidget):
+    def __init__(self, kind: Kind, store: Store, parent: QWidget):
         super().__init__(parent)  # without one it would be a window for a moment, and take the focus
-        self.kind, self.adjustment, self._store = kind, Adjustment(kind, (1, 1), 1.0), store  # type: ignore[arg-type]  # one of `WORDS`
+        self.kind, self.adjustment, self._store = kind, Adjustment(kind, (1, 1), 1.0), store
         self.slider = LensSlider(WORDS[kind], TIPS[kind], UNITS.get(kind, ""), store, self._with, DIGITS.get(kind, 3))
         self.back = QPushButton("↺", self)
         self.back.setObjectName("small")
@@ -76,7 +84,7 @@ class ErrorRow(QWidget):
         """Set the number right again."""
         self._store.update(errors=self._errors(self._store.state, 0.0))
 
-    def _errors(self, state: State, amount: float) -> tuple[tuple[str, int, int, float], ...]:
+    def _errors(self, state: State, amount: float) -> BuildErrors:
         return with_error(state.optics.errors, self.kind, self.adjustment.span, amount)
 
     def _with(self, state: State, amount: float) -> State:
@@ -126,7 +134,7 @@ class MisalignPanel:
         self.field_x.clicked.connect(lambda on: store.update(show_field_x=bool(on)))
         for tool in (self.piece, self.reset_piece, self.reset_all):
             self.widget.add_tool(tool)
-        self.rows: dict[str, list[ErrorRow]] = {kind: [] for kind in WORDS}
+        self.rows: dict[Kind, list[ErrorRow]] = {kind: [] for kind in WORDS}
         self._page, self._area = QWidget(), QScrollArea(self.widget)
         self._grid = QGridLayout(self._page)
         self._lay_out()

@@ -24,6 +24,7 @@ from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import decimal_separator, local, tr
+from p2sf_explorer.state.build_errors import Compensator
 from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.tolerance_view.arrangement import OF_KINDS, KindRow, TolerancesBody
@@ -46,6 +47,7 @@ from p2sf_explorer.widgets.chart_card import NotedChart
 from p2sf_explorer.widgets.plan_note import small_button
 from p2sf_explorer.workers.worker import LatestWins
 
+SENSOR_TILTS: tuple[Kind, ...] = ("tilt_x", "tilt_y")
 TIP = (
     "Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within "
     "its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew."
@@ -167,15 +169,15 @@ class TolerancesPanel:
         self.limit.setSuffix(SUFFIXES[view.criterion])
         for (_, kinds), box in zip(OF_KINDS, self.kinds.values(), strict=True):
             own = [amount for kind, first, _, amount in view.own if not first and kind == kinds[0]]
-            _put(box, own[-1] if own else GRADES[view.grade][kinds[0]])  # type: ignore[index]  # one of its choices
+            _put(box, own[-1] if own else GRADES[view.grade][kinds[0]])
         self._fill_compensators(view, lens)
 
     def _fill_compensators(self, view: ToleranceView, lens: Lens) -> None:
         """Offer the back focus, every other distance, and the sensor's tilts."""
         menu, last = self.compensate.menu(), len(lens.surfaces)
         menu.clear()
-        rows = [("thickness", 0, 0), *(("thickness", k, 0) for k in range(1, last))]
-        rows += [(kind, k, 0) for kind in ("tilt_x", "tilt_y") for k in (1, last)]
+        rows: list[Compensator] = [("thickness", k, 0) for k in range(last)]  # 0 is the back focus
+        rows += [(kind, k, 0) for kind in SENSOR_TILTS for k in (1, last)]
         for row in rows:
             action = QAction(_compensator_words(row), menu)
             action.setCheckable(True)
@@ -184,7 +186,7 @@ class TolerancesPanel:
             menu.addAction(action)
         self.compensate.setText(tr("Compensators: {count}", count=len(view.compensators)))
 
-    def _turn_compensator(self, row: tuple[str, int, int]) -> None:
+    def _turn_compensator(self, row: Compensator) -> None:
         have = self._store.state.tolerances.compensators
         kept = tuple(one for one in have if one != row)
         self._store.update(tolerances_compensators=kept if row in have else (*have, row))
@@ -311,9 +313,9 @@ def _row(parts: tuple[QWidget, ...]) -> QWidget:
     return body
 
 
-def _compensator_words(row: tuple[str, int, int]) -> str:
+def _compensator_words(row: Compensator) -> str:
     kind, first, _ = row
-    return error_words(Tolerance(kind, first, 0.0)) if first else tr("back focus")  # type: ignore[arg-type]  # known
+    return error_words(Tolerance(kind, first, 0.0)) if first else tr("back focus")
 
 
 def _sentence(view: Figures) -> str:

@@ -1,17 +1,17 @@
 """What of a built lens is not as it should be, as plain numbers of a state. No Qt in here."""
 
 from math import isfinite
-from typing import cast
 
 from p2sf.errors import P2SFError
 from p2sf.tolerance.errors_of_build import UNITS, Kind
 
-BuildError = tuple[str, int, int, float]
+BuildError = tuple[Kind, int, int, float]
 """Kind, as `p2sf.tolerance.Tolerance` has it, first and last surface from 1, and amount in the unit of the kind.
 
 A first surface behind the last of the lens is the sensor.
 """
 BuildErrors = tuple[BuildError, ...]
+Compensator = tuple[Kind, int, int]  # kind, first and last surface of what is set at assembly
 MOST_ERRORS, MOST_SURFACES = 1000, 1000
 KINDS: tuple[Kind, ...] = tuple(UNITS)
 # Beyond these no lens could be called built; a sentence about the surface says where less is too much.
@@ -48,7 +48,7 @@ def _check(found: object) -> None:
             "an error of the build is at surfaces {value}; give the first and the last, counted from 1",
             value=f"{first!r:.20}, {last!r:.20}",
         )
-    limit, plain = LARGEST[cast(Kind, kind)], isinstance(amount, int | float) and not isinstance(amount, bool)
+    limit, plain = LARGEST[kind], isinstance(amount, int | float) and not isinstance(amount, bool)
     if not (plain and isfinite(amount) and abs(amount) <= limit):
         raise P2SFError(
             "{kind} of surface {surface} is off by {value}; give a number from {low:g} to {high:g}{unit}",
@@ -57,16 +57,16 @@ def _check(found: object) -> None:
             value=f"{amount!r:.20}",
             low=-limit,
             high=limit,
-            unit=f" {UNITS[cast(Kind, kind)]}".rstrip(),
+            unit=f" {UNITS[kind]}".rstrip(),
         )
 
 
-def amount_of(errors: BuildErrors, kind: str, piece: tuple[int, int]) -> float:
+def amount_of(errors: BuildErrors, kind: Kind, piece: tuple[int, int]) -> float:
     """Return by how much a number of a piece is off; 0 where it is not."""
     return next((amount for name, *at, amount in errors if name == kind and (at[0], at[1]) == piece), 0.0)
 
 
-def with_error(errors: BuildErrors, kind: str, piece: tuple[int, int], amount: float) -> BuildErrors:
+def with_error(errors: BuildErrors, kind: Kind, piece: tuple[int, int], amount: float) -> BuildErrors:
     """Return the errors with one of a piece set, 0 for none; in one order, so that equal ones are equal."""
     kept = [one for one in errors if one[:3] != (kind, *piece)]
     return ordered((*kept, (kind, *piece, amount)) if amount else kept)
@@ -76,7 +76,7 @@ def without_piece(errors: BuildErrors, piece: tuple[int, int]) -> BuildErrors:
     """Return the errors without those of a piece, nor of the radii, thicknesses and glasses in it."""
     first, last = piece
 
-    def of_it(kind: str, low: int, high: int) -> bool:
+    def of_it(kind: Kind, low: int, high: int) -> bool:
         return (low, high) == piece or (kind in ("radius", "thickness", "index") and first <= low and high <= last)
 
     return tuple(one for one in errors if not of_it(*one[:3]))
@@ -84,7 +84,7 @@ def without_piece(errors: BuildErrors, piece: tuple[int, int]) -> BuildErrors:
 
 def ordered(errors: list[BuildError] | BuildErrors) -> BuildErrors:
     """Return errors with those of small pieces first: larger pieces are moved with the smaller ones in them."""
-    return tuple(sorted(errors, key=lambda one: (one[2] - one[1], one[1], KINDS.index(cast(Kind, one[0])))))
+    return tuple(sorted(errors, key=lambda one: (one[2] - one[1], one[1], KINDS.index(one[0]))))
 
 
 def renumbered(errors: BuildErrors, at: int, by: int) -> BuildErrors:

@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import cast
 
 from p2sf.errors import GeometryError
-from p2sf.glass.media import AIR, ShiftedIndex
+from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import with_tilted_sensor
 from p2sf.lens.placement import Placement
@@ -25,12 +24,11 @@ def with_errors(lens: Lens, errors: BuildErrors) -> Lens:
     A built lens has no rings to turn any more: its errors belong to where these stand.
     """
     count = len(lens.surfaces)
-    found = [one for one in errors if one[2] <= count and one[0] != "index"]
+    found = [one for one in errors if one[2] <= count]
     on_sensor = {kind: amount for kind, first, last, amount in errors if first == last == count + 1}
-    tolerances = [Tolerance(cast(Kind, kind), first, 0.0, last) for kind, first, last, _ in found]
+    tolerances = [Tolerance(kind, first, 0.0, last) for kind, first, last, _ in found]
     _check_thicknesses(lens, {first: amount for kind, first, _, amount in found if kind == "thickness"})
-    shifted = _with_indices(lens, {first: amount for kind, first, _, amount in errors if kind == "index"})
-    made = build(shifted, tolerances, [amount for *_, amount in found], lens.reference_wavelength_um)
+    made = build(lens, tolerances, [amount for *_, amount in found])
     sensor = placed(on_sensor)
     if not sensor.idle:
         made = with_tilted_sensor(made, sensor) if not lens.sensor_before else _on_top(made, sensor)
@@ -49,17 +47,6 @@ def _check_thicknesses(lens: Lens, errors: dict[int, float]) -> None:
                 thickness=thickness,
                 by=by,
             )
-
-
-def _with_indices(lens: Lens, shifts: dict[int, float]) -> Lens:
-    """Return the lens with the glasses behind surfaces, from 1, off by these shifts at every wavelength."""
-    if not shifts:
-        return lens
-    surfaces = (
-        replace(surface, medium=ShiftedIndex(surface.medium, shifts[number])) if number in shifts else surface
-        for number, surface in enumerate(lens.surfaces, 1)
-    )
-    return replace(lens, surfaces=tuple(surfaces))
 
 
 def _on_top(lens: Lens, sensor: Placement) -> Lens:

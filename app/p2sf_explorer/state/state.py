@@ -13,8 +13,9 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMask
-from p2sf.tolerance.errors_of_build import UNITS
-from p2sf_explorer.state.build_errors import BuildErrors, check_errors
+from p2sf.tolerance.criteria import Criterion
+from p2sf.tolerance.errors_of_build import UNITS, Grade
+from p2sf_explorer.state.build_errors import BuildErrors, Compensator, check_errors
 from p2sf_explorer.state.limits import (
     CHOICES,
     KINDS,
@@ -394,12 +395,12 @@ class ToleranceView:
 
     PREFIX: ClassVar[str] = "tolerances_"
 
-    grade: str = "precision"
-    criterion: str = "rms_waves"
+    grade: Grade = "precision"
+    criterion: Criterion = "rms_waves"
     limit: float | None = None
     frequency_per_mm: float = 10.0
-    own: tuple[tuple[str, int, int, float], ...] = ()
-    compensators: tuple[tuple[str, int, int], ...] = (("thickness", 0, 0),)
+    own: BuildErrors = ()
+    compensators: tuple[Compensator, ...] = (("thickness", 0, 0),)
     draw: int = 0
     build: int = 0
 

@@ -127,10 +127,10 @@ def request_of(lens: Lens, source: Source, view: ToleranceView) -> ToleranceRequ
     return ToleranceRequest(lens, usual_sources(lens, source), tolerances, places, frequency, view.draw)
 
 
-def compensator(kind: str, first: int, last: int) -> Tolerance:
+def compensator(kind: Kind, first: int, last: int) -> Tolerance:
     """Return what is set at assembly, with the amount over which its effect is looked at."""
     tilts = kind.startswith("tilt")
-    return Tolerance(kind, first, TILTING_DEG if tilts else COMPENSATING_MM, last)  # type: ignore[arg-type]  # checked
+    return Tolerance(kind, first, TILTING_DEG if tilts else COMPENSATING_MM, last)
 
 
 def chosen_tolerances(lens: Lens, view: ToleranceView) -> tuple[Tolerance, ...]:
@@ -138,12 +138,12 @@ def chosen_tolerances(lens: Lens, view: ToleranceView) -> tuple[Tolerance, ...]:
     of_kinds = {kind: amount for kind, first, _, amount in view.own if not first}
     single = {(kind, first, max(first, last)): amount for kind, first, last, amount in view.own if first}
     found = []
-    for one in usual_tolerances(lens, view.grade):  # type: ignore[arg-type]  # one of the state's choices
+    for one in usual_tolerances(lens, view.grade):
         amount = single.pop((one.kind, *one.piece), of_kinds.get(one.kind, one.amount))
         found.append(replace(one, amount=amount))
     for (kind, first, last), amount in single.items():
         if last <= len(lens.surfaces):
-            found.append(Tolerance(kind, first, amount, last))  # type: ignore[arg-type]  # checked by the state
+            found.append(Tolerance(kind, first, amount, last))
     return tuple(found)
 
 
@@ -190,7 +190,7 @@ class Analyst:
 
 def figures(found: ToleranceResult, view: ToleranceView) -> Figures:
     """Return what the panel shows of a result by its criterion and limit."""
-    criterion: Criterion = view.criterion  # type: ignore[assignment]  # one of the state's choices
+    criterion = view.criterion
     values, alone = of_worst_field(found.builds, criterion), of_worst_field(found.alone, criterion)
     good = criterion in LARGE_IS_GOOD
     limit, places = view.limit, _places(values)
