@@ -158,6 +158,7 @@ def palette(theme: Tokens) -> QPalette:
         roles.Text: theme.text,
         roles.Button: theme.raised,
         roles.ButtonText: theme.text,
+        roles.Link: theme.accent,
         roles.Highlight: theme.accent,
         roles.HighlightedText: theme.accent_text,
         roles.ToolTipBase: theme.raised,

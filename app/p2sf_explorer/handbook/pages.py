@@ -23,6 +23,7 @@ PAGES = {
     "speed": "Speed",
     "plans": "Plans",
     "window": "The window",
+    "panels": "Panels",
 }
 # What is code has no formulas, whatever dollar signs it has.
 CODE = r"^```.*?^```$|`[^`\n]+`"

@@ -45,14 +45,14 @@ table {{ border-color: {line}; }} td, th {{ padding: 3px 8px; }} a {{ color: {ac
 
 
 class Handbook(QDialog):
-    """Shows the pages; ``show_section("theory", "3.2")`` opens one at a section."""
+    """Shows pages: ``show_heading("panels", "MTF")``, or by a section's number ``show_section("theory", "3.2")``."""
 
     def __init__(self, theme: Tokens, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("window")
         self.setWindowTitle(tr("Handbook"))
         self._theme, self._page = theme, ""
-        self.shown = "", ""  # the page and the number of the section it was opened at
+        self.shown = "", ""  # the page and the heading it was last asked for
         self.contents, self.text = QTreeWidget(self), QTextBrowser(self)
         self.contents.setHeaderHidden(True)
         self.contents.setAccessibleName(tr("Contents"))
@@ -78,10 +78,15 @@ class Handbook(QDialog):
     def show_section(self, name: str = "theory", number: str = "") -> None:
         """Open a page, at the section of this number where one is given."""
         found = next((heading.text for heading in headings(page(name)) if number and heading.number == number), "")
-        self.shown = name, number
+        self.show_heading(name, found)
+
+    def show_heading(self, name: str, heading: str = "") -> None:
+        """Open a page at a heading, by its text; at its beginning without one."""
+        self.shown = name, heading
         self.show()
         self.raise_()
-        self._open(name, found)
+        self.activateWindow()
+        self._open(name, heading)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -96,6 +101,9 @@ class Handbook(QDialog):
             self._page = name
             self.text.setDocument(self._document(name))
         self._scroll_to(heading)
+        for item in self.contents.findItems("", Qt.MatchFlag.MatchContains | Qt.MatchFlag.MatchRecursive):
+            if item.data(0, Qt.ItemDataRole.UserRole) == (name, heading):
+                self.contents.setCurrentItem(item)
 
     def _follow(self, link: QUrl) -> None:
         name = link.path().removesuffix(".md") or self._page

@@ -34,6 +34,7 @@ QUALITIES = ("preview", "settled")
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
 Y_LABELS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  # by the sign of the image height
+R_SQUARED_TIP = "R² compares with the Huygens sum of exact rays; it is predicted until that sum is done, then measured."
 TIP = "Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW)."
 
 
@@ -180,6 +181,7 @@ def tip_words(live: Live) -> tuple[str, ...]:
     values = {"numbers": psf.numbers, "rays": psf.rays, "words": psf.sampling}
     lines = (
         said(Message("{numbers} numbers, {rays} rays; sampling: {words}", **values)),
+        tr(R_SQUARED_TIP),
         tr(FILLED[live.setup.lens.aim]),
     )
     return lines if psf.predicted_error is None else (predicted_words(psf.predicted_error), *lines)

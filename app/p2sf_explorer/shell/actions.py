@@ -6,13 +6,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
+from PySide6.QtWidgets import QApplication, QFileDialog, QMenu, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import with_lens
@@ -20,13 +21,18 @@ from p2sf_explorer.files.opening import KINDS, Refusal, opened, refusal
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.saving import ask_save_lens
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
+from p2sf_explorer.handbook.pages import PAGES
 from p2sf_explorer.handbook.viewer import Handbook
 from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.lessons.lesson_panel import LessonPanel
 from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.playback.play_bar import PlayBar
 from p2sf_explorer.shell.bars import TopBar
 from p2sf_explorer.shell.choices import choices, fill
 from p2sf_explorer.shell.command_palette import Palette
+from p2sf_explorer.shell.controls import Controls
 from p2sf_explorer.shell.help import HelpPage, help_text
+from p2sf_explorer.shell.quantity_rows import PupilShape
 from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
@@ -37,12 +43,24 @@ if TYPE_CHECKING:
     from p2sf_explorer.exporting.set_dialog import SetDialog
 
 COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
+HANDBOOK = "Handbook: the page of what has the focus"
 NO_MASK = "Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase"
 STATE_FILES = "Explorer states (*.json)"
 SNAPSHOT_FILES = (
     "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv);;"
     "Picture of the window (*.png)"
 )
+
+
+# The sections of the handbook's page on the window that tell of its parts.
+PARTS: dict[type, str] = {
+    TopBar: "Top bar",
+    PupilShape: "Pupil shape",
+    Controls: "Controls",
+    CompareBar: "A beside B",
+    PlayBar: "Play and film",
+    LessonPanel: "Lessons",
+}
 
 
 @dataclass(frozen=True)
@@ -64,6 +82,18 @@ class PanelAccess:
     detach: Callable[[], None]
 
 
+def handbook_place(widget: QWidget | None) -> tuple[str, str]:
+    """Return page and heading of the handbook that tell of a widget: those of the nearest part around it."""
+    titles = {entry.key: entry.title for entry in REGISTRY}
+    while widget is not None:
+        if isinstance(widget, Card) and widget.key in titles:
+            return "panels", titles[widget.key]
+        if heading := PARTS.get(type(widget)):
+            return "window", heading
+        widget = widget.parentWidget()
+    return next(iter(PAGES)), ""
+
+
 class Actions(QObject):
     """The commands of the window; what cannot be done is said in the banner, through the store."""
 
@@ -82,7 +112,7 @@ class Actions(QObject):
         top.help_asked.connect(self.help)
         top.set_snapshot_menu(self._menu())
         self._list_recent()
-        listed = ("Find a command…", "Report: one page as PDF…", "Shortcuts", "Theory: conventions, formulas, sources")
+        listed = ("Find a command…", "Report: one page as PDF…", HANDBOOK, "Shortcuts")
         fill(top.more.menu(), store, tuple(c for c in self.commands if c.title in listed))
 
     def _first(self) -> tuple[Command, ...]:
@@ -104,8 +134,9 @@ class Actions(QObject):
             Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),
             Command("Pop out", self._panels.detach, ("Ctrl+D",), "Panel"),
             Command("Find a command…", self.find, ("Ctrl+K",)),
-            Command("Shortcuts", self.help, ("F1", "?")),
-            Command("Theory: conventions, formulas, sources", self.theory, ("Shift+F1",)),
+            Command(HANDBOOK, self.open_handbook, ("F1",)),
+            Command("Theory: conventions, formulas, sources", self.theory),
+            Command("Shortcuts", self.help, ("Shift+F1", "?")),
             Command("Close the window", self._window.close, ("Ctrl+Q",)),
         )
 
@@ -113,7 +144,10 @@ class Actions(QObject):
         """Add a command: its keys work from now on, and help and palette list it."""
         self.commands.append(command)
         for keys in command.keys:
-            QShortcut(QKeySequence(keys), self._window).activated.connect(command.run)
+            shortcut = QShortcut(QKeySequence(keys), self._window)
+            shortcut.activated.connect(command.run)
+            if keys == "F1":  # also in the windows of panels
+                shortcut.setContext(Qt.ShortcutContext.ApplicationShortcut)
 
     def attempt(self, action: Callable[[], object]) -> bool:
         """Run an action, or say why it cannot be done; return whether it was."""
@@ -200,12 +234,20 @@ class Actions(QObject):
         page.raise_()
 
     def theory(self, panel: str = "") -> None:
-        """Open the handbook, at the section of a panel where one is named."""
+        """Open the theory, at the section of a panel where one is named."""
+        section = next((entry.handbook for entry in REGISTRY if entry.key == panel), "")
+        self._book().show_section("theory", section)
+
+    def open_handbook(self) -> None:
+        """Open the handbook at what has the focus: a panel, or another part of the window; else at its first page."""
+        self._book().show_heading(*handbook_place(QApplication.focusWidget()))
+
+    def _book(self) -> Handbook:
+        """Return the handbook in the window's colours."""
         theme = self._panels.theme()
         self.handbook = self.handbook or Handbook(theme, self._window)
         self.handbook.restyle(theme)
-        section = next((entry.handbook for entry in REGISTRY if entry.key == panel), "")
-        self.handbook.show_section("theory", section)
+        return self.handbook
 
     def find(self) -> None:
         """Open the command palette."""

@@ -73,7 +73,7 @@ class TopBar(QFrame):
         self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
         self.more.setMenu(QMenu(self))
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.help = self._tool("?", "Shortcuts and terms (F1 or ?)", self.help_asked.emit)
+        self.help = self._tool("?", "Shortcuts and mouse (Shift+F1 or ?)", self.help_asked.emit)
         self._lay_out()
         for button, words in ((self.undo, "Undo"), (self.redo, "Redo"), (self.help, "Help")):
             button.setAccessibleName(tr(words))

@@ -44,7 +44,8 @@ def navigation() -> list[dict[str, object]]:
     lessons: list[object] = ["lessons/index.md"]
     lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
     how_to = [
-        entry(f"{name}.md") for name in ("import", "lens_files", "export", "measure", "notebook", "plans", "window")
+        entry(f"{name}.md")
+        for name in ("import", "lens_files", "export", "measure", "notebook", "plans", "window", "panels")
     ]
     return [
         {"P2SF Explorer": "index.md"},

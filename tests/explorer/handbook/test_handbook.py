@@ -4,12 +4,13 @@ import re
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QUrl
+from PySide6.QtCore import Qt, QUrl
 
 from p2sf_explorer.charts.theme import DARK, LIGHT
 from p2sf_explorer.handbook.pages import CODE, PAGES, anchor, formulas, headings, page, rendered, shown, with_pictures
-from p2sf_explorer.handbook.viewer import Handbook
-from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.handbook.viewer import Handbook, fragments
+from p2sf_explorer.panels import GROUPS, REGISTRY
+from p2sf_explorer.shell.actions import PARTS, handbook_place
 
 ROOT = Path(__file__).parents[3]
 CITATION = re.compile(r"\bhandbook (\d+(?:\.\d+)?)")
@@ -99,10 +100,62 @@ def test_the_window_leaves_out_what_is_for_the_site():
     assert "made/" in page("tutorial") and "made/" not in text and "<!--" not in text
 
 
-def test_the_window_opens_the_theory_from_the_palette_and_a_panel_its_section(window):
+def test_a_panels_context_menu_leads_to_its_section_of_the_theory(window):
     window.commands.theory()
     assert window.commands.handbook.isVisible()
     window.open_panel("mtf")
     window.panels["mtf"].widget.theory_asked.emit()
-    assert window.commands.handbook.shown == ("theory", "6.3")
+    assert window.commands.handbook.shown == ("theory", "6.3 Strehl ratio, encircled energy, contrast")
     window.commands.handbook.close()
+
+
+def test_the_page_of_panels_has_a_paragraph_for_every_panel_and_none_besides():
+    found = [heading.text for heading in headings(page("panels")) if heading.level == 3]
+    assert found == [entry.title for entry in sorted(REGISTRY, key=lambda entry: GROUPS.index(entry.group))]
+
+
+def test_f1_opens_the_handbook_at_what_has_the_focus(window, qtbot):
+    parts = {
+        ("panels", "PSF"): window.panels["psf"].map.chart,
+        ("window", "Controls"): window.controls.rows["field_deg"].slider,
+        ("window", "Top bar"): window.top.method,
+    }
+    for place, part in parts.items():
+        part.setFocus()
+        qtbot.keyClick(part, Qt.Key.Key_F1)
+        book = window.commands.handbook
+        assert book.isVisible() and book.shown == place
+        top = book.text.cursorForPosition(book.text.viewport().rect().topLeft()).block()
+        assert place[1] in (top.text(), top.next().text())
+        book.close()
+
+
+def test_every_part_of_the_window_has_its_section():
+    known = {heading.text for heading in headings(page("window"))}
+    assert PARTS and set(PARTS.values()) <= known
+    assert handbook_place(None) == ("find", "")
+
+
+@pytest.mark.parametrize(("name", "theme"), [("light", LIGHT), ("dark", DARK)])
+def test_links_have_the_accent_of_the_theme(window, name, theme):
+    window.store.update(theme=name)
+    window.commands.open_handbook()
+    document, links = window.commands.handbook.text.document(), set()
+    block = document.begin()
+    while block.isValid():
+        links |= {
+            piece.charFormat().foreground().color().name()
+            for piece in fragments(block)
+            if piece.charFormat().isAnchor()
+        }
+        block = block.next()
+    assert links == {theme.accent}
+    window.commands.handbook.close()
+
+
+def test_the_contents_mark_the_heading_on_show(qtbot):
+    book = Handbook(LIGHT)
+    qtbot.addWidget(book)
+    book.show_heading("panels", "MTF")
+    item = book.contents.currentItem()
+    assert item.text(0) == "MTF" and item.parent().parent().text(0) == "Panels"

@@ -133,8 +133,8 @@
 <message><source>Clip at rims</source><translation>Randbeschnitt</translation></message>
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
 <message><source>Close</source><translation>Schließen</translation></message>
-<message><source>Close the explorer</source><translation>Explorer schließen</translation></message>
 <message><source>Close the build, and show the lens as designed</source><translation>Das Exemplar schließen und das Objektiv wie entworfen zeigen</translation></message>
+<message><source>Close the explorer</source><translation>Explorer schließen</translation></message>
 <message><source>Close the window</source><translation>Fenster schließen</translation></message>
 <message><source>Coarse</source><translation>Grob</translation></message>
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
@@ -276,6 +276,7 @@
 <message><source>Grey</source><translation>Grau</translation></message>
 <message><source>Group of panels</source><translation>Gruppe von Ansichten</translation></message>
 <message><source>Handbook</source><translation>Handbuch</translation></message>
+<message><source>Handbook: the page of what has the focus</source><translation>Handbuch: die Seite zu dem, was den Fokus hat</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
@@ -354,8 +355,8 @@
 <message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
 <message><source>Microscope objective 10×, NA 0.25</source><translation>Mikroskopobjektiv 10×, NA 0,25</translation></message>
 <message><source>Misalign</source><translation>Dejustieren</translation></message>
-<message><source>Misalignment</source><translation>Dejustierung</translation></message>
 <message><source>Misalign: what may be off in a built lens, on top of what its file has; the sensor stays where it is. Choose a piece here, or click it in the layout or the lens table. Decentres are mm, tilts degrees about the piece's first vertex, right-handed. A double click sets one back.</source><translation>Dejustieren: was an einem gebauten Objektiv nicht stimmen kann, zusätzlich zu dem, was seine Datei hat; der Sensor bleibt, wo er ist. Ein Teil hier wählen, oder im Aufbau oder in der Objektivtabelle anklicken. Dezentrierungen in mm, Kippungen in Grad um den ersten Scheitel des Teils, rechtshändig. Ein Doppelklick setzt eine zurück.</translation></message>
+<message><source>Misalignment</source><translation>Dejustierung</translation></message>
 <message><source>More</source><translation>Mehr</translation></message>
 <message><source>Most of all {term}: {percent:.0f} % of the wavefront variance</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Mostly {term}: {percent:.0f} % of the wavefront variance</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
@@ -545,6 +546,7 @@
 <message><source>Roundness</source><translation>Rundung</translation></message>
 <message><source>Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.</source><translation>Rundung der Lamellenkanten: ihre Krümmung mal dem Radius des Randes, 0 gerade, 1 ein Kreis.</translation></message>
 <message><source>R²</source><translation>R²</translation></message>
+<message><source>R² compares with the Huygens sum of exact rays; it is predicted until that sum is done, then measured.</source><translation>R² vergleicht mit der Huygens-Summe exakter Strahlen; es ist vorhergesagt, bis diese Summe fertig ist, dann gemessen.</translation></message>
 <message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
 <message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
@@ -599,7 +601,7 @@
 <message><source>Shifts</source><translation>Versatz</translation></message>
 <message><source>Shipped lenses</source><translation>Mitgelieferte Objektive</translation></message>
 <message><source>Shortcuts</source><translation>Tastenkürzel</translation></message>
-<message><source>Shortcuts and terms (F1 or ?)</source><translation>Tastenkürzel und Begriffe (F1 oder ?)</translation></message>
+<message><source>Shortcuts and mouse (Shift+F1 or ?)</source><translation>Tastenkürzel und Maus (Umschalt+F1 oder ?)</translation></message>
 <message><source>Shorter than its focal length: positive group in front, negative behind</source><translation>Kürzer als seine Brennweite: vorn eine sammelnde Gruppe, dahinter eine zerstreuende</translation></message>
 <message><source>Show A − B; a panel in which a difference means nothing shows A and says why</source><translation>A − B zeigen; eine Ansicht, in der eine Differenz nichts bedeutet, zeigt A und sagt, warum</translation></message>
 <message><source>Show A, B, A − B in turn</source><translation>A, B, A − B der Reihe nach zeigen</translation></message>
@@ -852,9 +854,9 @@
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
 <message><source>Workspace</source><translation>Arbeitsbereich</translation></message>
 <message><source>Workspaces: save this one, delete it, or choose another</source><translation>Arbeitsbereiche: diesen speichern oder löschen, oder einen anderen wählen</translation></message>
-<message><source>You can go on. If something looks wrong, undo the last step (Ctrl+Z), or close the explorer and start it again.</source><translation>Es kann weitergehen. Sieht etwas falsch aus, den letzten Schritt zurücknehmen (Strg+Z) oder den Explorer schließen und neu starten.</translation></message>
 <message><source>Worst builds: click to see one as A beside the lens as designed, B</source><translation>Schlechteste Exemplare: ein Klick zeigt eines als A neben dem Objektiv wie entworfen, B</translation></message>
 <message><source>Write a lens file</source><translation>Eine Objektivdatei schreiben</translation></message>
+<message><source>You can go on. If something looks wrong, undo the last step (Ctrl+Z), or close the explorer and start it again.</source><translation>Es kann weitergehen. Sieht etwas falsch aus, den letzten Schritt zurücknehmen (Strg+Z) oder den Explorer schließen und neu starten.</translation></message>
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
@@ -902,8 +904,8 @@
 <message><source>a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side</source><translation>eine Karte der Pupille hat die Form {shape}; ein Quadrat von {low} bis {high} Zellen je Seite angeben</translation></message>
 <message><source>a mask stands in the stop, and the transfer function of a pupil without symmetry knows a clear round stop only; take the mask away or set the lens straight</source><translation>eine Maske steht in der Blende, und die Übertragungsfunktion einer Pupille ohne Symmetrie kennt nur eine klare runde Blende; die Maske entfernen oder das Objektiv gerade stellen</translation></message>
 <message><source>a mask stands in the stop, and {what} knows a clear round stop only; take the mask away</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
-<message><source>a mask stands in the stop; RMS, Strehl ratio and contrast of builds are those of the clear stop</source><translation>in der Blende steht eine Maske; RMS, Strehl-Zahl und Kontrast gebauter Objektive sind die der freien Blende</translation></message>
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
+<message><source>a mask stands in the stop; RMS, Strehl ratio and contrast of builds are those of the clear stop</source><translation>in der Blende steht eine Maske; RMS, Strehl-Zahl und Kontrast gebauter Objektive sind die der freien Blende</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a model with a pupil map is fitted to points straight above, below or beside the axis only</source><translation>ein Modell mit Pupillenabbildung wird nur an Punkte genau über, unter oder neben der Achse angepasst</translation></message>
@@ -960,9 +962,9 @@
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
 <message><source>an end of the sweep</source><translation>ein Ende des Durchlaufs</translation></message>
 <message><source>an energy fraction of {fraction}; give a number between 0 and 1</source><translation>ein Energieanteil von {fraction}; eine Zahl zwischen 0 und 1 angeben</translation></message>
-<message><source>an ideal lens that is not round</source><translation>eine ideale Linse, die nicht rund ist</translation></message>
 <message><source>an error of the build is at surfaces {value}; give the first and the last, counted from 1</source><translation>ein Fehler des Baus liegt an den Flächen {value}; die erste und die letzte angeben, ab 1 gezählt</translation></message>
 <message><source>an error of the build is {value}; give kind, first and last surface, and amount; kinds are {kinds}</source><translation>ein Fehler des Baus ist {value}; Art, erste und letzte Fläche und Betrag angeben; Arten sind {kinds}</translation></message>
+<message><source>an ideal lens that is not round</source><translation>eine ideale Linse, die nicht rund ist</translation></message>
 <message><source>an object at infinity has no height; give the field as an angle or an image height</source><translation>ein Objekt im Unendlichen hat keine Höhe; das Feld als Winkel oder Bildhöhe angeben</translation></message>
 <message><source>an object at infinity has no numerical aperture; state the pupil's diameter or f-number</source><translation>ein Objekt im Unendlichen hat keine numerische Apertur; Pupillendurchmesser oder Blendenzahl angeben</translation></message>
 <message><source>an odd asphere has no normalisation radius; write type = "extended odd asphere"</source><translation>eine ungerade Asphäre hat keinen Normierungsradius; type = "extended odd asphere" schreiben</translation></message>
@@ -1572,7 +1574,6 @@
 <message><source>sum of thicknesses</source><translation>Summe der Dicken</translation></message>
 <message><source>sum {sum} λ</source><translation>Summe {sum} λ</translation></message>
 <message><source>summing the reference: {part} %</source><translation>die Referenz wird summiert: {part} %</translation></message>
-<message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot say; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
 <message><source>surface</source><translation>Fläche</translation></message>
 <message><source>surface is not a list of tables; head every surface with [[surface]]</source><translation>surface ist keine Liste von Tabellen; jede Fläche mit [[surface]] überschreiben</translation></message>
 <message><source>surface number</source><translation>Flächennummer</translation></message>
@@ -1590,6 +1591,7 @@
 <message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
+<message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot say; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
 <message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in r^{power}, and a CODE V file holds powers up to r^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in r^{power}, und eine CODE-V-Datei fasst Potenzen bis r^{most}; als TOML speichern</translation></message>
