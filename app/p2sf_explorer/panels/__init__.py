@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Protocol, runtime_checkable
 
+from PySide6.QtWidgets import QToolButton
+
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.store.panel_store import PanelStore
@@ -50,6 +52,14 @@ class PreparingPanel(Panel, Protocol):
     @property
     def busy(self) -> bool:
         """Whether it is still being prepared."""
+
+
+@runtime_checkable
+class FilmedPanel(Panel, Protocol):
+    """A panel whose builds can be filmed."""
+
+    film: QToolButton
+    """The button that asks for the film."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.tolerance import GRADES, Tolerance
+from p2sf.tolerance import GRADES, Tolerance, of_worst_field
 from p2sf.tolerance.errors_of_build import Kind
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import LIGHT, Tokens
@@ -55,6 +55,8 @@ TIP = (
 GRADE_TIP = "What workshops offer under this name; ± values below are typed over."
 CRITERION_TIP = "What a lens is judged by, in the worst of three fields: axis, seven tenths and edge."
 LIMIT_TIP = "What every field of a good lens keeps; at first, what four lenses of five keep."
+WORDS_SHARE = 0.3  # of a chart's width, that a line's name takes
+FILM_TIP = "Save a film of the first forty of these builds: layout, PSF, and where each stands in the yield"
 COMPENSATOR_TIP = "What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least."
 GRADE_WORDS = (("commercial", "commercial grade"), ("precision", "precision grade"), ("high", "high precision grade"))
 CRITERION_WORDS = (
@@ -85,6 +87,7 @@ class TolerancesPanel:
         self.criterion = chooser(CRITERION_WORDS, CRITERION_TIP, self.widget)
         self.stop_button = small_button("Stop", "Stop the computation", self._stop)
         self.again = small_button("Draw again", "Build ten thousand other lenses", self._draw_again)
+        self.film = small_button("Film…", FILM_TIP)
         self.back = small_button("As designed", "Close the build, and show the lens as designed", self._close_build)
         self.as_grade = small_button("As the grade", "Drop all values of one's own", self._drop_own)
         self.limit, self.frequency = _number_box(LIMIT_TIP, 4, 1e6), _number_box("Frequency on the sensor", 1, 1e5)
@@ -122,7 +125,7 @@ class TolerancesPanel:
         column = QVBoxLayout(whole)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(4)
-        first = (self.limit, self.frequency, self.compensate, self.again, self.stop_button, self.back)
+        first = (self.limit, self.frequency, self.compensate, self.again, self.stop_button, self.film, self.back)
         column.addWidget(_row(first))
         self.kind_row = KindRow(self.kinds, self.as_grade)
         self.body = TolerancesBody(self.errors, (self.histogram, self.yields), self.worst, self.kind_row)
@@ -203,15 +206,19 @@ class TolerancesPanel:
         self._store.update(tolerances_draw=self._store.state.tolerances.draw + 1)
 
     def _open_build(self, number: int) -> None:
-        if self._asked is None or self._found is None or self._stale():
-            return
         try:
-            self._store.replace(with_build(self._asked, self._found, number))
+            self._store.replace(with_build(*self.drawn(), number))
         except P2SFError as error:
             self._store.refused.emit(error)
 
     def _close_build(self) -> None:
         self._store.replace(without_build(self._store.state))
+
+    def drawn(self) -> tuple[ToleranceQuestion, ToleranceResult]:
+        """Return the question on screen and its builds; P2SFError where these are not drawn yet."""
+        if self._asked is None or self._found is None or self._stale():
+            raise P2SFError("there are no builds of this lens yet; wait until Tolerances shows its histogram")
+        return self._asked, self._found
 
     def _stop(self) -> None:
         self.worker.cancel()
@@ -241,6 +248,7 @@ class TolerancesPanel:
         self.stop_button.setVisible(self.worker.busy)
         self.again.setVisible(not self.worker.busy)
         waiting = tr("The sensitivities are computed from exact rays.")
+        self.film.setEnabled(not stale)
         self.overlay.say(self._refusal or (waiting if self._found is None else ""), 0)
         if self._asked is None or self._found is None:
             return
@@ -252,11 +260,11 @@ class TolerancesPanel:
         opened = opened_build(self._state, self._found)
         self.back.setVisible(bool(opened))
         self.worst.show_builds(view, opened)
-        self._paint_charts(view)
+        self._paint_charts(view, opened)
         _put(self.limit, view.limit, view.places)
         self.widget.set_readout(_sentence(view))
 
-    def _paint_charts(self, view: Figures) -> None:
+    def _paint_charts(self, view: Figures, opened: int) -> None:
         limits, share, error = view.yields
         self.share.set_data(limits, 100 * share)
         for sign, curve in zip((-1, 1), self.band, strict=True):
@@ -265,11 +273,18 @@ class TolerancesPanel:
         self.histogram.show_counts(view)
         self.histogram.name_axes(AXES[view.criterion], "builds")
         self.yields.name_axes(AXES[view.criterion], "yield, %")
-        self.histogram.set_range(ends, (0.0, 1.1 * float(view.counts.max())))
+        most = float(view.counts.max())
+        self.histogram.set_range(ends, (0.0, 1.1 * most))
         self.yields.set_range(ends, (0.0, 104.0))
-        marks = ((view.limit, "accent"), (view.nominal, "muted"))
-        note = (view.nominal, inf, f" {tr('as designed')}", "muted", -1)
-        self.histogram.show_notes((note,) if ends[0] <= view.nominal <= ends[1] else (), marks)
+        noted = [(view.nominal, inf, tr("as designed"), "muted")]
+        if opened and self._found:
+            value = float(of_worst_field(self._found.builds, view.criterion)[opened - 1])
+            noted.append((value, 0.96 * most, tr("build {number}", number=opened), "text"))  # below the other's words
+        inside = [note for note in noted if ends[0] <= note[0] <= ends[1]]
+        marks = ((view.limit, "accent"), *((value, token) for value, _, _, token in inside))
+        turn = ends[0] + WORDS_SHARE * (ends[1] - ends[0])  # right of here there is room for words before the line
+        notes = ((x, y, f" {words} ", token, -1 if x < turn else 1) for x, y, words, token in inside)
+        self.histogram.show_notes(notes, marks)
         self.yields.show_notes((), marks)
 
     def restyle(self, theme: Tokens) -> None:

@@ -1,16 +1,17 @@
-"""Films a sweep: the window shows its frames one by one, and a worker writes them."""
+"""Films a sweep or builds: the window shows its frames one by one, and a worker writes them."""
 
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtGui import QImage
+from PySide6.QtCore import QObject, QRect, Qt, QTimer, Signal
+from PySide6.QtGui import QImage, QPainter, QPalette
 from PySide6.QtWidgets import QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write_film
-from p2sf_explorer.playback.sweep import changes, sweep
+from p2sf_explorer.playback.sweep import Moment, changes, sweep
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.store.store import Store
@@ -18,15 +19,15 @@ from p2sf_explorer.workers.worker import LatestWins
 
 FRAMES_PER_S = 12
 TICK_MS = 4  # between looks at what is being computed
+CAPTION_LINES = 1.8  # heights of type that the strip of a caption takes
 
 
 class Filming(QObject):
-    """``start`` films the state's sweep once, from its first value to its last; ``cancel`` leaves no file.
+    """``start`` films moments one after the other; ``cancel`` leaves no file.
 
     ``show(state)`` shows a state without storing it, ``busy_panels()`` says whether something on show is still being
     computed, and ``pause_accuracy(on)`` stops and resumes the measuring of accuracy. Each frame waits for the panels
-    that compute in the background. Changes made meanwhile are not filmed: the frames are those of the state at the
-    start. The state stays as it is.
+    that compute in the background. Changes made meanwhile are not filmed, and the state stays as it is.
     """
 
     progressed = Signal(float)  # the share of the frames filmed
@@ -48,7 +49,7 @@ class Filming(QObject):
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._next)
         self._queue, self._number, self._shown = FrameQueue(), 0, False
-        self._moments: tuple[State, ...] = ()
+        self._moments: tuple[Moment, ...] = ()
         self._subject: QWidget | None = None
         store.changed.connect(self._disturb)
 
@@ -57,18 +58,19 @@ class Filming(QObject):
         """Return whether a film is being made."""
         return self._worker.busy
 
-    def start(self, path: str, subject: QWidget) -> bool:
+    def start(
+        self, path: str, subject: QWidget, moments: tuple[Moment, ...], frames_per_s: float = FRAMES_PER_S
+    ) -> bool:
         """Film the window or one of its parts to a .gif, an .mp4 or numbered .png files; return whether it began."""
         try:
             check_film(path)
-            self._moments = moments(self._store.state)
         except P2SFError as error:
             self._store.refused.emit(error)
             return False
-        self._subject, self._queue = subject, FrameQueue()
+        self._moments, self._subject, self._queue = moments, subject, FrameQueue()
         self._number, self._shown = 0, False
         self._pause_accuracy(True)
-        queue, frame_ms = self._queue, round(1000 / FRAMES_PER_S)
+        queue, frame_ms = self._queue, round(1000 / frames_per_s)
         self._worker.submit(path, lambda cancelled, _: write_film(queue.frames(cancelled), path, frame_ms))
         self._timer.start(TICK_MS)
         return True
@@ -95,12 +97,13 @@ class Filming(QObject):
             self._timer.stop()
             self._queue.put(None)
             return
+        moment = self._moments[self._number]
         if not self._shown:
             self._shown = True
-            self._show(self._moments[self._number])
+            self._show(moment.state)
         if not self._shown or self._busy_panels():
             return
-        self._queue.put(frame_of(self._subject))
+        self._queue.put(frame_of(self._subject, said(moment.caption) if moment.caption else ""))
         self._number, self._shown = self._number + 1, False
         self.progressed.emit(self._number / len(self._moments))
 
@@ -119,17 +122,34 @@ def written(paths: tuple[Path, ...]) -> Message:
     return Message("Saved {count} frames, {first} to {last}", count=len(paths), first=first, last=last)
 
 
-def moments(state: State) -> tuple[State, ...]:
-    """Return the states of a film's frames: the state's sweep once, with B following where it is linked."""
+def moments_of_sweep(state: State) -> tuple[Moment, ...]:
+    """Return the frames of the state's sweep, once, with B following where it is linked."""
     way, count = sweep(state), max(2, round(FRAMES_PER_S * state.playback.seconds))
     moved = (changes(state, way.value(number / (count - 1))) for number in range(count))
-    return tuple(changed(state, **with_links(state, each)) for each in moved)
+    return tuple(Moment(changed(state, **with_links(state, each))) for each in moved)
 
 
-def frame_of(widget: QWidget) -> FilmFrame:
-    """Return a widget's picture."""
+def frame_of(widget: QWidget, caption: str = "") -> FilmFrame:
+    """Return a widget's picture, with a caption in a strip below it."""
     image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    if caption:
+        image = _with_caption(image, widget, caption)
     rows = bytes(image.constBits())
     line, width = image.bytesPerLine(), 3 * image.width()
     packed = rows if line == width else b"".join(rows[k * line : k * line + width] for k in range(image.height()))
     return FilmFrame(image.width(), image.height(), packed)
+
+
+def _with_caption(image: QImage, widget: QWidget, caption: str) -> QImage:
+    """Return a picture of a widget with a strip below it, in the widget's colours and type."""
+    strip, ratio = round(CAPTION_LINES * widget.fontMetrics().height()), image.devicePixelRatio()
+    made = QImage(image.width(), image.height() + round(ratio * strip), image.format())
+    made.setDevicePixelRatio(ratio)
+    made.fill(widget.palette().color(QPalette.ColorRole.Window))
+    painter = QPainter(made)
+    painter.drawImage(0, 0, image)
+    painter.setFont(widget.font())
+    painter.setPen(widget.palette().color(QPalette.ColorRole.WindowText))
+    painter.drawText(QRect(0, widget.height(), widget.width(), strip), Qt.AlignmentFlag.AlignCenter, caption)
+    painter.end()
+    return made

@@ -1,4 +1,4 @@
-"""The bar of a sweep: which slider, from which value to which, how fast, and the film of it."""
+"""The bar of a sweep: which slider, from which value to which, how fast, and films of it and of random builds."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -17,12 +17,14 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.playback.filming import Filming
+from p2sf_explorer.playback.builds import BUILDS_PER_S, moments_of_builds
+from p2sf_explorer.playback.filming import FRAMES_PER_S, Filming, moments_of_sweep
 from p2sf_explorer.playback.player import Player
-from p2sf_explorer.playback.sweep import TITLES, sweep
+from p2sf_explorer.playback.sweep import TITLES, Moment, sweep
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.tolerancing.analysis import ToleranceQuestion, ToleranceResult
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.value_edit import ValueEdit
@@ -40,12 +42,23 @@ SUBJECTS = (
 
 
 class PlayBar(QFrame):
-    """Visible while the state names a slider to sweep; ``part(key)`` returns the part of the window to film."""
+    """Visible while the state names a slider to sweep, and while a film is made.
 
-    def __init__(self, store: Store, filming: Filming, part: Callable[[str], QWidget], parent: QWidget) -> None:
+    ``part(key)`` returns the part of the window to film; ``builds()`` the builds that the Tolerances panel has drawn,
+    or raises P2SFError where there are none yet.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        filming: Filming,
+        part: Callable[[str], QWidget],
+        builds: Callable[[], tuple[ToleranceQuestion, ToleranceResult]],
+        parent: QWidget,
+    ) -> None:
         super().__init__(parent)
         self.setObjectName("bar")
-        self._store, self._part = store, part
+        self._store, self._part, self._builds = store, part, builds
         self.player, self.filming = Player(store, self), filming
         self.turn = self._button("▶", "Play or pause (Space on a slider)", self.toggle)
         self.key = chooser(tuple(TITLES.items()), "Which slider moves", self)
@@ -81,7 +94,8 @@ class PlayBar(QFrame):
         row.setSpacing(6)
         self.turn.setProperty("turns", True)
         self.progress.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        for part in (self.turn, self.key, self.first, QLabel("→"), self.last, QLabel(tr("in")), self.seconds):
+        self._sweep = self.turn, self.key, self.first, QLabel("→"), self.last, QLabel(tr("in")), self.seconds
+        for part in self._sweep:
             row.addWidget(part)
         row.addWidget(self.progress, 1)
         row.addWidget(self.stop_film)
@@ -108,6 +122,7 @@ class PlayBar(QFrame):
         return (
             Command("Play or pause the last slider", self.toggle, ("Ctrl+Space",), "Sweep"),
             Command("Save the sweep as a film…", self.ask_film, ("Ctrl+Shift+E",), "Sweep"),
+            Command("Save a film of random builds…", self.ask_film_of_builds, (), "Sweep"),
         )
 
     def toggle(self) -> None:
@@ -121,8 +136,11 @@ class PlayBar(QFrame):
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
-        self.setVisible(bool(state.playback.slider))
-        if not state.playback.slider:
+        swept = bool(state.playback.slider)
+        self.setVisible(swept or self.filming.busy)
+        for part in (*self._sweep, self.subject, self.export, self.close_bar):
+            part.setVisible(swept)
+        if not swept:
             return
         select(self.key, state.playback.slider)
         found = sweep(state)
@@ -156,15 +174,41 @@ class PlayBar(QFrame):
         """Ask for a name and film the sweep."""
         if not self._store.state.playback.slider:
             self._store.update(playback_slider="field_deg")
-        first = f"{Path(self._store.state.optics.lens).stem}_{self._store.state.playback.slider}.gif"
+        if path := self._asked_path(self._store.state.playback.slider):
+            self.film(path)
+
+    def ask_film_of_builds(self) -> None:
+        """Ask for a name and film random builds; say why where there are none."""
+        moments = self._moments(lambda: moments_of_builds(*self._builds()))
+        if moments and (path := self._asked_path("builds")):
+            self.film_builds(path, moments)
+
+    def _asked_path(self, what: str) -> str:
+        """Return where a person wants the film of something, "" for nowhere."""
+        first = f"{Path(self._store.state.optics.lens).stem}_{what}.gif"
         path, chosen = QFileDialog.getSaveFileName(self.window(), tr("Save a film"), first, tr(FILMS))
-        if path:
-            self.film(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+        return path + chosen.split("*")[1].rstrip(")") if path and not Path(path).suffix else path
 
     def film(self, path: str) -> bool:
         """Film the sweep to a file; return whether it began."""
+        moments = self._moments(lambda: moments_of_sweep(self._store.state))
+        return bool(moments) and self._film(path, self.subject.currentData(), moments, FRAMES_PER_S)
+
+    def film_builds(self, path: str, moments: tuple[Moment, ...]) -> bool:
+        """Film builds, all panels of the window, to a file; return whether it began."""
+        return self._film(path, "stack", moments, BUILDS_PER_S)
+
+    def _moments(self, make: Callable[[], tuple[Moment, ...]]) -> tuple[Moment, ...]:
+        """Return the moments to film; say why where there are none."""
+        try:
+            return make()
+        except P2SFError as error:
+            self._store.refused.emit(error)
+            return ()
+
+    def _film(self, path: str, subject: str, moments: tuple[Moment, ...], frames_per_s: float) -> bool:
         self.player.pause()
-        began = not self.filming.busy and self.filming.start(path, self._part(self.subject.currentData()))
+        began = not self.filming.busy and self.filming.start(path, self._part(subject), moments, frames_per_s)
         self._show_filming(began or self.filming.busy)
         return began
 
@@ -174,6 +218,7 @@ class PlayBar(QFrame):
         for tool in (self.subject, self.export, self.turn, self.key, self.close_bar):
             tool.setEnabled(not on)
         self.progress.setValue(0)
+        self.show_state(self._store.state)
 
     def _ended(self, message: Message | P2SFError) -> None:
         self._show_filming(False)

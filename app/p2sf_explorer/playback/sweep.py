@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import inf, log
 from typing import Any
 
+from p2sf.messages import Message
 from p2sf_explorer.compare.contrasts import LINK_WORDS
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges
@@ -17,6 +18,14 @@ from p2sf_explorer.state.what_if import with_added
 RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm", "apodisation")
 USUAL_WAVES = (-2.0, 2.0)
 TITLES = {key: LINK_WORDS[key] for key in DRAGGED} | {ADDED + term: f"{NAMES[term]} added" for term in TERMS}
+
+
+@dataclass(frozen=True)
+class Moment:
+    """One frame of a film: the state that is on show, and the words below the picture, None for no words."""
+
+    state: State
+    caption: Message | None = None
 
 
 @dataclass(frozen=True)

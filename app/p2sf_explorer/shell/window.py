@@ -35,7 +35,7 @@ from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.files.opening import REPORT_TAB, Refusal
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.controller import LessonController, LessonRoom
-from p2sf_explorer.panels import REGISTRY, BackgroundPanel, Panel, PreparingPanel, build, view_of
+from p2sf_explorer.panels import REGISTRY, BackgroundPanel, FilmedPanel, Panel, PreparingPanel, build, view_of
 from p2sf_explorer.panels.coefficients import CoefficientsPanel
 from p2sf_explorer.panels.psf import PsfPanel
 from p2sf_explorer.playback.filming import Filming
@@ -53,6 +53,7 @@ from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.state import Display, State
 from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_show, on_stage, placed, put_to_tabs
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.tolerancing.analysis import ToleranceQuestion, ToleranceResult
 from p2sf_explorer.widgets.copying import card_in_hand
 from p2sf_explorer.widgets.drop import DropFrame, dropped, is_photo
 from p2sf_explorer.workers.deferred import DeferredWorker
@@ -105,7 +106,7 @@ class MainWindow(QMainWindow):
         self.floating = FloatingPanels(self, self.store, {entry.key: entry.title for entry in REGISTRY})
         self.compare = CompareBar(self, self.store)
         filming = Filming(self.store, self.refresh, self.is_busy, self._pause_accuracy, self)
-        self.play = PlayBar(self.store, filming, self._part, self)
+        self.play = PlayBar(self.store, filming, self._part, self._builds, self)
 
     def _make_helpers(self, measured: bool) -> None:
         """Make what works for the window in the background, and the commands."""
@@ -336,6 +337,13 @@ class MainWindow(QMainWindow):
             self.open_panel(key)
         return parts.get(key) or self.panels[key].widget
 
+    def _builds(self) -> tuple[ToleranceQuestion, ToleranceResult]:
+        """Return the builds that the Tolerances panel has drawn, and bring it on show; P2SFError where it has none."""
+        from p2sf_explorer.panels.tolerances import TolerancesPanel
+
+        self.open_panel("tolerances")
+        return self._panel("tolerances", TolerancesPanel).drawn()
+
     def _explain(self, refused: Refusal) -> None:
         """Say why a file is not opened, in the import report and in the banner, which offers substitute glasses."""
         from p2sf_explorer.panels.import_report import ImportReportPanel
@@ -411,6 +419,8 @@ class MainWindow(QMainWindow):
         made.widget.apart_asked.connect(partial(self.floating.toggle, key))
         made.widget.place_asked.connect(lambda place: self._move_to(place, key))
         made.widget.theory_asked.connect(lambda: self.commands.theory(key))
+        if isinstance(made, FilmedPanel):
+            made.film.clicked.connect(self.play.ask_film_of_builds)
 
     def _on_tab(self) -> None:
         self.store.update(tab=self.tabs.current())

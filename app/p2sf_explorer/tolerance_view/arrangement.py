@@ -103,13 +103,13 @@ class TolerancesBody(QWidget):
         wide, low = how == "wide", how == "low"
         for number, chart in enumerate(self._both):
             self._chart_box.addWidget(chart, number if wide else 0, 0 if wide else number)
-        places = ((1, 0), (1, 1), (1, 2)) if wide else ((2, 0), (1, 0), (3, 0))
+        places = ((2, 0), (1, 0), (3, 0)) if how == "tall" else ((1, 0), (1, 1), (1, 2))
         self._grid.addWidget(self._kinds, 0, 0, 1, 3)
         for part, place in zip((self._errors, self._charts, self._worst), places, strict=True):
             self._grid.addWidget(part, *place)
         for column, stretch in enumerate((6, 5, 3) if wide else (1, 0, 0)):
             self._grid.setColumnStretch(column, stretch)
-        for row, stretch in enumerate((0, 1, 0, 0) if wide else (0, 4, 5, 3)):
+        for row, stretch in enumerate((0, 4, 5, 3) if how == "tall" else (0, 1, 0, 0)):
             self._grid.setRowStretch(row, stretch)
         for part in (self._kinds, self._charts, self._worst):
             part.setVisible(not low)

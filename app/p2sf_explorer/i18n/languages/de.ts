@@ -507,6 +507,7 @@
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
 <message><source>RMS wavefront</source><translation>RMS-Wellenfront</translation></message>
+<message><source>RMS wavefront {value} λ</source><translation>RMS-Wellenfront {value} λ</translation></message>
 <message><source>RMS wavefront, waves</source><translation>RMS-Wellenfront, Wellen</translation></message>
 <message><source>RMS {rms} λ</source><translation>RMS {rms} λ</translation></message>
 <message><source>RMS {r} λ</source><translation>RMS {r} λ</translation></message>
@@ -558,6 +559,8 @@
 <message><source>R² ≥ {value:g}</source><translation>R² ≥ {value:g}</translation></message>
 <message><source>Sampling</source><translation>Abtastung</translation></message>
 <message><source>Save a film</source><translation>Film speichern</translation></message>
+<message><source>Save a film of random builds…</source><translation>Film von zufällig gebauten Objektiven speichern …</translation></message>
+<message><source>Save a film of the first forty of these builds: layout, PSF, and where each stands in the yield</source><translation>Einen Film der ersten vierzig dieser Exemplare speichern: Aufbau, PSF und wo jedes in der Ausbeute steht</translation></message>
 <message><source>Save a snapshot</source><translation>Schnappschuss speichern</translation></message>
 <message><source>Save as…</source><translation>Speichern als …</translation></message>
 <message><source>Save lens as…</source><translation>Objektiv speichern als …</translation></message>
@@ -642,6 +645,7 @@
 <message><source>Stopped. Draw again starts anew.</source><translation>Angehalten. Neu ziehen beginnt von vorn.</translation></message>
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
+<message><source>Strehl ratio {value}</source><translation>Strehl-Verhältnis {value}</translation></message>
 <message><source>Strehl ratio ≥ {limit}</source><translation>Strehl-Verhältnis ≥ {limit}</translation></message>
 <message><source>Strehl {strehl}</source><translation>Strehl {strehl}</translation></message>
 <message><source>Strehl {value}</source><translation>Strehl {value}</translation></message>
@@ -976,6 +980,7 @@
 <message><source>apodised</source><translation>apodisiert</translation></message>
 <message><source>as designed</source><translation>wie entworfen</translation></message>
 <message><source>as designed {value}</source><translation>wie entworfen {value}</translation></message>
+<message><source>as designed: {value}</source><translation>wie entworfen: {value}</translation></message>
 <message><source>as in the file</source><translation>laut Datei</translation></message>
 <message><source>as it is</source><translation>wie es ist</translation></message>
 <message><source>ask for {mirror:.6g} {unit}, whose PSF is the same upside down, or build one that reaches there</source><translation>{mirror:.6g} {unit} verlangen, wo die PSF dieselbe kopfüber ist, oder eine bauen, die dorthin reicht</translation></message>
@@ -1007,6 +1012,8 @@
 <message><source>brightness</source><translation>Helligkeit</translation></message>
 <message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
 <message><source>build</source><translation>Exemplar</translation></message>
+<message><source>build {number}</source><translation>Exemplar {number}</translation></message>
+<message><source>build {number}: {value} · tilts and decentres ×{factor}, rays as they are</source><translation>Exemplar {number}: {value} · Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
 <message><source>builds</source><translation>Exemplare</translation></message>
 <message><source>by R²</source><translation>nach R²</translation></message>
 <message><source>by field</source><translation>nach Feld</translation></message>
@@ -1067,6 +1074,7 @@
 <message><source>contours</source><translation>Höhenlinien</translation></message>
 <message><source>contrast</source><translation>Kontrast</translation></message>
 <message><source>contrast (MTF)</source><translation>Kontrast (MTF)</translation></message>
+<message><source>contrast {value} at {frequency:g} /mm</source><translation>Kontrast {value} bei {frequency:g} /mm</translation></message>
 <message><source>contrast ≥ {limit}</source><translation>Kontrast ≥ {limit}</translation></message>
 <message><source>control codes of the optimiser</source><translation>Steuerzeichen der Optimierung</translation></message>
 <message><source>corner {field}</source><translation>Ecke {field}</translation></message>
@@ -1225,6 +1233,7 @@
 <message><source>image heights</source><translation>Bildhöhen</translation></message>
 <message><source>image method "{method}" is unknown; choose {choices}</source><translation>das Bildverfahren "{method}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>image na</source><translation>bildseitige NA</translation></message>
+<message><source>image shifted by {value} µm</source><translation>Bild um {value} µm verschoben</translation></message>
 <message><source>image {h} mm</source><translation>Bild {h} mm</translation></message>
 <message><source>in</source><translation>in</translation></message>
 <message><source>index</source><translation>Index</translation></message>
@@ -1836,6 +1845,7 @@
 <message><source>the {quantity} "{text}" has the unit "{unit}"; {remedy}</source><translation>"{text}" hat die Einheit "{unit}" bei: {quantity}; {remedy}</translation></message>
 <message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {quantity}; eine wie 12,5 schreiben</translation></message>
 <message><source>their sum</source><translation>ihre Summe</translation></message>
+<message><source>there are no builds of this lens yet; wait until Tolerances shows its histogram</source><translation>von diesem Objektiv gibt es noch keine Exemplare; warten, bis Toleranzen sein Histogramm zeigt</translation></message>
 <message><source>there are {count} lenses for {due} columns; give one for each</source><translation>es gibt {count} Objektive für {due} Spalten; für jede eines angeben</translation></message>
 <message><source>there are {count} steps</source><translation>es gibt {count} Schritte</translation></message>
 <message><source>there are {count} workspaces already; delete one that is no longer needed</source><translation>es gibt schon {count} Arbeitsbereiche; löschen Sie einen, der nicht mehr gebraucht wird</translation></message>
