@@ -1,5 +1,6 @@
 """`p2sf measure` and `p2sf compare`: from pictures of points back to the wavefronts that made them."""
 
+from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any
@@ -27,12 +28,9 @@ from p2sf.request import Request, mask_of, set_up
 
 Pictures = Annotated[list[Path], Parameter(help="Pictures of the same points, one for each focus position.")]
 LensOption = Annotated[str | None, Parameter(help="The lens as designed, from which the picture departs.")]
-PixelUm = Annotated[float | None, Parameter(help="Pixel pitch in µm, unless the file says it.")]
 FocusUm = Annotated[
     list[float], Parameter(help="How much farther from the lens the sensor was at each picture, µm; 0 for the first.")
 ]
-Dark = Annotated[Path | None, Parameter(help="A picture of the same sensor without light, to be subtracted.")]
-Flat = Annotated[Path | None, Parameter(help="A picture of the same sensor in even light, to be divided by.")]
 Numbers = Annotated[str, Parameter(help="What each point is fitted by: seidel, 26 or 46 numbers.")]
 Unknown = Annotated[
     list[str],
@@ -40,12 +38,49 @@ Unknown = Annotated[
         help="What of the whole frame: sensor_shift_um, tilt_x_deg, tilt_y_deg, w40, w31, w22, w20, spacing_um:K."
     ),
 ]
-
-
 Built = Annotated[
     Path | None,
     Parameter(help="File for the lens as built: .toml, .zmx, .seq or .json, or .npz for its PSF database."),
 ]
+
+
+@dataclass(frozen=True)
+class Camera:
+    """What is known of the sensor that took the pictures.
+
+    Attributes
+    ----------
+    pixel_um
+        Pixel pitch in µm, unless the file says it.
+    dark
+        A picture of the same sensor without light, to be subtracted.
+    flat
+        A picture of the same sensor in even light, to be divided by.
+    gain
+        Electrons per count; without it shot noise is left out.
+    read_noise
+        Of a dark pixel in counts; estimated otherwise.
+    full_scale
+        Counts from which a pixel is saturated.
+    channel
+        Of a colour picture: red, green or blue.
+    """
+
+    pixel_um: float | None = None
+    dark: Path | None = None
+    flat: Path | None = None
+    gain: float | None = None
+    read_noise: float | None = None
+    full_scale: float | None = None
+    channel: str = "green"
+
+    def frame(self, path: Path) -> Frame:
+        """Return the frame of a picture."""
+        noise = Noise(self.gain or inf, self.read_noise, self.full_scale or inf)
+        return read_frame(path, self.pixel_um, dark=self.dark, flat=self.flat, noise=noise, channel=self.channel)
+
+
+ANY_CAMERA = Camera()
 
 
 def measure(
@@ -54,16 +89,10 @@ def measure(
     *,
     lens: LensOption = None,
     request: Asked = AS_IN_THE_FILE,
-    pixel_um: PixelUm = None,
+    camera: Annotated[Camera, Parameter(name="*")] = ANY_CAMERA,
     focus_um: FocusUm | None = None,
     model: Numbers = "seidel",
     unknowns: Unknown | None = None,
-    dark: Dark = None,
-    flat: Flat = None,
-    gain: Annotated[float | None, Parameter(help="Electrons per count; without it shot noise is left out.")] = None,
-    read_noise: Annotated[float | None, Parameter(help="Of a dark pixel in counts; estimated otherwise.")] = None,
-    full_scale: Annotated[float | None, Parameter(help="Counts from which a pixel is saturated.")] = None,
-    channel: Annotated[str, Parameter(help="Of a colour picture: red, green or blue.")] = "green",
     clip: Clip = False,
     built: Built = None,
     output: Output = None,
@@ -76,14 +105,12 @@ def measure(
     """
     check_output(output, (".npz",))
     check_output(built, (".toml", ".zmx", ".seq", ".json", ".npz"))
-    noise = Noise(gain or inf, read_noise, full_scale or inf)
-    frames = [read_frame(path, pixel_um, dark=dark, flat=flat, noise=noise, channel=channel) for path in pictures]
+    frames = [camera.frame(path) for path in pictures]
     design, optics = _scale(lens, request, frames[0])
-    shifts = focus_um or [0.0] * len(frames)
     found = measured(
         frames,
         optics,
-        focus_um=shifts,
+        focus_um=focus_um or [0.0] * len(frames),
         model=model,
         lens=design,
         depth_mm=request.depth_mm,
@@ -163,6 +190,7 @@ def _whole(whole: FrameFit) -> dict[str, Any]:
         "height_mm": whole.model.height_mm,
         "chi2": whole.chi2,
         "least_r2": float(whole.r2.min()),
+        "warnings": [str(warning) for warning in whole.warnings],
     }
 
 
@@ -185,6 +213,8 @@ def _show(found: Measurement) -> None:
         warn(Message("at {count} of {all} points, {why}", count=len(alike), all=len(used), why=alike[0]))
     if found.whole is not None:
         print_table(*_frame_table(found.whole))
+        for why in found.whole.warnings:
+            warn(why)
 
 
 def _frame_table(whole: FrameFit) -> tuple[str, tuple[str, ...], list[Row]]:

@@ -5,23 +5,27 @@ so that the few numbers of the frame are solved for alone, by Levenberg's and Ma
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 from typing import TypeAlias
 
 import numpy as np
 
 from p2sf.errors import Cancelled, RequestError
-from p2sf.measure.frame_start import suggested
-from p2sf.measure.frame_terms import FrameModel, FramePoint, PointPupil
+from p2sf.measure.frame_terms import FrameModel, FramePoint, PointPupil, six_of_unknowns
+from p2sf.measure.point_fit import chi2_warning, fit_point
 from p2sf.measure.point_model import PixelSum
 from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import seen
+from p2sf.messages import Message
 from p2sf.threads import one_blas_thread
 
 STEPS = 30
 RTOL = 1e-5  # of the sum of squares in one step
 FIRST_DAMPING, WEAKER, STRONGER, MOST_DAMPING = 1e-3, 0.2, 5.0, 1e8
-LEAST_SINGULAR = 1e-10
+MOST_INFLATION = 30.0  # of an error by what else is unknown
+LEAST_SINGULAR = 1e-10  # of the information of unknowns in units of what each alone is known to
+SUGGESTING = 8  # points whose single fits suggest where a fit without a lens starts
 
 Part: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Residuals of a point, their derivatives by the frame's unknowns, and by the point's own."""
@@ -65,6 +69,29 @@ class FrameFit:
         """Return the Cramér–Rao bound of each value for the stated noise."""
         deviation: np.ndarray = np.sqrt(np.diag(self.covariance))
         return deviation
+
+    @property
+    def inflation(self) -> np.ndarray:
+        """Return by how much each error exceeds what it would be if all other unknowns were known, (unknowns,)."""
+        alone = np.diag(np.linalg.inv(self.covariance))
+        ratio: np.ndarray = np.sqrt(np.maximum(np.diag(self.covariance) * alone, 1.0))
+        return ratio
+
+    @property
+    def warnings(self) -> tuple[Message, ...]:
+        """Return what a reader has to know before using the values."""
+        usable = sum(int(point.picture.usable.sum()) for point in self.points)
+        out = chi2_warning(self.chi2, max(1, usable - self.frames.size - self.values.size))
+        alike = tuple(
+            name for name, ratio in zip(self.model.unknowns, self.inflation, strict=True) if ratio > MOST_INFLATION
+        )
+        if alike:
+            told = Message(
+                "{names}: the picture tells a combination of these only, and hardly each of them; leave one out",
+                names=alike,
+            )
+            out = (*out, told)
+        return out
 
     @property
     def errors(self) -> np.ndarray:
@@ -130,7 +157,7 @@ def fit_frame(
     if not points:
         raise RequestError("there is no usable point in the frame; look at what its points are flagged for")
     if start is None:
-        start = np.zeros(len(model.unknowns)) if model.lens is not None else suggested(points, model)
+        start = np.zeros(len(model.unknowns)) if model.lens is not None else _suggested(points, model)
     values = np.array(start, float)
     sums = [PointSum(point, model) for point in points]
     own = np.array([one.start(point, model, values) for one, point in zip(sums, points, strict=True)])
@@ -156,6 +183,46 @@ def fit_frame(
         if gain < RTOL * cost:
             break
     return _result(points, model, sums, values, own, parts)
+
+
+def _suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
+    """Return values of a model without a lens that fits of a few single points, far apart, suggest.
+
+    Pictures of one point at several focus positions are fitted together. At one focus, each point's even terms may have
+    the other sign (`PointFit.others`): those signs are taken that agree best.
+    """
+    places: dict[tuple[float, float], list[FramePoint]] = {}
+    for point in points:
+        places.setdefault((point.x_mm, point.y_mm), []).append(point)
+    chosen = _far_apart([group[0] for group in places.values()])
+    wanted, several = [], False
+    for x, y in ((point.x_mm, point.y_mm) for point in chosen):
+        pictures = [
+            replace(point.picture, defocus_waves=point.focus_um * model.focus_waves_per_um) for point in places[x, y]
+        ]
+        several = several or len(pictures) > 1
+        wanted.append(fit_point(pictures, model.optics, azimuth_deg=float(np.rad2deg(np.arctan2(x, y)))).numbers)
+    matrix = np.concatenate([six_of_unknowns(point.x_mm, point.y_mm, model) for point in chosen])
+    least, best = np.inf, np.zeros(len(model.unknowns))
+    open_sign = not several and has_twin(model.optics.mask)
+    for signs in product((1.0, -1.0) if open_sign else (1.0,), repeat=len(chosen)):
+        right = np.concatenate([numbers * [s, 1.0, s, s] for s, numbers in zip(signs, wanted, strict=True)])
+        values, *_ = np.linalg.lstsq(matrix, right, rcond=1e-9)
+        left = float(np.linalg.norm(matrix @ values - right))
+        if left < least:
+            least, best = left, values
+    return best
+
+
+def _far_apart(points: Sequence[FramePoint]) -> list[FramePoint]:
+    """Return some points, each the farthest from those before it, the first nearest the axis."""
+    places = np.array([(point.x_mm, point.y_mm) for point in points])
+    order = [int(np.argmin(np.hypot(*places.T)))]
+    away = np.hypot(*(places - places[order[0]]).T)
+    while len(order) < min(SUGGESTING, len(points)):
+        order.append(int(np.argmax(away)))
+        away = np.minimum(away, np.hypot(*(places - places[order[-1]]).T))
+    return [points[k] for k in order]
 
 
 def _cost(parts: Sequence[Part]) -> float:
@@ -192,8 +259,6 @@ def _result(
 ) -> FrameFit:
     normals = [_normal(part, 0.0) for part in parts]
     information = np.asarray(sum(a - b @ c @ b.T for a, b, c, _, _ in normals))
-    scale = 1 / np.sqrt(np.maximum(np.diag(information), 1e-300))
-    covariance = scale[:, None] * np.linalg.pinv(scale[:, None] * information * scale, rcond=LEAST_SINGULAR) * scale
     modelled = tuple(
         mine[2] * one.light(values, mine[0], mine[1])[0] + mine[3] for one, mine in zip(sums, own, strict=True)
     )
@@ -205,7 +270,16 @@ def _result(
     odd = np.array([name == "w31" for name in model.unknowns])
     twin = np.where(odd, values, -values) if one_focus else None
     chi2s = squares / np.array(freedom)
-    return FrameFit(model, tuple(points), values, covariance, own, modelled, r2, chi2s, all_chi2, twin)
+    return FrameFit(model, tuple(points), values, _inverse(information), own, modelled, r2, chi2s, all_chi2, twin)
+
+
+def _inverse(information: np.ndarray) -> np.ndarray:
+    """Return the covariance of what has this information; what is not determined at all gets a huge variance."""
+    scale = 1 / np.sqrt(np.maximum(np.diag(information), 1e-300))
+    values, axes = np.linalg.eigh(scale[:, None] * information * scale)
+    inverse = axes / np.sqrt(np.maximum(values, LEAST_SINGULAR))
+    covariance: np.ndarray = scale[:, None] * (inverse @ inverse.T) * scale
+    return covariance
 
 
 def _r2(one: PointSum, light: np.ndarray) -> float:

@@ -195,6 +195,23 @@ class FrameModel:
         return chief_rays(self.lens, self.depth_mm, self.optics.wavelength_um, self.height_mm * 1.02)
 
 
+def six_of_unknowns(x_mm: float, y_mm: float, model: FrameModel) -> np.ndarray:
+    """Return W40, W31, W22 and W20 + Wd of a point per unit of every unknown, (4, unknowns); 0 for a spacing."""
+    h = float(np.hypot(x_mm, y_mm)) / model.height_mm
+    focus = model.focus_waves_per_um
+    tilt = focus * UM_PER_DEGREE_MM
+    made = {
+        "w40": (1, 0, 0, 0),
+        "w31": (0, h, 0, 0),
+        "w22": (0, 0, h * h, 0),
+        "w20": (0, 0, 0, h * h),
+        "sensor_shift_um": (0, 0, 0, focus),
+        "tilt_x_deg": (0, 0, 0, tilt * x_mm),
+        "tilt_y_deg": (0, 0, 0, tilt * y_mm),
+    }
+    return np.array([made.get(name, (0, 0, 0, 0)) for name in model.unknowns], float).T
+
+
 def chief_rays(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float) -> SensorMap:
     """Return where chief rays land up to a height; they pass the middle of the stop, whatever mask stands there."""
     return sensor_map(with_mask(lens, CLEAR), depth_mm, wavelength_um, height_mm)

@@ -15,8 +15,7 @@ from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.measure.frame import Frame
 from p2sf.measure.frame_fit import FrameFit, fit_frame
-from p2sf.measure.frame_start import six_of_unknowns
-from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint
+from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint, six_of_unknowns
 from p2sf.measure.lens_pupil import designed_pupil
 from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point
 from p2sf.measure.point_model import Optics
@@ -97,33 +96,18 @@ def measured(
     half = window_half(points)
     if frames[0].psf:
         half, optics = points[0].half, replace(optics, fill=0.0)
-    waves_per_um = optics.na**2 / (2 * optics.wavelength_um)
-    windows = [_windows(frames, point, half, np.asarray(focus_um) * waves_per_um) for point in points]
-    placed = [
-        one
-        for point, pictures in zip(points, windows, strict=True)
-        for one in _placed(frames[0], point, pictures, focus_um)
-    ]
-    whole = None
-    height = max([float(np.hypot(point.x_mm, point.y_mm)) for point in placed] + [LEAST_HEIGHT_MM])
-    if sum(bool(pictures) for pictures in windows) >= FEWEST:
-        known = FrameModel(optics, height, tuple(unknowns), lens, depth_mm, clip=clip)
-        told = (lambda share: progress(WHOLE * share)) if progress else None
-        whole = fit_frame(placed, known, progress=told, cancelled=cancelled)
-        if lens is not None:  # centroids lie a pixel or so from where chief rays land, which coma moves them by
-            whole = fit_frame(_replaced(whole), known, whole.values, cancelled=cancelled)
+    taken = [_Taken(frames, point, half, focus_um, optics) for point in points]
+    height = max([one.height_mm for one in taken if one.pictures] + [LEAST_HEIGHT_MM])
+    design = FrameModel(optics, height, tuple(unknowns), lens, depth_mm, clip=clip)
+    whole = _whole(taken, design, progress, cancelled)
     fits: list[PointFit | None] = [None] * len(points)
     failures: list[Message | None] = [None] * len(points)
-    for k, (point, pictures) in enumerate(zip(points, windows, strict=True)):
+    for k, one in enumerate(taken if singly else ()):
         if cancelled and cancelled():
             raise Cancelled("the measurement was cancelled before it was done")
-        if singly and pictures:
+        if one.pictures:
             try:
-                if whole is not None and lens is not None and model == SIX:
-                    fits[k] = _departure(whole, _placed(frames[0], point, pictures, focus_um), point)
-                else:
-                    design = FrameModel(optics, height, (), lens, depth_mm, clip=clip)
-                    fits[k] = _fit(point, pictures, design, model, _expected(whole, point))
+                fits[k] = _single(one, whole, design, model)
             except P2SFError as error:
                 failures[k] = error.message
         if progress:
@@ -131,22 +115,62 @@ def measured(
     return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole)
 
 
-def _windows(frames: Sequence[Frame], point: FoundPoint, half: int, waves: np.ndarray) -> list[PointPicture]:
-    """Return a point's windows in all frames; none where it cannot be used in one of them."""
-    if not point.good:
-        return []
-    found = [window_of(frame, point, half, float(wave)) for frame, wave in zip(frames, waves, strict=True)]
-    whole = [one for one in found if one is not None]
-    return whole if len(whole) == len(found) else []
+class _Taken:
+    """A point with its windows in all frames; none where it cannot be used in one of them."""
+
+    def __init__(
+        self, frames: Sequence[Frame], point: FoundPoint, half: int, focus_um: Sequence[float], optics: Optics
+    ):
+        self.point, self.focus_um = point, focus_um
+        self.place = frames[0].geometry.place_of(round(point.row), round(point.column))
+        waves = [shift * optics.na**2 / (2 * optics.wavelength_um) for shift in focus_um]
+        found = [window_of(frame, point, half, wave) for frame, wave in zip(frames, waves, strict=True)]
+        self.pictures = [one for one in found if one is not None]
+        if not point.good or None in found:
+            self.pictures = []
+
+    @property
+    def height_mm(self) -> float:
+        """Return how far from the axis the point lies."""
+        return float(np.hypot(self.point.x_mm, self.point.y_mm))
+
+    @property
+    def azimuth(self) -> float:
+        """Return the point's direction from the axis, radians from +y towards +x."""
+        return float(np.arctan2(self.point.x_mm, self.point.y_mm))
+
+    @property
+    def placed(self) -> list[FramePoint]:
+        """Return the pictures as a frame's fit takes them."""
+        pairs = zip(self.pictures, self.focus_um, strict=False)
+        return [FramePoint(replace(picture, defocus_waves=0.0), *self.place, focus) for picture, focus in pairs]
 
 
-def _fit(
-    point: FoundPoint, pictures: Sequence[PointPicture], design: FrameModel, model: str, near: np.ndarray | None
-) -> PointFit:
+def _whole(
+    taken: Sequence[_Taken],
+    design: FrameModel,
+    progress: Callable[[float], None] | None,
+    cancelled: Callable[[], bool] | None,
+) -> FrameFit | None:
+    """Return what explains all points together; None for too few of them."""
+    if sum(bool(one.pictures) for one in taken) < FEWEST:
+        return None
+    told = (lambda share: progress(WHOLE * share)) if progress else None
+    placed = [point for one in taken for point in one.placed]
+    found = fit_frame(placed, design, progress=told, cancelled=cancelled)
+    if design.lens is None:
+        return found
+    # Centroids lie a pixel or so from where chief rays land, which coma moves them by.
+    return fit_frame(_replaced(found), design, found.values, cancelled=cancelled)
+
+
+def _single(one: _Taken, whole: FrameFit | None, design: FrameModel, model: str) -> PointFit:
     """Return the fit of a point; for a model with a map its window is turned so that the field lies along +y."""
-    optics, azimuth = design.optics, float(np.arctan2(point.x_mm, point.y_mm))
+    if whole is not None and design.lens is not None and model == SIX:
+        return _departure(whole, one)
+    pictures, optics, azimuth = one.pictures, design.optics, one.azimuth
     if model == SIX:
-        return fit_point(pictures, optics, model, float(np.rad2deg(azimuth)), near=near)
+        return fit_point(pictures, optics, model, float(np.rad2deg(azimuth)), near=_expected(whole, one))
     quarter = round(azimuth / (np.pi / 2))
     if abs(azimuth - quarter * np.pi / 2) > STRAIGHT:
         raise RequestError("a model with a pupil map is fitted to points straight above, below or beside the axis only")
@@ -154,18 +178,9 @@ def _fit(
     own = None
     if design.lens is not None:
         half_um = max(pictures[0].values.shape) / 2 * optics.pixel_um
-        source = design.source(float(np.hypot(point.x_mm, point.y_mm)), azimuth)
+        source = design.source(one.height_mm, azimuth)
         own = designed_pupil(design.lens, source, pupil_model(model), optics.cycles, half_um, design.clip)
     return fit_point([_turned(picture, quarter) for picture in pictures], turned, model, design=own)
-
-
-def _placed(
-    frame: Frame, point: FoundPoint, pictures: Sequence[PointPicture], focus_um: Sequence[float]
-) -> list[FramePoint]:
-    """Return a point's pictures as a frame's fit takes them."""
-    middle = frame.geometry.place_of(round(point.row), round(point.column))
-    pairs = zip(pictures, focus_um, strict=False)
-    return [FramePoint(replace(picture, defocus_waves=0.0), *middle, focus) for picture, focus in pairs]
 
 
 def _replaced(whole: FrameFit) -> list[FramePoint]:
@@ -174,16 +189,16 @@ def _replaced(whole: FrameFit) -> list[FramePoint]:
     return [replace(point, x_mm=point.x_mm + x, y_mm=point.y_mm + y) for point, (x, y) in pairs]
 
 
-def _departure(whole: FrameFit, placed: Sequence[FramePoint], point: FoundPoint) -> PointFit:
+def _departure(whole: FrameFit, one: _Taken) -> PointFit:
     """Return what a point tells beyond the lens's exact wavefront, added to the lens's own coefficients."""
     model = replace(whole.model, unknowns=("w40", "w31", "w22", "w20"), alone=True)
-    own = model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm)))
-    found = fit_frame(placed, model, six_of_unknowns(point.x_mm, point.y_mm, whole.model) @ whole.values)
-    left = max(1, sum(int(one.picture.usable.sum()) for one in placed) - found.values.size - found.frames.size)
+    own = model.six_of_lens(one.height_mm)
+    found = fit_frame(one.placed, model, six_of_unknowns(one.point.x_mm, one.point.y_mm, whole.model) @ whole.values)
+    left = max(1, sum(int(part.usable.sum()) for part in one.pictures) - found.values.size - found.frames.size)
     return PointFit(
         model=pupil_model(SIX),
         optics=model.optics,
-        azimuth=float(np.arctan2(point.x_mm, point.y_mm)),
+        azimuth=one.azimuth,
         numbers=own + found.values,
         covariance=found.covariance,
         frames=found.frames,
@@ -194,12 +209,12 @@ def _departure(whole: FrameFit, placed: Sequence[FramePoint], point: FoundPoint)
     )
 
 
-def _expected(whole: FrameFit | None, point: FoundPoint) -> np.ndarray | None:
+def _expected(whole: FrameFit | None, one: _Taken) -> np.ndarray | None:
     """Return W40, W31, W22 and W20 + Wd that the frame suggests for a point: all points then take the same twin."""
     if whole is None:
         return None
-    own = whole.model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm)))
-    expected: np.ndarray = own + six_of_unknowns(point.x_mm, point.y_mm, whole.model) @ whole.values
+    of_frame = six_of_unknowns(one.point.x_mm, one.point.y_mm, whole.model) @ whole.values
+    expected: np.ndarray = whole.model.six_of_lens(one.height_mm) + of_frame
     return expected
 
 

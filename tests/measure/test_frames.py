@@ -168,6 +168,22 @@ def test_a_frame_without_a_lens_starts_from_its_points_and_names_the_twin():
     assert np.abs((near - truth) / found.bounds).max() < 5
 
 
+def test_unknowns_that_no_picture_tells_apart_have_huge_errors_and_a_warning():
+    """On one circle about the axis a shift of the sensor is W20 h²: one combination of the two is known, none alone."""
+    optics = Optics(0.125, 0.55, 2.2)
+    places = [(4.0, 0.0), (0.0, 4.0), (-4.0, 0.0)]
+    model = FrameModel(optics, 4.0, ("sensor_shift_um", "w20", "w31"))
+    points = model_points(model, np.array([20.0, 0.3, 0.5]), 10.0, places)
+    found = fit_frame(points, model, start=np.array([15.0, 0.2, 0.4]))
+    assert (found.bounds[:2] * [model.focus_waves_per_um, 1.0] > 100 * found.bounds[2]).all()
+    assert found.values @ [model.focus_waves_per_um, 1.0, 0.0] == pytest.approx(
+        20 * model.focus_waves_per_um + 0.3, abs=0.05
+    )
+    assert [warning.values["names"] for warning in found.warnings] == [("sensor_shift_um", "w20")]
+    known = fit_frame(points, replace(model, unknowns=("sensor_shift_um", "w31")), start=np.array([15.0, 0.4]))
+    assert not known.warnings and known.bounds[0] < 1.0
+
+
 def test_a_spacing_is_told_from_a_shift_by_its_field(triplet):
     """A point model of the lens with its third space longer by 40 µm, fitted by one without."""
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
