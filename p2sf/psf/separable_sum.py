@@ -146,10 +146,10 @@ def rows_for(
     rows, columns = row_counts(found, pixels, pixel_um, quality)
     if rows * columns > MOST_NODES:
         raise too_many(rows, columns, pixels, pixel_um)
-    return frequency_rows(found, rows, columns, None if every else _enough(found, columns))
+    return frequency_rows(found, rows, columns, None if every else enough_nodes(found, columns))
 
 
-def _enough(found: FittedPencil, columns: int) -> int | None:
+def enough_nodes(found: FittedPencil, columns: int) -> int | None:
     """Return how many nodes of a row say what its columns carry; None where that is no fewer."""
     enough = found.level.wave_order + MORE_NODES
     return None if 2 * enough >= columns else enough
@@ -232,7 +232,7 @@ def iris_rows(found: FittedPencil, rows: int, columns: int) -> tuple[FrequencyRo
     form = power_columns(found.fy, found.level.map_order)
     fy, (across, along) = _with_slopes(form, outline.xi, outline.eta)
     rise = across * outline.step_xi + along * outline.step_eta
-    few = _enough(found, columns)
+    few = enough_nodes(found, columns)
     place, weight = _half_legendre(2 * few) if few else _columns(columns, sided)
     share = -(rise * outline.xi)[:, None] * (weight * ((1 if sided else 2) / np.pi))
     xi = np.abs(outline.xi)[:, None] * place
@@ -325,64 +325,89 @@ def sum_across(amplitude: np.ndarray, angle: np.ndarray, count: int) -> np.ndarr
     All follow (`_unfolding`) from the sums Q of amplitude·cos(rθ), r = 0 … 3, with every fourth cosine, which saves
     three quarters of the cosines and of the products.
     """
-    return _sum_cosines(np.stack([amplitude.real, amplitude.imag]), angle, count)
+    sums = _sums_with_some(np.stack([amplitude.real, amplitude.imag]), _reduced(angle, amplitude.real.dtype), count)
+    return _unfolded(sums, _unfolding(count, sums.dtype))
 
 
 def sum_both_sides(even: np.ndarray, odd: np.ndarray, angle: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return Σ even·cos(m·angle) ± i·Σ odd·sin(m·angle) over each row's columns: (rows, 2, count) each, re and im.
 
-    The sines follow from sin((m + 1)θ) = 2 sin θ·cos(mθ) + sin((m − 1)θ), so that both share their cosines.
+    The sines follow from sums of odd·sin θ with the same cosines (`_unfolding_sines`).
     """
-    sine = np.sin(angle).astype(even.real.dtype)
-    sums = _sum_cosines(np.stack([even.real, even.imag, odd.real * sine, odd.imag * sine]), angle, count)
-    cosines, steps = sums[:, :2], sums[:, 2:]
-    sines = np.zeros_like(cosines)
-    if count > 1:
-        sines[..., 1] = steps[..., 0]
-    for m in range(2, count):
-        sines[..., m] = 2 * steps[..., m - 1] + sines[..., m - 2]
+    angle = _reduced(angle, even.real.dtype)
+    sine = np.sin(angle)
+    sums = _sums_with_some(np.stack([even.real, even.imag, odd.real * sine, odd.imag * sine]), angle, count)
+    cosines = _unfolded(sums[:, :2], _unfolding(count, sums.dtype))
+    sines = _unfolded(sums[:, 2:], _unfolding_sines(count, sums.dtype))
     turned = np.stack([-sines[:, 1], sines[:, 0]], axis=1)  # times i
     return cosines + turned, cosines - turned
 
 
-def _sum_cosines(parts: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
-    """Return Σ part·cos(m·angle) over each row's columns, (rows, parts, count); ``parts``: (parts, rows, columns)."""
+def _reduced(angle: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """Return angles in a precision, less whole turns where that would lose digits of them."""
+    return (angle - 2 * np.pi * np.rint(angle / (2 * np.pi))).astype(dtype) if dtype == np.float32 else angle
+
+
+def _sums_with_some(parts: np.ndarray, angle: np.ndarray, count: int) -> np.ndarray:
+    """Return Q_{r,k} = Σ part·cos(rθ)·cos(4kθ) over each row's columns, (rows, parts, those of all r and k).
+
+    ``parts``: (parts, rows, columns); r = 0 … 3, and as many k as give ``count`` cosines.
+    """
     number, parts = len(parts), parts[:, None]
     (rows, columns), steps = angle.shape, -(-count // STRIDE)
     sums = np.empty((rows, number * STRIDE, steps), parts.dtype)
     size = max(1, NODES_AT_ONCE // columns)
     for start in range(0, rows, size):
         some = slice(start, start + size)
-        near, far = _cosines(angle[some], steps, parts.dtype)
+        near, far = _cosines(angle[some], steps)
         weighted = (parts[:, :, some] * near).reshape(number * STRIDE, -1, columns)
         np.matmul(weighted.swapaxes(0, 1), np.moveaxis(far, 0, -1), out=sums[some])  # both are views
-    unfolded: np.ndarray = sums.reshape(-1, STRIDE * steps) @ _unfolding(steps, parts.dtype)[:, :count]
-    return unfolded.reshape(rows, number, count)
+    return sums.reshape(rows, number, STRIDE * steps)
+
+
+def _unfolded(sums: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """Return ``sums`` @ ``matrix`` as one product of matrices, where numpy would make one for each row."""
+    unfolded: np.ndarray = sums.reshape(-1, len(matrix)) @ matrix
+    return unfolded.reshape(*sums.shape[:2], -1)
 
 
 @lru_cache(maxsize=16)
-def _unfolding(steps: int, dtype: np.dtype) -> np.ndarray:
+def _unfolding(count: int, dtype: np.dtype) -> np.ndarray:
     """Return the matrix that gives S_m, m in the last axis, from Q_{r,k}: S_{4k + r} = 2Q_{r,k} − S_{4(k − 1) + 4 − r}.
 
     This is 2cos(rθ)cos(4kθ) = cos((4k + r)θ) + cos((4k − r)θ); where r or k is 0, S is Q itself.
     """
+    steps = -(-count // STRIDE)
     sums = np.eye(STRIDE * steps).reshape(STRIDE, steps, -1)
     sums[1:, 1:] *= 2
     for k in range(1, steps):
         sums[1:, k] -= sums[:0:-1, k - 1]
-    return protected(np.ascontiguousarray(sums.transpose(2, 1, 0).reshape(STRIDE * steps, -1), dtype))
+    return protected(np.ascontiguousarray(sums.transpose(2, 1, 0).reshape(STRIDE * steps, -1)[:, :count], dtype))
 
 
-def _cosines(angle: np.ndarray, steps: int, dtype: np.dtype) -> tuple[np.ndarray, np.ndarray]:
+@lru_cache(maxsize=16)
+def _unfolding_sines(count: int, dtype: np.dtype) -> np.ndarray:
+    """Return the matrix that gives Σ part·sin(mθ) as `_unfolding` does, where the parts of Q have the factor sin θ.
+
+    This is sin((m + 1)θ) = 2 sin θ·cos(mθ) + sin((m − 1)θ).
+    """
+    cosines = _unfolding(count, np.dtype(float))
+    sines = np.zeros_like(cosines)
+    sines[:, 1:2] = cosines[:, :1]
+    for m in range(2, count):
+        sines[:, m] = 2 * cosines[:, m - 1] + sines[:, m - 2]
+    return protected(sines.astype(dtype))
+
+
+def _cosines(angle: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
     """Return cos(rθ), r = 0 … 3, and cos(4kθ), k = 0 … steps − 1, each (number, rows, columns).
 
     A cosine is cheap in float32 and expensive in float64, where Chebyshev's recurrence replaces it.
     """
-    if dtype == np.float32:
-        angle = (angle - 2 * np.pi * np.rint(angle / (2 * np.pi))).astype(dtype)
-        far = np.arange(0, STRIDE * steps, STRIDE, dtype=dtype)[:, None, None] * angle
-        return chebyshev(np.cos(angle), STRIDE), np.cos(far, out=far)
     near = chebyshev(np.cos(angle), STRIDE)
+    if angle.dtype == np.float32:
+        far = np.arange(0, STRIDE * steps, STRIDE, dtype=angle.dtype)[:, None, None] * angle
+        return near, np.cos(far, out=far)
     return near, chebyshev(2 * near[2] ** 2 - 1, steps)
 
 

@@ -8,7 +8,7 @@ from p2sf.errors import Cancelled, SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.fitted import fit, fitted_intensity, fitted_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.separable_sum import frequency_rows, rows_for, sum_across, sum_rows
+from p2sf.psf.separable_sum import frequency_rows, rows_for, sum_across, sum_both_sides, sum_rows
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
@@ -60,6 +60,18 @@ def test_cosines_by_recurrence():
     assert fine.dtype == np.float32
     # Phases of up to 39π have float32's 4e-6; some ten of them, of either sign and twice over, make one sum.
     assert np.max(np.abs(fine[:, 0] - multiples[:, :40])) < 5e-5
+
+
+@pytest.mark.parametrize(("dtype", "error"), [(complex, 1e-11), (np.complex64, 2e-4)])
+def test_sines_and_cosines_give_the_waves_of_both_sides(dtype, error):
+    """Σ cos ± i·sin are Σ exp(±i·m·angle): errors grow with m, up to 40 here, and with the angles, up to 40."""
+    angle, count = np.linspace(-40, 40, 505).reshape(5, 101), 41
+    even, odd = (np.random.default_rng(3).normal(size=(2, 5, 101, 2)) @ [1, 1j]).astype(dtype)
+    turns = angle[:, None] * np.arange(count)[:, None]
+    for sign, found in zip((1, -1), sum_both_sides(even, odd, angle, count), strict=True):
+        expected = (even[:, None] * np.cos(turns) + sign * 1j * odd[:, None] * np.sin(turns)).sum(-1)
+        assert found.dtype == np.zeros(1, dtype).real.dtype
+        assert np.abs(found[:, 0] + 1j * found[:, 1] - expected).max() < error * np.abs(even).sum(-1).max()
 
 
 @pytest.mark.parametrize("pixels", [1, 16, 17])
