@@ -58,20 +58,21 @@ class Request:
     field_x_deg
         Chief-ray angle in x, degrees, for sources beside the plane of x = 0, which a misaligned lens tells apart.
     object_height_mm
-        Object height instead of an angle, mm; a positive one lies at −y.
+        Object height instead of an angle, mm. A positive one stands for a positive field: the object lies at −y.
     image_height_mm
         Height of the paraxial chief ray on the sensor instead of an angle, mm.
     wavelength_nm
         Wavelength, nm; the file's middle one when not given.
     zoom
-        Of a lens that zooms: where its ring stands, a number on its own scale or the name of a column of its file.
+        Position of the zoom ring: a number on the lens's own scale, or the name of a column of its file.
     focus_position
-        Of a lens that focuses inside: where the ring of its focus stands, as for zoom.
+        Position of the focus ring of a lens that focuses inside, given as for zoom.
     focus_mm
-        Put the sensor at the paraxial image of this distance, mm; inf is allowed. A lens that focuses inside moves its
-        ring instead, and its sensor only for what lies beyond an end of the ring.
+        Focus on the plane this far in front of the first vertex, mm; inf is allowed. The sensor moves to the paraxial
+        image of that plane at the lens's middle wavelength. A lens that focuses inside turns its ring instead, and
+        moves its sensor only for planes beyond an end of the ring.
     sensor_shift_um
-        Move the sensor on top of that, µm, away from the lens.
+        Then move the sensor by this much away from the lens, µm.
     f_number
         Focal length over entrance-pupil diameter, instead of the file's aperture.
     stop
@@ -79,21 +80,21 @@ class Request:
     aim
         Fill the rim of the real stop with exact rays, or the paraxial entrance pupil.
     obscuration
-        Radius of a dark disc in the middle of the stop over the rim's, 0 to 0.99.
+        Radius of a dark disc in the middle of the stop, as a share of the rim's, 0 to 0.99.
     vanes
-        How many vanes run from the middle of the stop to its rim.
+        Number of vanes that run from the middle of the stop to its rim.
     vane_width
-        Width of a vane over the diameter of the stop.
+        Width of a vane, as a share of the stop's diameter.
     vane_angle_deg
         Direction of the first vane, degrees from +y towards +x.
     blades
-        How many blades the iris has; 0 for a round one.
+        Number of blades of the iris; 0 for a round one.
     roundness
-        Curvature of the blades' edges over the rim's: 0 straight, 1 a circle.
+        Curvature of the blades' edges, as a share of the rim's: 0 straight, 1 a circle.
     blade_angle_deg
         Direction of the iris's first corner, degrees from +y towards +x.
     apodisation
-        Radius over the rim's where the amplitude has fallen to 1/e; inf for none.
+        Radius where the amplitude has fallen to 1/e, as a share of the rim's; inf for none.
     apodisation_power
         2 for a Gaussian, a larger even number for a super-Gaussian.
     cubic_um
@@ -260,8 +261,8 @@ def at_position(lens: Lens, request: Request) -> Lens:
 def sensor_position(lens: Lens, request: Request) -> float:
     """Return where the sensor stands, mm behind the last vertex.
 
-    A sensor is a thing and does not move with the colour: it stands at the paraxial image of ``focus_mm`` at
-    the lens's middle wavelength. Raises RequestError when that image is not a real one at a finite place.
+    It does not depend on the wavelength of the source: with ``focus_mm`` the sensor is at the paraxial image for the
+    lens's middle wavelength. Raises RequestError when that image is not a real one at a finite place.
     """
     place = _focused(lens, request.focus_mm)
     shifted = place + request.sensor_shift_um / UM_PER_MM

@@ -12,6 +12,7 @@ import numpy as np
 FOLDER = Path(__file__).parent
 PAGES = {
     "find": "Find it in two minutes",
+    "install": "Install",
     "tutorial": "Tutorial",
     "import": "Import a lens",
     "lens_files": "Write a lens file",

@@ -50,6 +50,7 @@ def navigation() -> list[dict[str, object]]:
     return [
         {"P2SF Explorer": "index.md"},
         entry("find.md"),
+        entry("install.md"),
         entry("tutorial.md"),
         {"How to": [*how_to,
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},

@@ -9,20 +9,27 @@ from tempfile import TemporaryDirectory
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.shell.gallery import settle
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.site.examples import run_examples
+from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import State, changed, new_state
 
 SIZE = 1280, 800
 MADE = re.compile(r"\]\(made/([\w.]+)\)")
 FIRST = new_state(theme="light")
+STOPPED = changed(FIRST, field_deg=14.0, f_number=8.0)
+TRIPLET = changed(with_lens(FIRST, "cooke_triplet"), field_deg=0.0)
 WINDOW = {
     "window_first.png": FIRST,
     "window_field.png": changed(FIRST, field_deg=14.0),
-    "window_stopped.png": changed(FIRST, field_deg=14.0, f_number=8.0),
+    "window_stopped.png": STOPPED,
+    "window_compared.png": changed(pin(STOPPED), f_number=3.0, shown="difference"),
+    "window_misaligned.png": changed(TRIPLET, f_number=5.6, errors=(("decentre_y", 3, 4, 0.2),), tab="misalign"),
+    "window_tolerances.png": changed(TRIPLET, stage="tolerances", show_rail=False),
 }
 
 

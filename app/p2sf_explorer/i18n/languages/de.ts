@@ -302,6 +302,7 @@
 <message><source>Inferno</source><translation>Inferno</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>Inspect</source><translation>Prüfen</translation></message>
+<message><source>Install</source><translation>Installieren</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Its primary is 2.2 µm too flat at the edge: spherical aberration of half a wave RMS in blue</source><translation>Sein Hauptspiegel ist am Rand 2,2 µm zu flach: sphärische Aberration von einer halben Welle RMS im Blauen</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
