@@ -581,6 +581,7 @@ def build_database(
     *,
     method: Literal["seidel", "fitted"] = "seidel",
     interpolant: Literal["exact", "table1", "linear"] = "exact",
+    fields_x_deg: ArrayLike | None = None,
     path: Path | None = None,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
@@ -601,6 +602,9 @@ def build_database(
         The method whose numbers are kept.
     interpolant : {"exact", "table1", "linear"}
         For "seidel": polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or straight lines.
+    fields_x_deg : array_like, optional
+        For "fitted": angles along x, degrees, ascending, where ``fields_deg`` are those along y. A lens with tilts or
+        decentres needs them, since its PSFs depend on both.
     path : str or path, optional
         Where the database is written as well, a file that ends in .npz.
     focus_mm, sensor_shift_um, f_number, stop, aim
@@ -641,13 +645,16 @@ def build_database(
             value=interpolant,
             method=ParameterName("method"),
         )
-    fields = np.asarray(fields_deg, dtype=float)
-    for angle in fields.ravel().tolist():
-        check_angle("fields_deg", angle)
+    fields = _slopes("fields_deg", fields_deg)
+    fields_x = None if fields_x_deg is None else _slopes("fields_x_deg", fields_x_deg)
+    if fields_x is not None and method != "fitted":
+        raise RequestError(
+            "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
+        )
     request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim)
     setup = set_up(lens, request)
     depths = np.asarray(depths_mm, dtype=float)
-    space = Space(depths, slope_from_degrees(fields), np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM)
+    space = Space(depths, fields, np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM, fields_x)
     if method == "fitted":
         from p2sf.database.fitted_build import build_fitted
 
@@ -666,6 +673,14 @@ def build_database(
     if path is not None:
         save_database(database, setup.lens, path, setup.stop)
     return Stored(database, provenance(database, setup.lens, setup.stop))
+
+
+def _slopes(name: str, angles_deg: ArrayLike) -> np.ndarray:
+    """Return the slopes of field angles in degrees; RequestError, naming the parameter, for one that cannot be."""
+    angles = np.asarray(angles_deg, dtype=float)
+    for angle in angles.ravel().tolist():
+        check_angle(name, angle)
+    return slope_from_degrees(angles)
 
 
 def _check_database_path(path: Path) -> None:

@@ -12,11 +12,12 @@ from cyclopts import App, Parameter
 from p2sf.cli.options import Json, LensName, Threads, Whole, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text
 from p2sf.cli.spans import even_span, span
-from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space, depth_nodes
 from p2sf.database.render import Sampling
-from p2sf.database_files import load_database, save_database
+from p2sf.database_files import load_database, provenance, save_database
 from p2sf.database_files.place import is_stack, place_of, size_bytes
+from p2sf.database_files.provenance import axis_names
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import check_place
 from p2sf.lens.lens import Lens
@@ -28,6 +29,8 @@ from p2sf.threads import using_threads
 if TYPE_CHECKING:
     from p2sf.database import ExactDatabase, GridDatabase
     from p2sf.database.fitted import FittedDatabase
+
+RECTANGLE_NODES = 9  # along either side, where none are asked for
 
 app = App(name="database", help="Every PSF of a lens as a file: build one, look into one.")
 
@@ -42,12 +45,16 @@ class Nodes:
         Object distances from the first vertex, mm; uniform in 1/depth, HIGH may be inf.
     fields_deg
         Chief-ray angles at the entrance pupil, degrees; uniform in angle.
+    fields_x_deg
+        Angles along x as well, for the fitted method and a lens with tilts or decentres; the others are then those
+        along y. Of such a lens the largest square within its field when neither is given.
     wavelengths_nm
         Wavelengths, nm.
     """
 
     depths_mm: str = "500:inf:20"
     fields_deg: str | None = None
+    fields_x_deg: str | None = None
     wavelengths_nm: str = "400:700:31"
 
 
@@ -141,8 +148,12 @@ def build(
     _check_ending(output, ".zarr" if kind.stack else ".npz")
     found = find_lens(lens)
     setup = set_up(found, Request(**vars(camera)))
+    if nodes.fields_x_deg and kind.method != "fitted":
+        raise RequestError(
+            "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
+        )
     start = perf_counter()
-    database = _built(setup, space_of(nodes, found), kind)
+    database = _built(setup, space_of(nodes, found, kind.method), kind)
     seconds = perf_counter() - start
     if kind.stack:
         with using_threads(threads):
@@ -159,7 +170,7 @@ def build(
     }
     if as_json:
         return print_json({**about, "errors_waves": database.errors})
-    rows: list[Row] = [("nodes, depth × field × wavelength", " × ".join(map(str, database.space.shape)), "")]
+    rows: list[Row] = [_nodes_row(provenance(database, setup.lens, setup.stop))]
     rows += [("coefficients built in", 1e3 * seconds, "ms"), ("file", output, ""), ("size", size / 1e3, "kB")]
     return print_table(
         f"{found.title or found.name}: PSF database", ("", "value", "unit"), rows + error_rows(database.errors)
@@ -177,8 +188,11 @@ def _built(setup: Setup, space: Space, kind: Kind) -> "ExactDatabase | GridDatab
     return build_database(setup.lens, space, kind.interpolant, setup.stop)
 
 
-def space_of(nodes: Nodes, lens: Lens) -> Space:
-    """Return the space of the nodes asked for, without fields 21 up to the lens's widest; RequestError."""
+def space_of(nodes: Nodes, lens: Lens, method: str) -> Space:
+    """Return the space of the nodes asked for, without fields 21 up to the lens's widest; RequestError.
+
+    A fitted one of a misaligned lens has fields along x as well.
+    """
     asked = span(nodes.depths_mm, "depths_mm")
     if not asked[0] > 0:
         raise RequestError(
@@ -187,19 +201,30 @@ def space_of(nodes: Nodes, lens: Lens) -> Space:
             value=nodes.depths_mm,
         )
     depths = asked if isinstance(asked, np.ndarray) else depth_nodes(*asked)
-    fields = even_span(nodes.fields_deg or f"0:{max((1.0, *lens.fields_deg))!r}:21", "fields_deg")
-    if not (0 <= fields[0] and fields[-1] < 90):
-        raise RequestError(
-            "{parameter} is {value}; give angles from 0 to below 90 degrees",
-            parameter="fields_deg",
-            value=str(nodes.fields_deg),
-        )
+    widest = max((1.0, *lens.fields_deg))
+    usual, usual_x = f"0:{widest!r}:21", nodes.fields_x_deg
+    if usual_x or (lens.misaligned and method == "fitted" and nodes.fields_deg is None):
+        half = float(degrees_from_slope(slope_from_degrees(widest) / np.sqrt(2)))
+        usual = f"{-half!r}:{half!r}:{RECTANGLE_NODES}"
+        usual_x = usual_x or usual
+    fields = _angles(nodes.fields_deg or usual, "fields_deg", -90.0 if usual_x else 0.0)
+    fields_x = slope_from_degrees(_angles(usual_x, "fields_x_deg", -90.0)) if usual_x else None
     colours = even_span(nodes.wavelengths_nm, "wavelengths_nm")
     if not colours[0] > 0:
         raise RequestError(
             "{parameter} is {value}; give wavelengths above 0", parameter="wavelengths_nm", value=nodes.wavelengths_nm
         )
-    return Space(depths, slope_from_degrees(fields), colours / NM_PER_UM)
+    return Space(depths, slope_from_degrees(fields), colours / NM_PER_UM, fields_x)
+
+
+def _angles(text: str, name: str, least: float) -> np.ndarray:
+    """Return field angles, degrees, from 0 or −90 (itself excluded) to below 90; RequestError."""
+    angles = even_span(text, name)
+    if least == 0 and not (0 <= angles[0] and angles[-1] < 90):
+        raise RequestError("{parameter} is {value}; give angles from 0 to below 90 degrees", parameter=name, value=text)
+    if not (-90 < angles[0] and angles[-1] < 90):
+        raise RequestError("{parameter} is {value}; give angles between −90 and 90 degrees", parameter=name, value=text)
+    return angles
 
 
 def _check_ending(output: str, ending: str) -> None:
@@ -260,8 +285,8 @@ def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
         ("lens", meta["lens"]["name"], ""),
         ("method", meta["method"], ""),
         ("interpolant", meta["interpolant"], ""),
-        ("nodes, depth × field × wavelength", " × ".join(map(str, meta["nodes"])), ""),
-        *((name.split("_")[0], covers[name], name.split("_")[1]) for name in covers),
+        _nodes_row(meta),
+        *((name.rpartition("_")[0].replace("_", " "), covers[name], name.rpartition("_")[2]) for name in covers),
         *(("position", place, "") for place in [meta.get("position")] if place),
         ("exact rays fill", FILLED[meta["aim"]], ""),
         ("sensor from the last vertex", meta["sensor_mm"], "mm"),
@@ -272,6 +297,10 @@ def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
         rows += [("PSFs", " × ".join(map(str, held["psfs"])), ""), ("pixel", held["pixel_um"], "µm")]
         rows += [("complete", "yes" if held["complete"] else "no, build it again to continue", "")]
     return rows + error_rows(meta["errors_waves"])
+
+
+def _nodes_row(meta: dict[str, Any]) -> Row:
+    return f"nodes, {axis_names(meta)}", " × ".join(map(str, meta["nodes"])), ""
 
 
 def error_rows(errors: dict[str, float]) -> list[Row]:

@@ -1,10 +1,12 @@
 """`p2sf psf FILE.npz`: a PSF looked up in a database, without the lens."""
 
+from dataclasses import replace
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
+from p2sf.cli.screen import field_text
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database import ExactDatabase
 from p2sf.database.render import database_psf
 from p2sf.database_files import Stored
@@ -24,7 +26,6 @@ if TYPE_CHECKING:
 
 FROM_THE_LENS = {
     "object_height_mm": None,
-    "field_x_deg": None,
     "zoom": None,
     "focus_position": None,
     "focus_mm": None,
@@ -56,7 +57,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
             )
     database = shifted(stored.database, request.sensor_shift_um)
     source = source_of(database, request)
-    psf = _light(database, source, pixels, pixel_um)
+    psf = replace(_light(database, source, pixels, pixel_um), azimuth_deg=source.azimuth_deg)
     return psf, description(stored, source), _heading(stored, source)
 
 
@@ -90,10 +91,11 @@ def source_of(database: "Database", request: Request) -> Source:
     colours = database.space.wavelengths_um
     colour = float(colours[len(colours) // 2]) if request.wavelength_nm is None else request.wavelength_nm / NM_PER_UM
     if request.image_height_mm is not None:
-        slope = _slope_of_height(database, request.depth_mm, request.image_height_mm, colour)
-    else:
-        slope = float(slope_from_degrees(request.field_deg or 0.0))
-    return Source(request.depth_mm, slope, colour)
+        return Source(
+            request.depth_mm, _slope_of_height(database, request.depth_mm, request.image_height_mm, colour), colour
+        )
+    angles = request.field_x_deg or 0.0, request.field_deg or 0.0
+    return Source(request.depth_mm, wavelength_um=colour, field_deg=angles)
 
 
 def _slope_of_height(database: "Database", depth_mm: float, height_mm: float, colour: float) -> float:
@@ -116,6 +118,7 @@ def description(stored: Stored, source: Source) -> dict[str, Any]:
     setup = {
         "depth_mm": source.depth_mm,
         "field_deg": float(degrees_from_slope(source.field_slope)),
+        **({"azimuth_deg": source.azimuth_deg} if source.azimuth_deg else {}),
         "wavelength_nm": source.wavelength_um * NM_PER_UM,
         "sensor_mm": meta["sensor_mm"],
         "aim": meta["aim"],
@@ -129,8 +132,8 @@ def description(stored: Stored, source: Source) -> dict[str, Any]:
 
 
 def _heading(stored: Stored, source: Source) -> str:
-    lens, field = stored.meta["lens"], degrees_from_slope(source.field_slope)
+    lens = stored.meta["lens"]
     depth = "∞" if isinf(source.depth_mm) else f"{source.depth_mm:g} mm"
-    place = f"object at {depth}, field {field:.6g}°, {source.wavelength_um * NM_PER_UM:.7g} nm"
+    place = f"object at {depth}, field {field_text(source)}, {source.wavelength_um * NM_PER_UM:.7g} nm"
     turned = f", {stored.meta['position']}" if stored.meta.get("position") else ""
     return f"{lens['title'] or lens['name']}{turned}: {place}"

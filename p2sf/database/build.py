@@ -44,7 +44,9 @@ def build_database(
             interpolant=interpolant,
             interpolants=Alternatives(INTERPOLANTS),
         )
-    check_aligned(lens, Message("a database"))
+    check_aligned(
+        lens, Message("a database of the six coefficients"), Message("build a fitted one, or set it straight")
+    )
     stop = stop or find_stop(lens)
     return build_exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
 
@@ -52,10 +54,10 @@ def build_database(
 def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     """Return the database of polynomials, at one stop for all depths; errors as `build_database`."""
     _check_one_stop(stop)
-    points = scattered(space, HELD_OUT)
-    direct = coefficients(lens, *points, stop=stop)
+    points = depth, slope, wavelength = scattered(space, HELD_OUT)
+    direct = coefficients(lens, depth, slope, wavelength, stop)
     # The polynomials start from the ray of an infinite object, whose path may be far longer than any in the space.
-    base = coefficients(lens, np.inf, 0.0, points[2], stop)
+    base = coefficients(lens, np.inf, 0.0, wavelength, stop)
     floor = ROUND_OFF * max(path_scale(direct), path_scale(base))
     allowed = {kind: TOLERANCE * top + floor for kind, top in largest(direct).items()}
     before = dict.fromkeys(allowed, 0.0)
@@ -91,6 +93,6 @@ def _check_one_stop(stop: Stop) -> None:
 def _grid(lens: Lens, space: Space, interpolant: str, stop: Stop) -> GridDatabase:
     _check_one_stop(stop)
     database = GridDatabase(space, traced_grid(lens, space, stop), interpolant, {}, mask=mask_of(lens, space))
-    points = cell_middles(space, database.last_depth_mm)
-    direct = coefficients(lens, *points, stop=stop)
+    points = depth, slope, wavelength = cell_middles(space, database.last_depth_mm)
+    direct = coefficients(lens, depth, slope, wavelength, stop)
     return replace(database, errors=departures(database.coefficients(*points), direct))

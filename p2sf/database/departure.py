@@ -7,24 +7,23 @@ from p2sf.database.parts import KINDS
 from p2sf.database.space import Space
 from p2sf.paraxial.seidel import Coefficients
 
-Points = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Depth (mm), field slope and wavelength (µm) of points, as arrays that broadcast."""
+Points = tuple[np.ndarray, ...]
+"""Depth (mm), field slope or slopes and wavelength (µm) of points, as arrays that broadcast; see `Space.nodes`."""
 
-# Steps of the additive recurrence that fills a cube most evenly (Roberts 2018): powers of 1/g, g⁴ = g + 1.
-EVEN_STEPS = 1.2207440846057596 ** -np.arange(1, 4)
+# Of the additive recurrence that fills a cube of n dimensions most evenly (Roberts 2018): steps are powers of 1/g,
+# where gⁿ⁺¹ = g + 1.
+EVEN_ROOTS = {3: 1.2207440846057596, 4: 1.1673039782614187}
 
 
 def scattered(space: Space, count: int, last_depth_mm: float = np.inf) -> Points:
-    """Return ``count`` points spread evenly over a space: depth (uniform in 1/depth), field slope, wavelength."""
-    far = min(float(space.depths_mm[-1]), last_depth_mm)
-    cube = (0.5 + np.outer(EVEN_STEPS, np.arange(count))) % 1
+    """Return ``count`` points spread evenly over a space, in the order of its nodes; depth is uniform in 1/depth."""
+    far, axes = min(float(space.depths_mm[-1]), last_depth_mm), len(space.nodes)
+    steps = EVEN_ROOTS[axes] ** -np.arange(1, axes + 1)
+    cube = (0.5 + np.outer(steps, np.arange(count))) % 1
     near = 1 / far + cube[0] * (1 / space.depths_mm[0] - 1 / far)
-    slope, wavelength = (
-        nodes[0] + part * (nodes[-1] - nodes[0])
-        for nodes, part in zip((space.field_slopes, space.wavelengths_um), cube[1:], strict=True)
-    )
+    others = (nodes[0] + part * (nodes[-1] - nodes[0]) for nodes, part in zip(space.nodes[1:], cube[1:], strict=True))
     with np.errstate(divide="ignore"):
-        return np.clip(1 / near, space.depths_mm[0], far), slope, wavelength
+        return np.clip(1 / near, space.depths_mm[0], far), *others
 
 
 def cell_middles(space: Space, last_depth_mm: float = np.inf) -> Points:

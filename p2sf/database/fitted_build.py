@@ -10,22 +10,26 @@ from p2sf.database.build import build_exact
 from p2sf.database.departure import scattered
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
-from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens, check_aligned, with_mask
+from p2sf.errors import DatabaseError, GeometryError
+from p2sf.lens.lens import Lens, check_aligned, seen_from, with_mask
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike import terms
-from p2sf.raytrace.fit import FittedPencil, Level, fit, level_rays
+from p2sf.raytrace.aiming import Sources
+from p2sf.raytrace.fit import SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for, pencil_forms
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.ray_field import RayData, ray_data
 from p2sf.threads import one_blas_thread
 
-START = (4, 4, 4)  # nodes along s, h² and wavelength
+START = {3: (4, 4, 4), 4: (4, 5, 5, 4)}  # nodes along s, h² and wavelength, or s, h_y, h_x and wavelength
 MOST_NODES = 24
 TOLERANCE_WAVES = 1e-3  # RMS phase where the rays land; the fit itself is allowed three times that
-HELD_OUT = 12
+HELD_OUT = {3: 12, 4: 24}  # points between the nodes, by the number of axes
+
+
+ACROSS = Message("give fields along x as well, or set it straight")
 
 
 @one_blas_thread
@@ -38,17 +42,19 @@ def build_fitted(
 ) -> FittedDatabase:
     """Return the fitted database of a lens; nodes are added until points between them agree to the tolerance.
 
-    ``numbers`` of each fit, those of a level; by default as many as the residuals at the corners ask for.
+    ``numbers`` of each fit, those of a level; by default as many as the residuals at the corners ask for. A lens
+    that is not of rotational symmetry needs a space whose fields fill a rectangle, and any other may have one.
     Raises DatabaseError where MOST_NODES are not enough, GeometryError where rays do not reach the sensor.
     """
-    check_aligned(lens, Message("a database"))
+    if space.field_x_slopes is None:
+        check_aligned(lens, Message("a database of fields along one line"), ACROSS)
     stop = stop or find_stop(lens)
-    seidel = build_exact(lens, space, stop)
+    seidel = replace(build_exact(lens, space.line, stop), space=space)
     axes = axes_of(space, seidel)
     level, left = _level_for(lens, axes, stop, numbers)
     lens = with_mask(lens, CLEAR)  # the fits are those of the whole disc; their residuals are those of its open part
     held = list(held_out(lens, space, level, stop))
-    counts = [count if spread else 1 for count, spread in zip(START, axes.spread, strict=True)]
+    counts = [count if spread else 1 for count, spread in zip(START[len(axes.spread)], axes.spread, strict=True)]
     while max(counts) <= MOST_NODES:
         series = traced_series(lens, axes, level, counts, stop)
         database = FittedDatabase(seidel, series, level, {}, left)
@@ -61,8 +67,8 @@ def build_fitted(
         "depths, the fields or the wavelengths, or use the seidel method",
         error=worst,
         depths=counts[0],
-        fields=counts[1],
-        wavelengths=counts[2],
+        fields=" × ".join(map(str, counts[1:-1])),
+        wavelengths=counts[-1],
     )
 
 
@@ -70,14 +76,18 @@ def _level_for(lens: Lens, axes: Axes, stop: Stop, numbers: int | None) -> tuple
     """Return the highest level that a corner of the space needs, and the largest residual at that level."""
     corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
     level = max((fit(lens, corner, numbers, stop=stop).level for corner in corners), key=lambda level: level.numbers)
-    return level, max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
+    left = max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
+    return SKEW[levels_for(lens).index(level)] if len(axes.spread) == 4 else level, left
 
 
 def traced_series(lens: Lens, axes: Axes, level: Level, counts: Sequence[int], stop: Stop) -> np.ndarray:
     """Return the Chebyshev series from fits at the tensor of Chebyshev nodes, (*counts, numbers + 1)."""
     nodes = [np.cos(np.pi * (np.arange(count) + 0.5) / count) for count in counts]
-    rows = [_row(lens, axes.source(place), level, stop) for place in product(*nodes)]
-    series = np.array(rows).reshape(*counts, -1)
+    if level.skew:
+        series = _skew_rows(lens, axes, level, nodes, stop)
+    else:
+        series = np.array([_row(lens, axes.source(place), level, stop) for place in product(*nodes)])
+    series = series.reshape(*counts, -1)
     for axis, (points, count) in enumerate(zip(nodes, counts, strict=True)):
         kernel = np.cos(np.outer(np.arange(count), np.arccos(points))) * (2 / count)
         kernel[0] /= 2
@@ -96,15 +106,66 @@ def _row(lens: Lens, source: Source, level: Level, stop: Stop) -> np.ndarray:
     return row
 
 
+def _skew_rows(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray], stop: Stop) -> np.ndarray:
+    """Return the numbers of all sources at the nodes, divided by `powers`: (depths, fields y, fields x, waves, …).
+
+    The depths and wavelengths of one field are traced together, since they see the lens from the same side.
+    """
+    depths, fields_y, fields_x, waves = nodes
+    found = []
+    for place in product(fields_y, fields_x):
+        sources = [axes.source((depth, *place, wave)) for depth, wave in product(depths, waves)]
+        rays, chief = rays_on_sensor(lens, sources, level, stop)
+        forms = pencil_forms(rays, level)
+        numbers = np.concatenate([forms.phase, forms.fx, forms.fy, forms.weight, chief], axis=1)
+        numbers /= np.stack([powers(level, source) for source in sources])
+        found.append(numbers.reshape(len(depths), len(waves), -1))
+    return np.moveaxis(np.array(found), 0, 1)
+
+
+def rays_on_sensor(
+    lens: Lens, sources: Sequence[Source], level: Level, stop: Stop | None = None
+) -> tuple[RayData, np.ndarray]:
+    """Return the rays of a level, (source, ray), in the sensor's axes, and where chief rays land, (source, 2) mm.
+
+    The sources share one azimuth. The pupil's axes are those of the sensor as well. Raises GeometryError where a ray
+    does not reach the sensor.
+    """
+    azimuth = sources[0].azimuth_deg
+    sine, cosine = np.sin(np.deg2rad(azimuth)), np.cos(np.deg2rad(azimuth))
+    several = Sources(*np.array([(s.depth_mm, s.field_slope, s.wavelength_um) for s in sources]).T)
+    xi, eta, _ = level_rays(level)
+    seen = pencil(seen_from(lens, azimuth), several, xi * cosine - eta * sine, xi * sine + eta * cosine, stop=stop)
+    if not seen.passed.all():
+        raise GeometryError(
+            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
+            lost=int((~seen.passed).sum()),
+            total=seen.passed.size,
+        )
+
+    def on_sensor(across: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return across * cosine + along * sine, along * cosine - across * sine
+
+    data = ray_data(seen)
+    (fx, fy), (x_um, y_um) = on_sensor(data.fx, data.fy), on_sensor(data.x_um, data.y_um)
+    chief = on_sensor(np.broadcast_to(seen.chief_x, seen.chief_y.shape), seen.chief_y)
+    return RayData(data.phase, fx, fy, x_um, y_um, data.weight), np.concatenate(chief, axis=1)
+
+
 def held_out(
     lens: Lens, space: Space, level: Level, stop: Stop
 ) -> Iterator[tuple[Source, FittedPencil, np.ndarray, np.ndarray]]:
     """Yield (source, fit, landing x, landing y in µm) at points between the nodes."""
     xi, eta, _ = level_rays(level)
-    for point in zip(*(x.tolist() for x in scattered(space, HELD_OUT)), strict=True):
-        source = Source(*point)
-        rays = ray_data(pencil(lens, source, xi, eta, stop=stop))
-        yield source, fit(lens, source, level.numbers, stop=stop), rays.x_um, rays.y_um
+    for point in zip(*(x.tolist() for x in scattered(space, HELD_OUT[len(space.nodes)])), strict=True):
+        source = space.source(*point)
+        if level.skew:
+            several, _ = rays_on_sensor(lens, [source], level, stop)
+            rays = RayData(*(column[0] for column in vars(several).values()))
+            yield source, fit_rays(rays, level, level.rays), rays.x_um, rays.y_um
+        else:
+            rays = ray_data(pencil(lens, source, xi, eta, stop=stop))
+            yield source, fit(lens, source, level.numbers, stop=stop), rays.x_um, rays.y_um
 
 
 def ray_error(
@@ -121,5 +182,5 @@ def ray_error(
 def _least_settled(series: np.ndarray, level: Level) -> int:
     """Return the axis whose highest Chebyshev terms of the phase are the largest."""
     phase = np.abs(series[..., : len(terms(level.wave_order))])
-    tails = [phase.take([-1], axis).max() if phase.shape[axis] > 1 else 0.0 for axis in range(3)]
+    tails = [phase.take([-1], axis).max() if phase.shape[axis] > 1 else 0.0 for axis in range(phase.ndim - 1)]
     return int(np.argmax(tails))

@@ -19,7 +19,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.threads import mapped, one_blas_thread
 
 Points = Iterable[ArrayLike]
-"""Depth (mm), field slope and wavelength (µm), which broadcast."""
+"""Depth (mm), field slope or slopes and wavelength (µm), which broadcast; in the order of `Space.nodes`."""
 
 
 class Database(Protocol):
@@ -114,15 +114,16 @@ def light_of(
     if across == 1:
         return rendered(database, points, sampling, dtype, threads)
     fine = fine_sampling(sampling, sampling.pixel_um or critical_pixel_um(database), across)
-    depth, slope, wavelength = np.broadcast_arrays(*points)
-    found = np.empty((*depth.shape, sampling.pixels, sampling.pixels), dtype)
+    places = np.broadcast_arrays(*points)
+    shape = places[0].shape
+    found = np.empty((*shape, sampling.pixels, sampling.pixels), dtype)
 
     def fill(index: tuple[int, ...]) -> None:
-        one = rendered(database, (depth[index], slope[index], wavelength[index]), fine, dtype)
+        one = rendered(database, [place[index] for place in places], fine, dtype)
         light = pixel_integrals.light_per_pixel(one, sampling.pixels, across)
         found[index] = light / light.sum(dtype=float)
 
-    mapped(fill, np.ndindex(depth.shape), threads)
+    mapped(fill, np.ndindex(shape), threads)
     return found
 
 
@@ -154,6 +155,7 @@ def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um:
 
 def critical_pixel_um(database: Database) -> float:
     """Return the coarsest pitch that samples the finest PSF on the nodes without loss: λ/(4 NA), its band limit."""
-    depths, slopes, colours = database.space.axes
-    found = database.coefficients(depths, slopes[:1], colours)  # the numerical aperture does not depend on the field
-    return float(np.min(pixel_integrals.critical_pixel_um(database.space.wavelengths_um, found.na)))
+    space = database.space
+    # The numerical aperture does not depend on the field.
+    found = database.coefficients(space.depths_mm[:, None], space.field_slopes[0], space.wavelengths_um)
+    return float(np.min(pixel_integrals.critical_pixel_um(space.wavelengths_um, found.na)))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, vergence
 from p2sf.errors import DatabaseError
+from p2sf.lens.source import Source, source_at
 from p2sf.messages import Message
 
 # Converted from degrees or nanometres and back, a limit is a rounding or two away from its node.
@@ -17,6 +18,7 @@ ROUNDING = 1e-9
 
 Limits = tuple[float, float]
 DEPTH, FIELD, WAVELENGTH = Message("depth"), Message("field"), Message("wavelength")
+FIELD_X, FIELD_Y = Message("field x"), Message("field y")
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,18 +30,24 @@ class Space:
     depths_mm
         Object distances from the first vertex, shape (depths,), mm; the last may be inf.
     field_slopes
-        Chief-ray slopes at the entrance pupil, shape (fields,).
+        Chief-ray slopes at the entrance pupil, shape (fields,); those along y where there are others along x.
     wavelengths_um
         Wavelengths, shape (wavelengths,), µm.
+    field_x_slopes
+        Chief-ray slopes along x, shape (fields x,), of a space whose fields fill a rectangle, as a lens without
+        symmetry needs them. None: fields along one line, which stand for all azimuths.
     """
 
     depths_mm: np.ndarray
     field_slopes: np.ndarray
     wavelengths_um: np.ndarray
+    field_x_slopes: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         for key, axis in (("depths_mm", DEPTH), ("field_slopes", FIELD), ("wavelengths_um", WAVELENGTH)):
             object.__setattr__(self, key, _ascending(getattr(self, key), axis))
+        if self.field_x_slopes is not None:
+            object.__setattr__(self, "field_x_slopes", _ascending(self.field_x_slopes, FIELD_X))
         if not self.depths_mm[0] > 0:
             raise DatabaseError(
                 "depth {depth:g} mm is not in front of the lens; give positive depths", depth=float(self.depths_mm[0])
@@ -47,17 +55,56 @@ class Space:
 
     @cached_property
     def _limits(self) -> tuple[Limits, Limits, Limits]:
-        return _widened(self.depths_mm), _widened(self.field_slopes), _widened(self.wavelengths_um)
+        slopes = self.field_slopes if self.field_x_slopes is None else np.array([-1, 1]) * self.radial_slopes.max()
+        return _widened(self.depths_mm), _widened(slopes), _widened(self.wavelengths_um)
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Return how many nodes there are along depth, field and wavelength."""
-        return len(self.depths_mm), len(self.field_slopes), len(self.wavelengths_um)
+    def nodes(self) -> tuple[np.ndarray, ...]:
+        """Return the nodes along depth, field and wavelength; of a rectangle of fields those along y, then x."""
+        across = () if self.field_x_slopes is None else (self.field_x_slopes,)
+        return self.depths_mm, self.field_slopes, *across, self.wavelengths_um
 
     @property
-    def axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return depth, field slope and wavelength as arrays that broadcast to ``shape``."""
-        return self.depths_mm[:, None, None], self.field_slopes[:, None], self.wavelengths_um
+    def shape(self) -> tuple[int, ...]:
+        """Return how many nodes there are along each axis."""
+        return tuple(len(nodes) for nodes in self.nodes)
+
+    @property
+    def axes(self) -> tuple[np.ndarray, ...]:
+        """Return ``nodes`` as arrays that broadcast to ``shape``."""
+        return np.ix_(*self.nodes)
+
+    @cached_property
+    def radial_slopes(self) -> np.ndarray:
+        """Return the slopes of all fields away from the axis, (fields,), or (fields y, fields x) of a rectangle."""
+        if self.field_x_slopes is None:
+            return self.field_slopes
+        found: np.ndarray = np.hypot(self.field_slopes[:, None], self.field_x_slopes)
+        return found
+
+    @property
+    def line(self) -> "Space":
+        """Return the space whose fields along one line reach as far from the axis as those of the rectangle."""
+        if self.field_x_slopes is None:
+            return self
+        slopes = np.unique([0.0, self.radial_slopes.max()])
+        return Space(self.depths_mm, slopes, self.wavelengths_um)
+
+    def source(self, *point: float) -> Source:
+        """Return the source at a point, given in the order of ``nodes``."""
+        depth, *slopes, wavelength = point
+        if len(slopes) == 1:
+            return Source(depth, slopes[0], wavelength)
+        return source_at(depth, slopes[1], slopes[0], wavelength)
+
+    def check_source(self, source: Source) -> None:
+        """Raise DatabaseError, naming the range, unless this source is covered."""
+        if self.field_x_slopes is None:
+            return self.check_one(source.depth_mm, source.field_slope, source.wavelength_um)
+        across, up = source.slopes_xy
+        for slope, nodes, axis in ((across, self.field_x_slopes, FIELD_X), (up, self.field_slopes, FIELD_Y)):
+            _check_axis(np.array(slope), _widened(nodes), axis, *SHOWN_AXES[1][1:])
+        return self.check_one(source.depth_mm, 0.0, source.wavelength_um)
 
     def check_one(self, depth_mm: float, field_slope: float, wavelength_um: float) -> None:
         """Raise DatabaseError, naming the range, unless this one point is covered."""

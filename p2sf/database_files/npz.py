@@ -21,7 +21,8 @@ from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.mask import CLEAR, PupilMap, PupilMask
 from p2sf.raytrace.fit import Level
 
-SCHEMA, WITHOUT_MASK = 2, 1  # the newest, and that of files which say nothing that one before it does not know
+# The newest schema, and those of files that say nothing which came with a later one.
+SCHEMA, WITH_MASK, WITHOUT_MASK = 3, 2, 1
 MARK = "p2sf_database"
 LEVEL = ("wave_order", "map_order", "radii", "directions")
 
@@ -76,10 +77,12 @@ def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
     arrays, numbers = pack(database)
     mask = database.mask
     arrays |= {name: table.values for name in MAPS if (table := getattr(mask, name)) is not None}
-    schema = WITHOUT_MASK if mask.clear else SCHEMA
-    head = {"schema": schema, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
     space = database.space
     axes = {"depths_mm": space.depths_mm, "field_slopes": space.field_slopes, "wavelengths_um": space.wavelengths_um}
+    schema = WITHOUT_MASK if mask.clear else WITH_MASK
+    if space.field_x_slopes is not None:
+        axes["field_x_slopes"], schema = space.field_x_slopes, SCHEMA
+    head = {"schema": schema, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
     return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
 
 
@@ -95,7 +98,8 @@ def _stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
             )
         if meta["aim"] not in AIMS:
             raise KeyError(f"an aim that is one of {AIMS}")
-        space = Space(arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"])
+        axes = arrays["depths_mm"], arrays["field_slopes"], arrays["wavelengths_um"], arrays.get("field_x_slopes")
+        space = Space(*axes)
         _, unpack = _KINDS[meta["kind"]]
         mask = _mask(arrays, meta) if "mask" in meta else CLEAR
         return Stored(unpack(space, arrays, meta, mask), meta)
@@ -141,15 +145,20 @@ def _unpack_grid(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> G
 def _pack_fitted(database: FittedDatabase) -> tuple[Arrays, Meta]:
     arrays, numbers = _pack_exact(database.seidel)
     level = [getattr(database.level, name) for name in LEVEL] + [1] * database.level.weighted
+    level += database.level.skew or ()
     numbers = {**numbers, "level": level, "seidel_errors_waves": database.seidel.errors}
     return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
 
 
 def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> FittedDatabase:
     numbers = meta["numbers"]
-    wave_order, map_order, radii, directions, *weighted = (int(count) for count in numbers["level"])
-    level = Level(wave_order, map_order, radii, directions, bool(weighted and weighted[0]))
-    fits = _shaped(arrays["fits"], (None, None, None, level.numbers + 1))
+    wave_order, map_order, radii, directions, *others = (int(count) for count in numbers["level"])
+    weighted, skew = bool(others and others[0]), tuple(others[1:])
+    if bool(skew) != (space.field_x_slopes is not None) or skew not in ((), (wave_order, map_order)):
+        raise KeyError("a level that fits its fields")
+    level = Level(wave_order, map_order, radii, directions, weighted, skew or None)
+    chief = 2 if skew else 1  # coordinates of the chief ray on the sensor
+    fits = _shaped(arrays["fits"], (*(None for _ in space.nodes), level.numbers + chief))
     seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]}, mask)
     return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
 

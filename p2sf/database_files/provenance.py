@@ -6,6 +6,8 @@ from functools import cached_property
 from math import inf
 from typing import Any
 
+import numpy as np
+
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.render import Database, database_psf
 from p2sf.files.writing import plain
@@ -38,6 +40,10 @@ AZIMUTH = (
     "the mask stands as a field lands at +y sees it; a field at another azimuth sees it turned the other way, and its "
     "PSF is rendered so, not turned as a picture"
 )
+RECTANGLE = (
+    "field x and field y are the chief ray's slopes along x and y at the entrance pupil; numbers of fits stand in the "
+    "axes of the sensor, and the PSF of a source is turned so that its field points to +y"
+)
 MAPS = ("phase_map", "amplitude_map")
 
 
@@ -69,7 +75,7 @@ class Stored:
 
     def __repr__(self) -> str:
         nodes = " × ".join(map(str, self.meta["nodes"]))
-        kind, axes = f"{self.meta['method']}, {self.meta['interpolant']}", "(depth × field × wavelength)"
+        kind, axes = f"{self.meta['method']}, {self.meta['interpolant']}", f"({axis_names(self.meta)})"
         name = self.meta["lens"]["name"] + (f", {self.meta['position']}" if self.meta.get("position") else "")
         return f"<PSF database of {name}: {kind}, {nodes} nodes {axes}, aim {self.meta['aim']}>"
 
@@ -78,10 +84,18 @@ class Stored:
         return html_table(repr(self), ("covers", "from", "to"), covers)
 
 
+def axis_names(meta: dict[str, Any]) -> str:
+    """Return what the nodes of a database are counted along."""
+    fields = "field y × field x" if "field_x_deg" in meta["covers"] else "field"
+    return f"depth × {fields} × wavelength"
+
+
 def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict[str, Any]:
     """Return what a file says about a database of this lens, as plain JSON values."""
     stop, toml, space = stop or find_stop(lens), lens_to_toml(alone(lens)), database.space
-    low, high = (float(degrees_from_slope(space.field_slopes[k])) for k in (0, -1))
+    fields = {"field_deg": _ends_deg(space.field_slopes)}
+    if space.field_x_slopes is not None:
+        fields["field_x_deg"] = _ends_deg(space.field_x_slopes)
     record: dict[str, Any] = plain(
         {
             "method": database.method,
@@ -102,16 +116,21 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             **_masked(database.mask),
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
-                "field_deg": [low, high],
+                **fields,
                 "wavelength_nm": [space.wavelengths_um[0] * NM_PER_UM, space.wavelengths_um[-1] * NM_PER_UM],
             },
             "nodes": space.shape,
             "units": COEFFICIENT_UNITS,
             "conventions": CONVENTIONS,
+            **({} if space.field_x_slopes is None else {"fields": RECTANGLE}),
             "versions": versions(),
         }
     )
     return record
+
+
+def _ends_deg(slopes: np.ndarray) -> list[float]:
+    return [float(degrees_from_slope(slopes[k])) for k in (0, -1)]
 
 
 def _masked(mask: PupilMask) -> dict[str, Any]:

@@ -22,16 +22,18 @@ from p2sf.errors import DatabaseError
 SCHEMA = 1
 CHUNK_BYTES = 1 << 20  # a chunk is what is lost when a writer is killed, and the least that a reader loads
 AXES = ("depth_mm", "field_deg", "wavelength_nm", "y_um", "x_um")
+RECTANGLE_AXES = ("depth_mm", "field_y_deg", "field_x_deg", *AXES[2:])
 TEMPORARY = ".part"
 
-Chunk = tuple[int, int, int]
-"""The indices of a chunk along depth, field and wavelength."""
+Chunk = tuple[int, ...]
+"""The indices of a chunk along depth, field (or field y, then field x) and wavelength."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stack:
     """An open PSF stack: ``psf`` (depth, field, wavelength, y, x) is indexed like an array and loads only what is read.
 
+    Over a rectangle of fields field y and field x stand in the place of field, as in `Space.nodes`.
     ``complete``: whether every chunk is there; a missing one reads as NaN. ``raw``: the file of its database.
     ``integrated``: whether a sample is the light of a whole pixel and not the intensity at its place.
     """
@@ -45,9 +47,9 @@ class Stack:
 
     @property
     def chunks(self) -> list[Chunk]:
-        """Return the (depth, field, wavelength) indices of all chunks."""
-        depths, fields, wavelengths = (-(-n // c) for n, c in zip(self.psf.shape[:3], self.psf.chunks[:3], strict=True))
-        return list(product(range(depths), range(fields), range(wavelengths)))
+        """Return the indices of all chunks."""
+        counts = (-(-n // c) for n, c in zip(self.psf.shape[:-2], self.psf.chunks[:-2], strict=True))
+        return list(product(*map(range, counts)))
 
     @property
     def missing(self) -> list[Chunk]:
@@ -77,7 +79,7 @@ class Stack:
         """Return the part of the array that a chunk covers."""
         return tuple(
             slice(k * c, min((k + 1) * c, n))
-            for k, c, n in zip(chunk, self.psf.chunks[:3], self.psf.shape[:3], strict=True)
+            for k, c, n in zip(chunk, self.psf.chunks[:-2], self.psf.shape[:-2], strict=True)
         )
 
 
@@ -117,6 +119,7 @@ def create(path: str | PathLike[str], raw: bytes, sampling: Sampling) -> None:
 
 def _create_arrays(draft: Path, stored: Stored, raw: bytes, sampling: Sampling) -> None:
     zarr, shape, pixels = needed("zarr"), stored.database.space.shape, sampling.pixels
+    names = AXES if len(shape) == 3 else RECTANGLE_AXES
     pixel_um = sampling.pixel_um or critical_pixel_um(stored.database)
     integrated = samples_per_pixel(stored.database, sampling) > 1
     attributes = {**_attributes(stored, pixel_um), "integrated": integrated}
@@ -128,9 +131,9 @@ def _create_arrays(draft: Path, stored: Stored, raw: bytes, sampling: Sampling) 
         dtype="float32",
         fill_value=np.nan,
         compressors=[zarr.codecs.ZstdCodec(level=1), zarr.codecs.Crc32cCodec()],
-        dimension_names=AXES,
+        dimension_names=names,
     )
-    for name, values in zip(AXES, _axes(stored, pixels, pixel_um), strict=True):
+    for name, values in zip(names, _axes(stored, pixels, pixel_um), strict=True):
         group.create_array(name, data=values, dimension_names=(name,))
     group.create_array("database", data=np.frombuffer(raw, dtype=np.uint8))
 
@@ -144,16 +147,20 @@ def _attributes(stored: Stored, pixel_um: float) -> dict[str, Any]:
 
 
 def _axes(stored: Stored, pixels: int, pixel_um: float) -> tuple[np.ndarray, ...]:
-    space, across = stored.database.space, centred_axis(pixels, pixel_um)
-    fields = degrees_from_slope(space.field_slopes)
-    return space.depths_mm, fields, space.wavelengths_um * NM_PER_UM, across, across
+    (depths, *slopes, waves), across = stored.database.space.nodes, centred_axis(pixels, pixel_um)
+    return depths, *map(degrees_from_slope, slopes), waves * NM_PER_UM, across, across
 
 
-def chunk_shape(shape: tuple[int, int, int], pixels: int) -> tuple[int, int, int]:
-    """Return (depths, fields, wavelengths) of a chunk of about a mebibyte; fields first, since they share kernels."""
-    room = max(1, CHUNK_BYTES // (4 * pixels * pixels))
-    fields = min(shape[1], room)
-    return 1, fields, min(shape[2], max(1, room // fields))
+def chunk_shape(shape: tuple[int, ...], pixels: int) -> tuple[int, ...]:
+    """Return how many depths, fields and wavelengths make a chunk of about a mebibyte.
+
+    One depth, and fields before wavelengths, since they share kernels.
+    """
+    room, chunk = max(1, CHUNK_BYTES // (4 * pixels * pixels)), [1]
+    for count in shape[1:]:
+        chunk.append(min(count, max(1, room)))
+        room //= chunk[-1]
+    return tuple(chunk)
 
 
 def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Stack:
@@ -178,7 +185,7 @@ def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Sta
         stored = database_from_bytes(raw, path)
         integrated = bool(attributes.get("integrated", False))
         stack = Stack(place, psf, raw, stored, float(attributes["pixel_um"]), integrated)
-        if psf.shape[:3] != stored.database.space.shape or psf.dtype != np.float32 or psf.shape[3] != psf.shape[4]:
+        if psf.shape[:-2] != stored.database.space.shape or psf.dtype != np.float32 or psf.shape[-2] != psf.shape[-1]:
             raise DatabaseError("{path} is damaged, its PSFs do not fit its database; build it again", path=str(path))
     except DatabaseError:
         raise

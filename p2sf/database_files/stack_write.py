@@ -136,14 +136,15 @@ def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
     database, space = stack.stored.database, stack.stored.database.space
     regions = [stack.region(chunk) for chunk in chunks]
     middle = [[(part.start + part.stop) // 2 for part in region] for region in regions]
-    ends = np.array([[region[1].start, region[1].stop - 1] for region in regions]).reshape(-1, 2)
-    depth, _, colour = np.array(middle, dtype=int).reshape(-1, 3).T
+    of_chunks = [space.radial_slopes[region[1:-1]].ravel() for region in regions]
+    ends = np.array([[slopes[0], slopes[-1]] for slopes in of_chunks]).reshape(-1, 2)
+    depth, *_, colour = np.array(middle, dtype=int).reshape(-1, len(space.nodes)).T
     sampling = stack.sampling
     if stack.across > 1:
         sampling = fine_sampling(sampling, stack.pixel_um, stack.across)
     found = np.zeros(len(chunks))
     for some in np.array_split(np.arange(len(chunks)), len(chunks) // COSTS_AT_ONCE + 1):
-        points = space.depths_mm[depth[some], None], space.field_slopes[ends[some]]
+        points = space.depths_mm[depth[some], None], ends[some]
         coefficients = database.coefficients(*points, space.wavelengths_um[colour[some], None])
         found[some] = products(coefficients, sampling.pixels, stack.pixel_um / stack.across).mean(-1)
     return found * [psf_count(stack, chunk) for chunk in chunks]
@@ -173,9 +174,5 @@ def _fill_here(work: Work, threads: int | None) -> None:
 def write_chunk(stack: Stack, chunk: Chunk) -> None:
     """Render the PSFs of a chunk in this thread and write them, whole or not at all."""
     space, region = stack.stored.database.space, stack.region(chunk)
-    depths, slopes, colours = (
-        nodes[part]
-        for nodes, part in zip((space.depths_mm, space.field_slopes, space.wavelengths_um), region, strict=True)
-    )
-    points = depths[:, None, None], slopes[:, None], colours
+    points = np.ix_(*(nodes[part] for nodes, part in zip(space.nodes, region, strict=True)))
     stack.psf[region] = light_of(stack.stored.database, points, stack.sampling, stack.across, threads=1)

@@ -19,7 +19,7 @@ from p2sf.image.lattice import Lattice, build_lattice
 from p2sf.image.overlap import overlap_add
 from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
-from p2sf.lens.source import Source
+from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, TAIL
@@ -78,12 +78,6 @@ class FieldMap:
     def _reduced(self, x_mm: np.ndarray, y_mm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         (across, up), (wide, high) = self.middle_mm, self.half_mm
         return (x_mm - across) / wide, (y_mm - up) / high
-
-
-def source_at(depth_mm: float, across: float, up: float, wavelength_um: float) -> Source:
-    """Return the object point at these field slopes along x and y."""
-    azimuth = float(np.rad2deg(np.arctan2(across, up)))
-    return Source(depth_mm, float(np.hypot(across, up)), wavelength_um, azimuth_deg=azimuth)
 
 
 def landing_mm(lens: Lens, source: Source) -> tuple[float, float]:

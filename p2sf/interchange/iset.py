@@ -18,6 +18,7 @@ from p2sf.database.render import Sampling, critical_pixel_um, rendered_light
 from p2sf.database_files import Stored
 from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
+from p2sf.interchange.psf_cube import check_line
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points, magnification
@@ -52,6 +53,7 @@ def write_iset(stored: Stored, path: str | os.PathLike[str], options: IsetOption
             pixels=options.pixels,
             most=MOST_PIXELS,
         )
+    check_line(stored)
     if stored.database.space.field_slopes[0] > 0:
         raise ExportError("ISETCam's field heights start at 0 and this database does not; build it from field 0 on")
     if not stored.database.mask.round:

@@ -84,15 +84,26 @@ def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cub
     """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack read unchanged. Raises DatabaseError."""
     if is_stack(path):
         stack = open_stack(path)
+        check_line(stack.stored)
         _check_size(path, stack.psf.shape)
         return Cube(read_psfs(stack, ...), stack.pixel_um, stack.stored, stack.integrated)
     stored = load_database(path)
+    check_line(stored)
     pitch = sampling.pixel_um or critical_pixel_um(stored.database)
     space = stored.database.space
     _check_size(path, (*space.shape, sampling.pixels, sampling.pixels))
     sampling = replace(sampling, pixel_um=pitch)
     values = rendered_light(stored.database, space.axes, sampling)
     return Cube(values, pitch, stored, samples_per_pixel(stored.database, sampling) > 1)
+
+
+def check_line(stored: Stored) -> None:
+    """Raise DatabaseError for fields that fill a rectangle, in files that have one axis for them."""
+    if stored.database.space.field_x_slopes is not None:
+        raise DatabaseError(
+            "the database of {lens} has fields along x and along y, and this format one axis of fields; write a stack",
+            lens=stored.meta["lens"]["name"],
+        )
 
 
 def _check_size(path: str | os.PathLike[str], shape: tuple[int, ...]) -> None:

@@ -335,13 +335,17 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     return replace(lens, surfaces=surfaces, sensor_before=turned(lens.sensor_before))
 
 
-def check_aligned(lens: Lens, what: Message) -> None:
+SET_STRAIGHT = Message("set it straight")
+
+
+def check_aligned(lens: Lens, what: Message, remedy: Message = SET_STRAIGHT) -> None:
     """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are tilted or decentred."""
     if lens.misaligned:
         raise GeometryError(
-            "surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; set it straight",
+            "surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; {remedy}",
             surface=_first_misaligned(lens),
             what=what,
+            remedy=remedy,
         )
 
 

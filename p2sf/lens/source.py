@@ -94,15 +94,27 @@ class Source:
     @property
     def field_xy_deg(self) -> tuple[float, float]:
         """Return the angles (x, y) of the chief ray at the entrance pupil, degrees, as ``field_deg`` takes them."""
+        x, y = (float(degrees_from_slope(slope)) for slope in self.slopes_xy)
+        return x, y
+
+    @property
+    def slopes_xy(self) -> tuple[float, float]:
+        """Return the slopes (x, y) of the chief ray at the entrance pupil, as `source_at` takes them."""
         turn = radians(self.azimuth_deg)
-        x, y = (float(degrees_from_slope(self.field_slope * part)) for part in (sin(turn), cos(turn)))
         off_axis = self.azimuth_deg % 180  # a right angle's cosine is not quite 0, nor a straight one's sine
+        x, y = (self.field_slope * part for part in (sin(turn), cos(turn)))
         return x if off_axis else 0.0, y if off_axis != 90 else 0.0
 
     def __repr__(self) -> str:
         place = f"depth_mm={_shown(self.depth_mm)}, field_deg={_shown(degrees_from_slope(self.field_slope))}"
         turned = f", azimuth_deg={self.azimuth_deg:.10g}" if self.azimuth_deg else ""
         return f"Source({place}, wavelength_nm={_shown(self.wavelength_um * NM_PER_UM)}{turned})"
+
+
+def source_at(depth_mm: float, slope_x: float, slope_y: float, wavelength_um: float) -> Source:
+    """Return the point source whose chief ray has these slopes along x and y at the entrance pupil."""
+    azimuth = degrees(atan2(slope_x, slope_y))
+    return Source(depth_mm, hypot(slope_x, slope_y), wavelength_um, azimuth_deg=azimuth)
 
 
 def _shown(value: float | np.ndarray) -> str:

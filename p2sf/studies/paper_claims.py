@@ -59,7 +59,8 @@ def memory_claim(lens: Lens, wavelength_nm: float, pixels: int) -> Claim:
     """Judge that coefficients take a small part of the memory of the 12 400 PSFs they stand for."""
     slopes = slope_from_degrees(np.linspace(0, max(lens.fields_deg), NODES[1]))
     space = Space(depth_nodes(1e3, count=NODES[0]), np.asarray(slopes), np.linspace(0.45, 0.68, NODES[2]))
-    found = coefficients(lens, *space.axes)
+    depth, slope, wavelength = space.axes
+    found = coefficients(lens, depth, slope, wavelength)
     six = sum(
         np.broadcast_to(getattr(found, w), space.shape).size * 8 for w in ("w40", "w31", "w22", "w20", "w11", "wd")
     )

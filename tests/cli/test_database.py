@@ -10,6 +10,11 @@ from p2sf.database_files import load_database
 from p2sf.database_files.stack import open_stack
 from p2sf.errors import RequestError
 from p2sf.io.psf_files import read_psf
+from p2sf.lens.lens import with_f_number
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import lens_to_toml
 from tests.database_files.test_npz import damaged
 
 GRID = ("--depths-mm", "500:inf:5", "--fields-deg", "0:14:3", "--wavelengths-nm", "450:650:3")
@@ -189,3 +194,31 @@ def test_a_thousand_corrupted_files_are_refused_with_code_2_and_one_sentence(ref
         if content != whole:
             broken.write_bytes(content)
             assert str(broken) in refused("database", "info", broken)
+
+
+def test_a_misaligned_lens_has_fields_along_x_and_y(said, refused, tmp_path):
+    """Built, shown, and looked up where its own rays give the same picture, to what the database states."""
+    bad = displaced(with_f_number(find_lens("double_gauss_28"), 8.0), 3, 5, Placement(0.2, 0.1, 0.0, 0.2, 0.0))
+    lens, path = tmp_path / "bad.toml", tmp_path / "bad.npz"
+    lens.write_text(lens_to_toml(bad), encoding="utf-8")
+    grid = ("--depths-mm", "inf", "--wavelengths-nm", "540,560", "-o", path)
+    assert "the six coefficients knows rotational symmetry only; build a fitted one" in refused(
+        "database", "build", lens, *grid
+    )
+    said("database", "build", lens, "--method", "fitted", *grid)
+    shown = said("database", "info", path)
+    assert "depth × field y × field x × wavelength" in shown
+    assert "-9.99859 to 9.99859" in shown  # the square within 14°: tan 14°/√2
+    point = ("--field-deg", -4, "--field-x-deg", 3, "--wavelength-nm", 550, "--pixels", 16, "--pixel-um", 1)
+    assert "field (3°, -4°)" in said("psf", path, *point, "-o", tmp_path / "looked.npz")
+    said("psf", lens, *point, "--method", "fitted", "-o", tmp_path / "traced.npz")
+    looked, traced = (read_psf(tmp_path / name)[0].values for name in ("looked.npz", "traced.npz"))
+    assert np.linalg.norm(looked - traced) <= 2 * np.pi * 1e-3 * np.linalg.norm(traced)
+    assert "field x 12 degrees is outside" in refused("psf", path, "--field-x-deg", 12, "--wavelength-nm", 550)
+    assert "one axis of fields" in refused("export", path, "--to", "csv")
+
+
+def test_fields_along_x_are_for_fits(refused, tmp_path):
+    build = ("database", "build", "singlet_f6", "-o", tmp_path / "a.npz", "--fields-x-deg=-2:2:3")
+    assert "--fields-x-deg is for --method fitted; leave it out" in refused(*build)
+    assert "give angles between −90 and 90 degrees" in refused(*build[:-1], "--fields-x-deg=-95:2:3", "--method=fitted")

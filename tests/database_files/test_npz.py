@@ -146,7 +146,7 @@ def resealed(file, path, change):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda meta, arrays: meta.update(schema=7), "has schema 7, newer than 2, the newest this P2SF reads; update"),
+        (lambda meta, arrays: meta.update(schema=7), "has schema 7, newer than 3, the newest this P2SF reads; update"),
         (lambda meta, arrays: meta.update(kind="SplineDatabase"), "lacks what a P2SF database holds"),
         (lambda meta, arrays: meta.pop("schema"), "lacks what a P2SF database holds"),
         (lambda meta, arrays: meta.update(schema="new"), "lacks what a P2SF database holds"),

@@ -891,8 +891,9 @@
 <message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
 <message><source>a curve over the field</source><translation>eine Kurve über das Feld</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
-<message><source>a database</source><translation>eine Datenbank</translation></message>
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
+<message><source>a database of fields along one line</source><translation>eine Datenbank mit Feldern auf einer Linie</translation></message>
+<message><source>a database of the six coefficients</source><translation>eine Datenbank der sechs Koeffizienten</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
 <message><source>a file that ends in {ending}</source><translation>eine Datei mit der Endung {ending}</translation></message>
 <message><source>a frame of shape {shape}; give rows and columns of counts</source><translation>eine Aufnahme der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
@@ -1015,6 +1016,7 @@
 <message><source>build</source><translation>Exemplar</translation></message>
 <message><source>build {number}</source><translation>Exemplar {number}</translation></message>
 <message><source>build {number}: {value} · tilts and decentres ×{factor}, rays as they are</source><translation>Exemplar {number}: {value} · Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
+<message><source>build a fitted one, or set it straight</source><translation>eine angepasste (fitted) erstellen oder sie gerade stellen</translation></message>
 <message><source>builds</source><translation>Exemplare</translation></message>
 <message><source>by R²</source><translation>nach R²</translation></message>
 <message><source>by field</source><translation>nach Feld</translation></message>
@@ -1165,6 +1167,8 @@
 <message><source>field heights have no angle for this lens</source><translation>Feldhöhen haben bei diesem Objektiv keinen Winkel</translation></message>
 <message><source>field type</source><translation>Feldtyp</translation></message>
 <message><source>field type {kind} is none of 0 to 3; choose angle or height</source><translation>der Feldtyp {kind} ist keiner von 0 bis 3; Winkel oder Höhe wählen</translation></message>
+<message><source>field x</source><translation>Feld x</translation></message>
+<message><source>field y</source><translation>Feld y</translation></message>
 <message><source>field, °</source><translation>Feld, °</translation></message>
 <message><source>fields beside the y axis are turned onto it, which a round lens does not notice</source><translation>Felder neben der y-Achse werden auf sie gedreht, was ein rundes Objektiv nicht merkt</translation></message>
 <message><source>fields given as {kind} are kept as angles at the entrance pupil</source><translation>als {kind} gegebene Felder werden als Winkel an der Eintrittspupille geführt</translation></message>
@@ -1197,6 +1201,7 @@
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
+<message><source>give fields along x as well, or set it straight</source><translation>auch Felder längs x angeben oder sie gerade stellen</translation></message>
 <message><source>give the name of a file in it</source><translation>den Namen einer Datei darin angeben</translation></message>
 <message><source>glass "{name}"</source><translation>Glas "{name}"</translation></message>
 <message><source>glass "{name}" is a table of {count:d} points, too long to be shipped; write the points you need as {{ wavelengths_um = […], n = […] }}</source><translation>das Glas "{name}" ist eine Tabelle von {count:d} Punkten, zu lang, um beizuliegen; die gebrauchten Punkte als {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
@@ -1528,6 +1533,7 @@
 <message><source>sensor stays</source><translation>Sensor bleibt</translation></message>
 <message><source>sensor {key} is {value:g}; give a whole number</source><translation>{key} des Sensors ist {value:g}; eine ganze Zahl angeben</translation></message>
 <message><source>sensor {name} is {count}; give a whole number from 1 to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von 1 bis {most} angeben</translation></message>
+<message><source>set it straight</source><translation>sie gerade stellen</translation></message>
 <message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
 <message><source>share of a panel beside the stage</source><translation>Anteil einer Ansicht neben der Bühne</translation></message>
 <message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
@@ -1613,7 +1619,7 @@
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
-<message><source>surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; set it straight</source><translation>Fläche {surface} ist gekippt oder dezentriert, und {what} kennt nur Rotationssymmetrie; sie gerade stellen</translation></message>
+<message><source>surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; {remedy}</source><translation>Fläche {surface} ist gekippt oder dezentriert, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
@@ -1688,6 +1694,7 @@
 <message><source>the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer</source><translation>der Kontrast bei {frequency:g} Perioden je mm ist zu klein, um summiert zu werden, bei {field:.4g}°; weniger wählen</translation></message>
 <message><source>the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor</source><translation>das Dunkel- oder Hellbild hat die Form {shape} und das Bild {wanted}; beide mit demselben Sensor aufnehmen</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
+<message><source>the database of {lens} has fields along x and along y, and this format one axis of fields; write a stack</source><translation>die Datenbank von {lens} hat Felder längs x und längs y, dieses Format aber nur eine Achse der Felder; einen Stapel schreiben</translation></message>
 <message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
 <message><source>the depth map holds depths that are not positive; give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält Abstände, die nicht positiv sind; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
@@ -2122,6 +2129,7 @@
 <message><source>{parameter} is "{value}"; choose stop or paraxial</source><translation>{parameter} ist "{value}"; stop oder paraxial wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose {choices}</source><translation>{parameter} ist "{value}"; {choices} wählen</translation></message>
 <message><source>{parameter} is None; give a distance, inf for infinity</source><translation>{parameter} ist None; einen Abstand angeben, inf für unendlich</translation></message>
+<message><source>{parameter} is for {method} fitted; leave it out</source><translation>{parameter} gilt für {method} fitted; weglassen</translation></message>
 <message><source>{parameter} is given with {height}; give {angle} with it, or leave it out</source><translation>{parameter} ist mit {height} angegeben; dazu {angle} angeben oder es weglassen</translation></message>
 <message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
 <message><source>{parameter} is {value:g} mm, but an object at infinity has no height; give {depth} as well, or the field as an angle or an image height</source><translation>{parameter} ist {value:g} mm, aber ein Objekt im Unendlichen hat keine Höhe; auch {depth} angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
@@ -2142,6 +2150,7 @@
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
+<message><source>{parameter} is {value}; give angles between −90 and 90 degrees</source><translation>{parameter} ist {value}; Winkel zwischen −90 und 90 Grad angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
