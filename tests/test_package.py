@@ -33,12 +33,13 @@ LAYERS = (
     "p2sf_explorer.panels p2sf_explorer.playback p2sf_explorer.exporting",
     "p2sf_explorer.crash p2sf_explorer.desktop p2sf_explorer.docking",
     "p2sf_explorer.shell",
+    "p2sf_explorer.application",
     "p2sf_explorer.__main__",
     "p2sf.cli",
     "p2sf.__main__ p2sf_explorer.site",
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
-QT = {"PySide6", "pyqtgraph", "pyvista"}
+QT = {"PySide6", "shiboken6", "pyvista"}
 WITHOUT_QT = (
     "p2sf",
     "p2sf_explorer.state",
