@@ -236,8 +236,9 @@ def _path_change(found: Flight, tolerances: tuple[Tolerance, ...], number: int, 
 
 
 def _push(found: Flight, place: int, shift: np.ndarray) -> np.ndarray:
-    """Return −(n′K′ − nK)·δ of every ray at a surface that moves by δ, (3, rays)."""
-    push: np.ndarray = -((found.rays[place + 1] - found.rays[place]) * shift).sum(0)
+    """Return −(n′K′ − nK)·δ of every ray at a surface that moves by δ, (3, rays); behind the sensor there is no K′."""
+    onward = found.rays[place + 1] if place + 1 < len(found.rays) else 0.0
+    push: np.ndarray = -((onward - found.rays[place]) * shift).sum(0)
     return push
 
 

@@ -85,33 +85,41 @@ def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance,
 def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) -> Lens:
     """Return the lens with these errors, one for each tolerance in its unit; indices are off at every wavelength alike.
 
-    Errors of one piece are one break of the coordinates, and pieces named later are moved on top of earlier ones.
+    Errors of one piece are one break of the coordinates, and pieces named later are moved on top of earlier ones. The
+    surface behind the last one is the sensor, which can be moved alone.
     """
+    count = len(lens.surfaces)
     surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[Kind, float]]()
     for tolerance, error in zip(tolerances, errors, strict=True):
-        place = tolerance.first - 1
-        if not 1 <= tolerance.first <= tolerance.piece[1] <= len(surfaces):
+        place, sensor = tolerance.first - 1, tolerance.piece == (count + 1, count + 1) and tolerance.kind in MOVES
+        if not (1 <= tolerance.first <= tolerance.piece[1] <= count or sensor):
             raise GeometryError(
                 "surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}",
                 first=tolerance.piece[0],
                 last=tolerance.piece[1],
-                count=len(surfaces),
+                count=count,
             )
-        surface = surfaces[place]
         if not error:
             continue
+        if tolerance.kind in MOVES:
+            piece = moves.setdefault(tolerance.piece, {})
+            piece[tolerance.kind] = piece.get(tolerance.kind, 0.0) + error
+            continue
+        surface = surfaces[place]
         if tolerance.kind == "radius":
             surfaces[place] = replace(surface, radius=surface.radius * (1 + error / 100))
         elif tolerance.kind == "thickness":
             surfaces[place] = replace(surface, thickness=surface.thickness + error)
-        elif tolerance.kind == "index":
-            surfaces[place] = replace(surface, medium=ShiftedIndex(surface.medium, error))
+        elif surface.reflects:
+            raise GeometryError("surface {surface} is a mirror, which has no index to be off", surface=tolerance.first)
         else:
-            piece = moves.setdefault(tolerance.piece, {})
-            piece[tolerance.kind] = piece.get(tolerance.kind, 0.0) + error
+            surfaces[place] = replace(surface, medium=ShiftedIndex(surface.medium, error))
     built = replace(lens, surfaces=tuple(surfaces))
     for (first, last), numbers in moves.items():
-        built = displaced(built, first, last, placed(numbers))
+        if first > count:
+            built = replace(built, sensor_before=(*lens.sensor_before, placed(numbers)))
+        else:
+            built = displaced(built, first, last, placed(numbers))
     return built
 
 

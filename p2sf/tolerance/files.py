@@ -11,6 +11,10 @@ amount = 0.02                    # either way
 [[compensator]]                  # what is set at assembly; left out: the back focus
 kind = "thickness"
 first = 11
+
+[[compensator]]                  # the surface behind the last one is the sensor
+kind = "tilt_x"
+first = 12
 """
 
 import os
@@ -24,7 +28,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.source_text import read_text
 from p2sf.lensfile.toml_table import Constraint, Table
 from p2sf.messages import Message
-from p2sf.tolerance.errors_of_build import GRADES, Grade, Kind, Tolerance, usual_tolerances
+from p2sf.tolerance.errors_of_build import GRADES, MOVES, Grade, Kind, Tolerance, usual_tolerances
 
 AMOUNT = Constraint(lambda x: isfinite(x) and x >= 0, Message("write a finite number, 0 or more"))
 COMPENSATING_MM = 0.2  # over which the effect of the back focus is looked at
@@ -77,7 +81,9 @@ def _tolerance(table: Table, lens: Lens, usual: float | None) -> Tolerance:
     numbers: dict[str, Any] = {key: table.count(key) for key in ("first", "last") if key in table.values}
     first = numbers.get("first") or 0
     last = numbers.get("last") or first
-    if not 1 <= first <= last <= len(lens.surfaces):
+    kind = cast(Kind, table.string("kind"))
+    count = len(lens.surfaces) + (kind in MOVES and first == last)
+    if not 1 <= first <= last <= count:
         table.fail(
             "surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}",
             "first",
@@ -86,6 +92,6 @@ def _tolerance(table: Table, lens: Lens, usual: float | None) -> Tolerance:
             count=len(lens.surfaces),
         )
     try:
-        return Tolerance(cast(Kind, table.string("kind")), first, table.number("amount", AMOUNT, usual), last)
+        return Tolerance(kind, first, table.number("amount", AMOUNT, usual), last)
     except GeometryError as error:
         table.fail(error.message, "kind")

@@ -133,6 +133,40 @@ def test_a_compensator_makes_the_mean_square_least(lens):
     assert np.abs(found.errors[:, place]).max() > 0.01
 
 
+def test_a_tilted_sensor_is_that_of_exact_rays(lens):
+    """Behind the last surface the sensor counts as one more; its tilt is defocus that grows with the field."""
+    tolerances = (*FEW, *(Tolerance(kind, len(lens.surfaces) + 1, 0.05) for kind in ("tilt_x", "tilt_y")))
+    known = differentials(lens, FIELDS, tolerances)
+    errors = np.random.default_rng(5).uniform(-1, 1, (4, len(tolerances))) * known.amounts
+    errors[:, len(FEW) :] *= 10  # ± 0.5°
+    found = evaluate(known, errors)
+    for number, one in enumerate(errors):
+        built = build(lens, tolerances, one)
+        assert built.sensor_before and not lens.sensor_before
+        rms, _ = exact_quality(built, FIELDS)
+        assert found.rms_waves[number] == pytest.approx(rms, rel=5e-3)
+    untilted = evaluate(known, errors * ([1.0] * len(FEW) + [0.0] * 2))
+    assert np.abs(untilted.rms_waves - found.rms_waves).max() > 0.02, "the tilt is felt"
+
+
+def test_a_sensor_tilted_at_assembly_follows_a_tilted_image(lens):
+    """The tilt of an element tilts the image: of all sensor tilts, that found leaves the least waves in the fields."""
+    count = len(lens.surfaces)
+    fields = tuple(Source(field_deg=angle) for angle in (-7.0, 0.0, 7.0))
+    tolerances = (
+        Tolerance("tilt_x", 7, 0.3, 8),
+        Tolerance("thickness", count, 0.2),
+        Tolerance("tilt_x", count + 1, 0.05),
+    )
+    known = differentials(lens, fields, tolerances)
+    one = evaluate(known, np.array([[0.3, 0.0, 0.0]]), (1, 2))
+    assert abs(one.errors[0, 2]) > 0.01
+    least = (exact_quality(build(lens, tolerances, one.errors[0]), fields)[0] ** 2).sum()
+    for shift in (-0.05, 0.05):
+        moved = build(lens, tolerances, one.errors[0] + [0.0, 0.0, shift])
+        assert (exact_quality(moved, fields)[0] ** 2).sum() > least
+
+
 def test_a_decentre_either_way_is_alike_on_the_axis(known):
     found = sensitivities(known)
     assert found.rms_waves[0, 0] == pytest.approx(found.rms_waves[1, 0], rel=1e-6)

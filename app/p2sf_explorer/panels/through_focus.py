@@ -146,8 +146,6 @@ class ThroughFocusPanel:
         wide = asked.window[0] * asked.window[1]
         best = tr("best {shift} µm", shift=signed(found.best, 1))
         pictures = tr("pictures {wide} µm wide", wide=f"{wide:.3g}")
-        if not np.isfinite([found.sagittal, found.tangential]).any():  # a misaligned lens has no such fans
-            return f"{best} · {pictures}"
         return f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · {best} · {pictures}"
 
     def restyle(self, theme: Tokens) -> None:

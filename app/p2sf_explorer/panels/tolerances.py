@@ -65,6 +65,11 @@ CRITERION_WORDS = (
     ("mtf", "contrast (MTF)"),
     ("boresight_um", "shift of the image"),
 )
+SET_WORDS: dict[Kind, str] = {
+    "thickness": "back focus",
+    "tilt_x": "tilt x of the sensor",
+    "tilt_y": "tilt y of the sensor",
+}
 AXES = {
     "rms_waves": "RMS wavefront, waves",
     "strehl": "Strehl ratio",
@@ -180,7 +185,7 @@ class TolerancesPanel:
         menu, last = self.compensate.menu(), len(lens.surfaces)
         menu.clear()
         rows: list[Compensator] = [("thickness", k, 0) for k in range(last)]  # 0 is the back focus
-        rows += [(kind, k, 0) for kind in SENSOR_TILTS for k in (1, last)]
+        rows += [(kind, k, 0) for k in (0, 1, last) for kind in SENSOR_TILTS]  # 0 is the sensor
         for row in rows:
             action = QAction(_compensator_words(row), menu)
             action.setCheckable(True)
@@ -250,7 +255,10 @@ class TolerancesPanel:
         waiting = tr("The sensitivities are computed from exact rays.")
         self.film.setEnabled(not stale)
         self.overlay.say(self._refusal or (waiting if self._found is None else ""), 0)
+        self.limit.setEnabled(self._found is not None)
+        self.limit.setSpecialValueText("" if self._found else "–")  # which stands in place of 0
         if self._asked is None or self._found is None:
+            _put(self.limit, 0.0)
             return
         if stale:
             self.widget.set_readout(tr("computing"))
@@ -330,7 +338,7 @@ def _row(parts: tuple[QWidget, ...]) -> QWidget:
 
 def _compensator_words(row: Compensator) -> str:
     kind, first, _ = row
-    return error_words(Tolerance(kind, first, 0.0)) if first else tr("back focus")
+    return error_words(Tolerance(kind, first, 0.0)) if first else tr(SET_WORDS[kind])
 
 
 def _sentence(view: Figures) -> str:

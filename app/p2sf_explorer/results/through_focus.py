@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
-from p2sf.raytrace.field_curves import Foci, real_foci, seidel_foci
+from p2sf.raytrace.field_curves import real_foci, seidel_foci
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
@@ -114,20 +114,13 @@ def outwards(count: int) -> list[int]:
     return sorted(range(count), key=lambda number: abs(number - count // 2))
 
 
-def _real_foci(setup: ParaxialSetup) -> Foci:
-    """Return sagittal and tangential focus of exact rays; NaN where a misaligned lens has no such fans."""
-    if setup.lens.misaligned:
-        return Foci(np.array(np.nan), np.array(np.nan))
-    return real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
-
-
 def foci(request: Strip) -> tuple[float, float, float]:
     """Return sagittal, tangential and best focus as sensor shifts, µm: of the six coefficients or of exact rays."""
     setup = paraxial_setup(request.state)
     if request.six:
         near = seidel_foci(setup.coefficients)
     else:
-        near = _real_foci(setup)
+        near = real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
     try:
         best = best_shift_um(changed(request.state, method="seidel" if request.six else "fitted"))
     except P2SFError:

@@ -6,11 +6,9 @@ from functools import lru_cache
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens
-from p2sf.lens.misalignment import with_tilted_sensor
-from p2sf.lens.placement import Placement
 from p2sf.messages import Message
 from p2sf.paraxial.bending import elements
-from p2sf.tolerance.errors_of_build import MOVES, Kind, Tolerance, build, placed
+from p2sf.tolerance.errors_of_build import MOVES, Kind, Tolerance, build
 from p2sf_explorer.state.build_errors import BuildErrors
 
 STEEPEST_DEG = 60.0  # to which an exaggerated drawing tilts
@@ -24,14 +22,10 @@ def with_errors(lens: Lens, errors: BuildErrors) -> Lens:
     A built lens has no rings to turn any more: its errors belong to where these stand.
     """
     count = len(lens.surfaces)
-    found = [one for one in errors if one[2] <= count]
-    on_sensor = {kind: amount for kind, first, last, amount in errors if first == last == count + 1}
+    found = [one for one in errors if one[2] <= count or one[1] == one[2] == count + 1]
     tolerances = [Tolerance(kind, first, 0.0, last) for kind, first, last, _ in found]
     _check_thicknesses(lens, {first: amount for kind, first, _, amount in found if kind == "thickness"})
     made = build(lens, tolerances, [amount for *_, amount in found])
-    sensor = placed(on_sensor)
-    if not sensor.idle:
-        made = with_tilted_sensor(made, sensor) if not lens.sensor_before else _on_top(made, sensor)
     return made if made.positions is None else replace(made, positions=None)
 
 
@@ -47,10 +41,6 @@ def _check_thicknesses(lens: Lens, errors: dict[int, float]) -> None:
                 thickness=thickness,
                 by=by,
             )
-
-
-def _on_top(lens: Lens, sensor: Placement) -> Lens:
-    return replace(lens, sensor_before=(*lens.sensor_before, sensor))
 
 
 def exaggerated(errors: BuildErrors, factor: int) -> tuple[BuildErrors, int]:

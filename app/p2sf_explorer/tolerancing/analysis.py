@@ -25,7 +25,7 @@ from p2sf.tolerance import (
     usual_tolerances,
 )
 from p2sf.tolerance.criteria import LARGE_IS_GOOD, Criterion, best_first, keeps, share_of
-from p2sf.tolerance.errors_of_build import Kind
+from p2sf.tolerance.errors_of_build import MOVES, Kind
 from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -121,7 +121,7 @@ def opened_build(state: State, found: ToleranceResult) -> int:
 def request_of(lens: Lens, source: Source, view: ToleranceView) -> ToleranceRequest:
     """Return the request for a lens; GeometryError for own values of surfaces that it does not have."""
     last = len(lens.surfaces)
-    compensators = [compensator(kind, first or last, to) for kind, first, to in view.compensators]
+    compensators = [compensator(kind, first or last + (kind in MOVES), to) for kind, first, to in view.compensators]
     tolerances, places = with_compensators(chosen_tolerances(lens, view), compensators)
     frequency = view.frequency_per_mm if view.criterion == "mtf" else None
     return ToleranceRequest(lens, usual_sources(lens, source), tolerances, places, frequency, view.draw)

@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from p2sf.conventions import degrees_from_slope
+from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
@@ -250,3 +251,21 @@ def test_other_lenses_have_a_strip_with_their_foci_inside(lens):
     sagittal, tangential, best = through_focus.foci(question)
     assert question.shifts_um[0] <= min(sagittal, tangential, best)
     assert question.shifts_um[-1] >= max(sagittal, tangential, best)
+
+
+def test_rays_of_a_misaligned_lens_are_thinnest_at_its_foci():
+    """With all errors in the plane x = 0 the foci are where neighbours of the chief ray meet in y, and in x."""
+    errors = (("tilt_x", 3, 4, 0.5), ("decentre_y", 7, 8, 0.3))
+    state = changed(FIRST, errors=errors, method="fitted", field_deg=8.0, f_number=22.0)
+    question = through_focus.strip(live(state, "preview"))
+    sagittal, tangential, _ = through_focus.foci(question)
+    straight = through_focus.foci(through_focus.strip(live(changed(state, errors=()), "preview")))
+    assert abs(tangential - straight[1]) > 10, "µm: the errors are felt"
+    for axis, place in enumerate((sagittal, tangential)):
+        widths = []
+        for shift in (place - 20, place, place + 20):
+            setup = paraxial_setup(changed(question.state, sensor_shift_um=shift))
+            near = np.array([0.02, -0.02]), np.zeros(2)
+            rays = pencil(setup.lens, setup.source, near[axis], near[1 - axis])
+            widths.append(abs(np.diff((rays.dx, rays.dy)[axis]))[0])
+        assert widths[1] < 0.02 * min(widths[0], widths[2])

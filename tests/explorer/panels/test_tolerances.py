@@ -10,6 +10,7 @@ from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import left_out
+from p2sf_explorer.panels.tolerances import TolerancesPanel
 from p2sf_explorer.state.state import ToleranceView, changed, new_state
 from p2sf_explorer.tolerance_view.arrangement import TolerancesBody
 from p2sf_explorer.tolerancing import analysis
@@ -38,8 +39,17 @@ def wait(panel, qtbot):
     qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy, timeout=60000)
 
 
+def test_no_limit_is_shown_before_there_are_builds(window, monkeypatch):
+    monkeypatch.setattr(analysis.Analyst, "answer", lambda *_: (_ for _ in ()).throw(P2SFError("no builds")))
+    made = TolerancesPanel(window.store)
+    made.show(live(new_state(lens="tessar"), "settled", {"tolerances": analysis.question}))
+    assert not made.limit.isEnabled() and not made.limit.text().strip("– ")
+    made.stop()
+
+
 def test_errors_yield_and_worst_builds_are_shown(panel):
     state = new_state(lens=LENS)
+    assert panel.limit.isEnabled() and panel.limit.value() > 0
     assert panel.errors.rowCount() == len(usual_tolerances(find_lens(LENS)))
     view = analysis.figures(panel._found, state.tolerances)
     assert view.counts.sum() >= 0.99 * BUILDS, "all but the worst are in the histogram"
@@ -117,11 +127,22 @@ def test_own_values_stand_in_place_of_the_grade():
     assert [row for row in again.own if row[0] == "radius"] == [("radius", 0, 0, 0.1)], "it is of all of them"
 
 
-def test_the_sensor_can_be_tilted_at_assembly(window):
-    state = new_state(lens=LENS, tolerances_compensators=(("thickness", 0, 0), ("tilt_x", 3, 0)))
-    found = analysis.question(live(state, "settled", {})).request
-    assert [found.tolerances[place].kind for place in found.places] == ["thickness", "tilt_x"]
-    assert found.tolerances[found.places[0]].first == len(found.lens.surfaces)
+def test_the_sensor_can_be_tilted_at_assembly(panel, window, qtbot):
+    """A build opens with its tilted sensor, and exact rays through it have the wavefront that the panel says."""
+    tilt = next(action for action in panel.compensate.menu().actions() if "sensor" in action.text())
+    tilt.trigger()
+    assert window.store.state.tolerances.compensators == (("thickness", 0, 0), ("tilt_x", 0, 0))
+    wait(panel, qtbot)
+    found, last = panel._found.request, len(find_lens(LENS).surfaces)
+    assert [(found.tolerances[at].kind, found.tolerances[at].first) for at in found.places] == [
+        ("thickness", last),
+        ("tilt_x", last + 1),
+    ]
+    panel.worst.cellClicked.emit(0, 0)
+    built, number = paraxial_setup(window.store.state).lens, panel.worst._numbers[0]
+    assert built.sensor_before[-1].tilt_x_deg == panel._found.builds.errors[number, found.places[1]]
+    rms = exact_quality(built, panel._found.known.sources)[0]
+    assert panel._found.builds.rms_waves[number] == pytest.approx(rms, rel=0.02)
 
 
 def test_the_field_on_screen_does_not_matter(window):

@@ -1614,6 +1614,7 @@
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ist eine Qbfs-Asphäre mit geraden Gliedern oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} is a Qbfs asphere, which a CODE V file cannot say here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, die eine CODE-V-Datei hier nicht fasst; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
+<message><source>surface {surface} is a mirror, which has no index to be off</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
 <message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
 <message><source>surface {surface} is an ideal lens, which a CODE V file cannot say; save as TOML</source><translation>Fläche {surface} ist eine ideale Linse, die eine CODE-V-Datei nicht fasst; als TOML speichern</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
@@ -1895,7 +1896,9 @@
 <message><source>tilt or decentre</source><translation>Kippung oder Dezentrierung</translation></message>
 <message><source>tilt to +x</source><translation>Kippung nach +x</translation></message>
 <message><source>tilt to +y</source><translation>Kippung nach +y</translation></message>
+<message><source>tilt x of the sensor</source><translation>Kippung x des Sensors</translation></message>
 <message><source>tilt x, surface {where}</source><translation>Verkippung x, Fläche {where}</translation></message>
+<message><source>tilt y of the sensor</source><translation>Kippung y des Sensors</translation></message>
 <message><source>tilt y, surface {where}</source><translation>Verkippung y, Fläche {where}</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
