@@ -11,7 +11,7 @@ from cyclopts import Parameter
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, check_output
 from p2sf.cli.screen import Row, print_json, print_table, warn
 from p2sf.cli.spots import Clip
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
@@ -23,6 +23,7 @@ from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
 from p2sf.measure.measurement import Measurement, measured, write_measurement
 from p2sf.measure.point_model import Optics
 from p2sf.measure.reading import read_frame
+from p2sf.measure.target import TargetMatch, read_target
 from p2sf.messages import Message
 from p2sf.request import Request, mask_of, set_up
 
@@ -36,6 +37,12 @@ Unknown = Annotated[
     list[str],
     Parameter(
         help="What of the whole frame: sensor_shift_um, tilt_x_deg, tilt_y_deg, w40, w31, w22, w20, spacing_um:K."
+    ),
+]
+TargetFile = Annotated[
+    Path | None,
+    Parameter(
+        help="Text file of the points' places: lines of number, x and y under a line number x_mm y_mm, or x_deg."
     ),
 ]
 Built = Annotated[
@@ -91,6 +98,7 @@ def measure(
     request: Asked = AS_IN_THE_FILE,
     camera: Annotated[Camera, Parameter(name="*")] = ANY_CAMERA,
     focus_um: FocusUm | None = None,
+    target: TargetFile = None,
     model: Numbers = "seidel",
     unknowns: Unknown | None = None,
     clip: Clip = False,
@@ -105,6 +113,7 @@ def measure(
     """
     check_output(output, (".npz",))
     check_output(built, (".toml", ".zmx", ".seq", ".json", ".npz"))
+    known = None if target is None else read_target(target)
     frames = [camera.frame(path) for path in pictures]
     design, optics = _scale(lens, request, frames[0])
     found = measured(
@@ -116,6 +125,7 @@ def measure(
         depth_mm=request.depth_mm,
         unknowns=unknowns or (*FOCUS, *FIELD),
         clip=clip,
+        target=known,
     )
     if output:
         write_measurement(found, output)
@@ -160,13 +170,21 @@ def record(found: Measurement) -> dict[str, Any]:
             "x_mm": point.x_mm,
             "y_mm": point.y_mm,
             "place": point.place,
+            "number": point.number,
             "flags": [str(flag) for flag in point.flags] + ([str(failure)] if failure else []),
             **({} if one is None else _point(one)),
         }
         for point, one, failure in zip(found.points, found.fits, found.failures, strict=True)
     ]
     whole = None if found.whole is None else _whole(found.whole)
-    return {"points": points, "frame": whole, "na": found.optics.na, "pixel_um": found.optics.pixel_um}
+    target = None if found.target is None else _target(found.target)
+    return {
+        "points": points,
+        "frame": whole,
+        "target": target,
+        "na": found.optics.na,
+        "pixel_um": found.optics.pixel_um,
+    }
 
 
 def _point(one: Any) -> dict[str, Any]:
@@ -194,12 +212,25 @@ def _whole(whole: FrameFit) -> dict[str, Any]:
     }
 
 
+def _target(match: TargetMatch) -> dict[str, Any]:
+    names = ("axis_mm", "scale", "rotation_deg", "mirrored", "distortion", "rms_mm")
+    return {
+        "found": match.count,
+        "of": len(match.numbers),
+        **{name: getattr(match, name) for name in names},
+        "warnings": [str(warning) for warning in match.warnings],
+    }
+
+
 def _show(found: Measurement) -> None:
     used = [(point, one) for point, one in zip(found.points, found.fits, strict=True) if one is not None]
+    if found.target is not None:
+        _show_target(found.target)
     rows: list[Row] = []
     for point, one in used[:MOST_ROWS]:
         cells = [f"{v:.3f} ± {e:.3f}" for v, e in zip(one.numbers[:SHOWN], one.errors[:SHOWN], strict=True)]
-        rows.append((f"{point.x_mm:.3f}, {point.y_mm:.3f}", *cells, f"{one.r2.min():.4f}", f"{one.chi2:.2f}"))
+        number = "" if point.number is None else f"{point.number}: "
+        rows.append((f"{number}{point.x_mm:.3f}, {point.y_mm:.3f}", *cells, f"{one.r2.min():.4f}", f"{one.chi2:.2f}"))
     names = used[0][1].names[:SHOWN] if used else ()
     print_table(f"{len(found.points)} points, {len(used)} used", ("x, y in mm", *names, "R²", "χ²"), rows)
     if len(used) > MOST_ROWS:
@@ -215,6 +246,17 @@ def _show(found: Measurement) -> None:
         print_table(*_frame_table(found.whole))
         for why in found.whole.warnings:
             warn(why)
+
+
+def _show_target(match: TargetMatch) -> None:
+    (x, y), mirrored = match.axis_mm, ", mirrored" if match.mirrored else ""
+    print(
+        f"target: {match.count} of {len(match.numbers)} points{mirrored}, turned by {match.rotation_deg:.2f}°, "
+        f"{match.scale:.4g} times as large as expected; its origin {x:.3f}, {y:.3f} mm from the middle; "
+        f"{match.distortion:+.2%} of distortion beyond; {match.rms_mm * UM_PER_MM:.1f} µm RMS left"
+    )
+    for why in match.warnings:
+        warn(why)
 
 
 def _frame_table(whole: FrameFit) -> tuple[str, tuple[str, ...], list[Row]]:

@@ -20,8 +20,9 @@ from p2sf.measure.lens_pupil import designed_pupil
 from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
-from p2sf.measure.points import FoundPoint, find_points, in_grid, window_half, window_of
+from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, window_half, window_of
 from p2sf.measure.pupil_model import SIX, pupil_model
+from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 
 FEWEST = 5  # points of a frame whose field is fitted too
@@ -50,6 +51,8 @@ class Measurement:
         Why a point that was used could not be fitted.
     whole : FrameFit or None
         What explains all points together; None for too few of them.
+    target : TargetMatch or None
+        How the known target lies in the picture, if one was given.
     """
 
     frames: tuple[Frame, ...]
@@ -59,6 +62,7 @@ class Measurement:
     fits: tuple[PointFit | None, ...]
     failures: tuple[Message | None, ...]
     whole: FrameFit | None = None
+    target: TargetMatch | None = None
 
     @property
     def used(self) -> int:
@@ -77,6 +81,7 @@ def measured(
     unknowns: Sequence[str] = (*FOCUS, *FIELD),
     singly: bool = True,
     clip: bool = False,
+    target: Target | None = None,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurement:
@@ -84,7 +89,8 @@ def measured(
 
     ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself.
     ``lens``: as designed, from which the whole frame departs by ``unknowns``, and every point by four coefficients,
-    which are added to the lens's own; a model with a map starts from the lens's. ``clip``: its rims end pupils. A frame
+    which are added to the lens's own; a model with a map starts from the lens's. ``clip``: its rims end pupils.
+    ``target``: tells where points belong and where the axis meets the sensor, which is the frame's otherwise. A frame
     of fewer than five usable points is fitted point by point only. Raises RequestError where no point can be used.
     """
     if len(frames) != len(focus_um):
@@ -96,6 +102,9 @@ def measured(
     half = window_half(points)
     if frames[0].psf:
         half, optics = points[0].half, replace(optics, fill=0.0)
+    match = None
+    if target is not None:
+        points, match = _on_target(points, target, lens, depth_mm, optics.wavelength_um)
     taken = [_Taken(frames, point, half, focus_um, optics) for point in points]
     height = max([one.height_mm for one in taken if one.pictures] + [LEAST_HEIGHT_MM])
     design = FrameModel(optics, height, tuple(unknowns), lens, depth_mm, clip=clip)
@@ -112,17 +121,41 @@ def measured(
                 failures[k] = error.message
         if progress:
             progress(WHOLE + (1 - WHOLE) * (k + 1) / len(points))
-    return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole)
+    return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole, match)
+
+
+def _on_target(
+    points: Sequence[FoundPoint], target: Target, lens: Lens | None, depth_mm: float, wavelength_um: float
+) -> tuple[list[FoundPoint], TargetMatch]:
+    """Return points with their numbers and places on a target, measured from its origin; others are flagged."""
+    good = [k for k, point in enumerate(points) if point.good]
+    expected = expected_places(target, lens, depth_mm, wavelength_um)
+    found = np.array([(points[k].x_mm, points[k].y_mm) for k in good]).reshape(-1, 2)
+    match = match_target(found, target, expected, lens is not None)
+    x, y = match.axis_mm
+    out = [replace(point, x_mm=point.x_mm - x, y_mm=point.y_mm - y) for point in points]
+    for k, which in zip(good, match.which.tolist(), strict=True):
+        if which < 0:
+            out[k] = replace(out[k], flags=(STRANGE,))
+        else:
+            known_mm = tuple(match.places_mm[which].tolist())
+            out[k] = replace(out[k], number=int(match.numbers[which]), known_mm=known_mm)
+    return out, match
 
 
 class _Taken:
-    """A point with its windows in all frames; none where it cannot be used in one of them."""
+    """A point with its windows in all frames; none where it cannot be used in one of them.
+
+    ``place``: the middle of the windows, or where a target says that the point belongs, x and y in mm from the axis.
+    """
 
     def __init__(
         self, frames: Sequence[Frame], point: FoundPoint, half: int, focus_um: Sequence[float], optics: Optics
     ):
         self.point, self.focus_um = point, focus_um
-        self.place = frames[0].geometry.place_of(round(point.row), round(point.column))
+        pitch = frames[0].geometry.pixel_um / UM_PER_MM
+        right, down = (place - round(place) for place in (point.column, point.row))
+        self.place = point.known_mm or (point.x_mm - right * pitch, point.y_mm + down * pitch)
         waves = [shift * optics.na**2 / (2 * optics.wavelength_um) for shift in focus_um]
         found = [window_of(frame, point, half, wave) for frame, wave in zip(frames, waves, strict=True)]
         self.pictures = [one for one in found if one is not None]
@@ -132,12 +165,12 @@ class _Taken:
     @property
     def height_mm(self) -> float:
         """Return how far from the axis the point lies."""
-        return float(np.hypot(self.point.x_mm, self.point.y_mm))
+        return float(np.hypot(*self.place))
 
     @property
     def azimuth(self) -> float:
         """Return the point's direction from the axis, radians from +y towards +x."""
-        return float(np.arctan2(self.point.x_mm, self.point.y_mm))
+        return float(np.arctan2(*self.place))
 
     @property
     def placed(self) -> list[FramePoint]:
@@ -158,7 +191,7 @@ def _whole(
     told = (lambda share: progress(WHOLE * share)) if progress else None
     placed = [point for one in taken for point in one.placed]
     found = fit_frame(placed, design, progress=told, cancelled=cancelled)
-    if design.lens is None:
+    if design.lens is None or any(one.point.known_mm for one in taken):
         return found
     # Centroids lie a pixel or so from where chief rays land, which coma moves them by.
     return fit_frame(_replaced(found), design, found.values, cancelled=cancelled)
@@ -193,7 +226,7 @@ def _departure(whole: FrameFit, one: _Taken) -> PointFit:
     """Return what a point tells beyond the lens's exact wavefront, added to the lens's own coefficients."""
     model = replace(whole.model, unknowns=("w40", "w31", "w22", "w20"), alone=True)
     own = model.six_of_lens(one.height_mm)
-    found = fit_frame(one.placed, model, six_of_unknowns(one.point.x_mm, one.point.y_mm, whole.model) @ whole.values)
+    found = fit_frame(one.placed, model, six_of_unknowns(*one.place, whole.model) @ whole.values)
     left = max(1, sum(int(part.usable.sum()) for part in one.pictures) - found.values.size - found.frames.size)
     return PointFit(
         model=pupil_model(SIX),
@@ -213,7 +246,7 @@ def _expected(whole: FrameFit | None, one: _Taken) -> np.ndarray | None:
     """Return W40, W31, W22 and W20 + Wd that the frame suggests for a point: all points then take the same twin."""
     if whole is None:
         return None
-    of_frame = six_of_unknowns(one.point.x_mm, one.point.y_mm, whole.model) @ whole.values
+    of_frame = six_of_unknowns(*one.place, whole.model) @ whole.values
     expected: np.ndarray = whole.model.six_of_lens(one.height_mm) + of_frame
     return expected
 
@@ -229,8 +262,9 @@ def _turned(picture: PointPicture, quarter: int) -> PointPicture:
 def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
     """Write the numbers of a measurement as .npz and return the path. Raises ExportError.
 
-    ``places_mm`` (points, 2), ``numbers``, ``errors`` and ``bounds`` (points, numbers), ``twins``, ``r2``, ``chi2`` of
-    every point used; ``whole``, ``whole_errors``, ``whole_bounds`` of the frame; ``meta`` names them.
+    ``places_mm`` (points, 2), ``numbers``, ``errors`` and ``bounds`` (points, numbers), ``twins``, ``r2``, ``chi2``
+    and, on a target, ``target_numbers`` of every point used; ``whole``, ``whole_errors``, ``whole_bounds`` of the
+    frame; ``meta`` names them.
     """
     used = [(point, one) for point, one in zip(found.points, found.fits, strict=True) if one is not None]
     arrays: dict[str, np.ndarray] = {
@@ -238,6 +272,8 @@ def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
         "r2": np.array([one.r2 for _, one in used]),
         "chi2": np.array([one.chi2 for _, one in used]),
     }
+    if found.target is not None:
+        arrays["target_numbers"] = np.array([point.number for point, _ in used], int)
     scale = {name: value for name, value in vars(found.optics).items() if name != "mask"}
     meta: dict[str, object] = {"optics": scale, "points_found": len(found.points)}
     if used:

@@ -26,12 +26,13 @@ NEAR = 0.35  # of a grid's step within which the next point is looked for
 MARGIN_PIXELS = 4
 LARGEST_HALF = 48
 
-SATURATED, CUT, CLOSE, WIDE_POINT, DIM = (
+SATURATED, CUT, CLOSE, WIDE_POINT, DIM, STRANGE = (
     Message("saturated"),
     Message("cut by the frame's edge"),
     Message("overlaps another point"),
     Message("wider than the others, perhaps two points"),
     Message("much fainter than the others"),
+    Message("no point of the target"),
 )
 
 
@@ -40,7 +41,8 @@ class FoundPoint:
     """A point of light: its centroid (row and column, and mm from the axis), all light and peak in counts.
 
     ``half``: pixels from the centroid to the farthest of its pixels above the noise. ``flags``: why it is not used,
-    empty if it is. ``place``: (column, row) in a grid of points, None outside one.
+    empty if it is. ``place``: (column, row) in a grid of points, None outside one. ``number``: of a known target, on
+    which the point belongs at ``known_mm`` from the axis.
     """
 
     row: float
@@ -52,6 +54,8 @@ class FoundPoint:
     half: int
     flags: tuple[Message, ...] = ()
     place: tuple[int, int] | None = None
+    number: int | None = None
+    known_mm: tuple[float, float] | None = None
 
     @property
     def good(self) -> bool:

@@ -8,6 +8,7 @@ from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.measure.frame import FrameGeometry
+from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 
 SCALE = ("--pixel-um", "3.45", "--f-number", "4")
@@ -35,6 +36,27 @@ def test_a_picture_beside_its_lens(picture, answer, tmp_path, capsys):
     assert main(["compare", str(file), str(file)]) == 0
     out = capsys.readouterr().out
     assert "6 points in common" in out and "sensor_shift_um" in out
+
+
+def test_points_are_those_of_a_target(picture, answer, tmp_path, capsys):
+    """Places on the sensor, far away: the lens's focal length of 50 mm makes angles of them, to its distortion."""
+    places, target, file = grid_of_points(3, 2, 1.2, 0.6), tmp_path / "target.csv", tmp_path / "found.npz"
+    angles = np.rad2deg(np.arctan(places / 50))
+    lines = [f"{number}, {x}, {y}" for number, (x, y) in zip((7, 3, 5, 2, 9, 4), angles, strict=True)]
+    target.write_text("\n".join(["number, x_deg, y_deg", *lines]))
+    command = ("measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um")
+    found = answer(*command, "--target", str(target), "-o", str(file))
+    assert found["target"]["found"] == found["target"]["of"] == 6 and not found["target"]["mirrored"]
+    known = {point["number"]: (point["x_mm"], point["y_mm"]) for point in found["points"]}
+    for number, place in zip((7, 3, 5, 2, 9, 4), places.tolist(), strict=True):
+        assert known[number] == pytest.approx(place, abs=0.006)
+    assert sorted(read_measurement(file)[0]["target_numbers"]) == [2, 3, 4, 5, 7, 9]
+    assert main([*command, "--target", str(target)]) == 0
+    said = capsys.readouterr()
+    assert "target: 6 of 6 points" in said.out and "4 ways" in said.err and "7: -0.6" in said.out
+    target.write_text("number, x_mm, y_mm\n1, 0, 0\n2, 5, 0\n3, 0, 9\n")
+    assert main([*command, "--target", str(target)]) == 2
+    assert "give --depth-mm" in capsys.readouterr().err
 
 
 def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):

@@ -1343,6 +1343,7 @@
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>no point can be used: {flags}; expose less, or move the points apart</source><translation>kein Punkt ist brauchbar: {flags}; kürzer belichten oder die Punkte weiter auseinanderrücken</translation></message>
+<message><source>no point of the target</source><translation>kein Punkt der Zielkarte</translation></message>
 <message><source>no point stands out of the noise in a window of {shape} pixels; expose longer, or choose another point</source><translation>in einem Fenster von {shape} Pixeln hebt sich kein Punkt vom Rauschen ab; länger belichten oder einen anderen Punkt wählen</translation></message>
 <message><source>no point stands out of the noise of {noise:.3g} counts; expose longer, or check the dark field</source><translation>kein Punkt hebt sich vom Rauschen von {noise:.3g} Zählwerten ab; länger belichten oder das Dunkelbild prüfen</translation></message>
 <message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
@@ -1841,6 +1842,8 @@
 <message><source>the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm ends that surface at {edge:.6g} mm; stop the lens down or move the stop</source><translation>die Blende auf Fläche {surface} hat einen Halbmesser von {rim:.6g} mm, aber ein Radius von {radius:g} mm lässt diese Fläche bei {edge:.6g} mm enden; abblenden oder die Blende versetzen</translation></message>
 <message><source>the stop, surface {number}, is open to its rim, semi-diameter {rim:g} mm</source><translation>die Blende, Fläche {number}, ist bis zum Rand offen, Halbmesser {rim:g} mm</translation></message>
 <message><source>the surface has odd powers of the radius, which no even terms describe; keep its shape</source><translation>die Fläche hat ungerade Potenzen des Radius, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
+<message><source>the target fits the picture in {count} ways, and is taken to be upright and in the middle; give it a point that no symmetry repeats</source><translation>Die Zielkarte passt auf {count} Arten auf das Bild und wird aufrecht und in der Mitte angenommen; ihr einen Punkt geben, den keine Symmetrie wiederholt</translation></message>
+<message><source>the target's points are in mm, and it is infinitely far away; give {parameter}, or angles in degrees</source><translation>Die Punkte der Zielkarte sind in mm, und sie ist unendlich weit weg; {parameter} oder Winkel in Grad angeben</translation></message>
 <message><source>the tolerance</source><translation>die Toleranz</translation></message>
 <message><source>the tolerance is measured as "{measure}"; choose {choices}</source><translation>die Toleranz ist als "{measure}" gemessen; {choices} wählen</translation></message>
 <message><source>the tolerance is {tolerance:g} dB; give the least peak signal-to-noise ratio, a positive number</source><translation>die Toleranz ist {tolerance:g} dB; das kleinste Spitzen-Signal-Rausch-Verhältnis angeben, eine positive Zahl</translation></message>
@@ -2079,6 +2082,7 @@
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; eine glatte Anpassung verfehlte {tolerance:g}</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil does not describe that</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; {lost} von {count} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
+<message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei prüfen, und ob sie die dieses Bildes ist</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{names}: a database knows no tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
@@ -2158,6 +2162,7 @@
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
 <message><source>{path} cannot be read as a picture; it is damaged, or of another kind than its ending says</source><translation>{path} lässt sich nicht als Bild lesen; es ist beschädigt oder von anderer Art, als seine Endung sagt</translation></message>
+<message><source>{path} cannot be read as text; check the name</source><translation>{path} lässt sich nicht als Text lesen; den Namen prüfen</translation></message>
 <message><source>{path} cannot be read, {reason}; check the name</source><translation>{path} ist nicht lesbar, {reason}; den Namen prüfen</translation></message>
 <message><source>{path} cannot be read, {reason}; give the path of a PNG, TIFF, JPEG or HEIF</source><translation>{path} ist nicht lesbar, {reason}; den Pfad eines PNG, TIFF, JPEG oder HEIF angeben</translation></message>
 <message><source>{path} cannot be read, {reason}; give the path of a scene file</source><translation>{path} ist nicht lesbar, {reason}; den Pfad einer Szenendatei angeben</translation></message>
@@ -2172,6 +2177,7 @@
 <message><source>{path} has the shape ({shape}); give one picture of 1 or 3 channels</source><translation>{path} hat die Form ({shape}); ein Bild mit 1 oder 3 Kanälen angeben</translation></message>
 <message><source>{path} holds an array of shape {shape}; give rows and columns of counts</source><translation>{path} enthält ein Feld der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
 <message><source>{path} holds values that are not finite; replace them first</source><translation>{path} enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
+<message><source>{path} holds {count} points of a target; at least {least} are needed</source><translation>{path} enthält {count} Punkte einer Zielkarte; nötig sind mindestens {least}</translation></message>
 <message><source>{path} holds {kind} samples; save it with 8 or 16 bits or as float</source><translation>{path} enthält Werte vom Typ {kind}; mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
 <message><source>{path} is a TIFF that cannot be read ({why}); save it again, uncompressed</source><translation>{path} ist ein TIFF, das nicht lesbar ist ({why}); noch einmal speichern, unkomprimiert</translation></message>
 <message><source>{path} is a damaged PNG ({why}); save the picture again</source><translation>{path} ist ein beschädigtes PNG ({why}); das Bild neu speichern</translation></message>
@@ -2188,7 +2194,10 @@
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
 <message><source>{path} lists a wavefront, not a PSF; list the PSF of the same point</source><translation>{path} listet eine Wellenfront, keine PSF; die PSF desselben Punktes ausgeben</translation></message>
+<message><source>{path}, line {line}: "{text}" is no point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
+<message><source>{path}, line {line}: name the columns first, number x_mm y_mm or number x_deg y_deg</source><translation>{path}, Zeile {line}: zuerst die Spalten nennen, number x_mm y_mm oder number x_deg y_deg</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
+<message><source>{path}, line {line}: {words} is number {other} once more; give each point one number and place</source><translation>{path}, Zeile {line}: {words} ist noch einmal Nummer {other}; jedem Punkt eine Nummer und einen Ort geben</translation></message>
 <message><source>{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG</source><translation>{path}: HEIF-Fotos brauchen pillow-heif, das nicht installiert ist; pip install 'p2sf[heif]', oder ein JPEG speichern</translation></message>
 <message><source>{path}: PSF data has no ending "{ending}"; choose {endings}</source><translation>{path}: PSF-Daten haben nicht die Endung "{ending}"; {endings} wählen</translation></message>
 <message><source>{path}: a colour PSF has no ending "{ending}"; choose {choices}</source><translation>{path}: eine farbige PSF hat nicht die Endung "{ending}"; {choices} wählen</translation></message>
