@@ -19,8 +19,8 @@ STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` re
 SECONDS_PER_SQUARE_WAVE = 4e-6
 
 STRAIGHT = Message(
-    "parts of the lens are tilted or decentred; all paraxial figures and the six coefficients are those of the lens "
-    "set straight, and leave out what that adds: coma on the axis, a tilted field"
+    "parts of the lens are tilted, decentred or irregular; all paraxial figures and the six coefficients are those of "
+    "the lens set straight, and leave out what that adds: coma on the axis, a tilted field"
 )
 TOO_COARSE = Message(
     "unknown: samples so far apart add up to no share; give a smaller {parameter}",
@@ -36,7 +36,7 @@ def caution(setup: Setup, seidel: bool) -> None:
 
 
 def set_straight(lens: Lens) -> Message | None:
-    """Return a warning that paraxial quantities leave out the tilts and decentres of a lens, None where it has none."""
+    """Return a warning that paraxial quantities leave out what of a lens is not symmetric, None where all is."""
     return STRAIGHT if lens.misaligned else None
 
 

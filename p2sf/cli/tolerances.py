@@ -182,6 +182,6 @@ def show(setup: Setup, sources: Sequence[Source], record: dict[str, Any]) -> Non
 
 
 def _name(row: dict[str, Any]) -> str:
-    what = row["kind"].replace("_", " ")
+    what = row["kind"].replace("irregularity_45", "irregularity at 45°").replace("_", " ")
     where = f"surface {row['first']}" if row["first"] == row["last"] else f"surfaces {row['first']} to {row['last']}"
     return f"{what} of {where}" if what != "thickness" else f"thickness behind {where}"

@@ -1,5 +1,6 @@
 """The lens and the point source as plain frozen data: surfaces, media, sensor, aperture. Nothing here traces a ray."""
 
+from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, lens_range_um, with_f_number, with_mask, with_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
@@ -9,6 +10,7 @@ from p2sf.lens.source import Source
 __all__ = [
     "Aperture",
     "Diffraction",
+    "Irregularity",
     "Lens",
     "Placement",
     "Qbfs",

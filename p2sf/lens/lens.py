@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
+from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Shape
@@ -63,6 +64,8 @@ class Surface:
         The focal length, mm, of an ideal lens in this plane, whose power is its inverse; inf for a real surface.
     rim : Rim, optional
         Where the clear aperture stands, if it is decentred or a rectangle.
+    irregularity : Irregularity, optional
+        What was ground into the surface by mistake, and is added to its sag.
     """
 
     radius: float = inf
@@ -78,6 +81,7 @@ class Surface:
     inner_radius: float = 0.0
     ideal_focal_length: float = inf
     rim: Rim | None = None
+    irregularity: Irregularity | None = None
 
     @property
     def curvature(self) -> float:
@@ -94,7 +98,7 @@ class Surface:
     @property
     def flat(self) -> bool:
         """Return whether the surface is a plane."""
-        return not self.curvature and not any(self.aspheric) and self.shape is None
+        return not self.curvature and not any(self.aspheric) and self.shape is None and self.irregularity is None
 
     @property
     def bare(self) -> bool:
@@ -127,7 +131,7 @@ class Aperture:
 class Lens:
     """A system of lenses and mirrors and its sensor; `p2sf.load_lens` reads one.
 
-    It is rotationally symmetric unless surfaces or the sensor are tilted or decentred.
+    It is rotationally symmetric unless surfaces are irregular, or these or the sensor tilted or decentred.
 
     Parameters
     ----------
@@ -251,8 +255,8 @@ class Lens:
 
     @cached_property
     def misaligned(self) -> bool:
-        """Return whether anything is tilted or decentred, folding mirrors and clear rims included."""
-        if any(surface.rim for surface in self.surfaces):
+        """Return whether anything is tilted, decentred or irregular, folding mirrors and clear rims included."""
+        if any(surface.rim or surface.irregularity for surface in self.surfaces):
             return True
         placements = *(p for s in self.surfaces for p in (*s.before, *s.after)), *self.sensor_before
         return not all(placement.idle for placement in placements)
@@ -319,7 +323,8 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     """Return a lens as a source in this azimuth sees it that is described in the plane x = 0: turned about its axis.
 
     Every break of the coordinates stands in axes that are turned with the source, so that the stop's and the sensor's
-    own are as well; the surfaces are round, and only their rims are turned. A lens that is not misaligned is returned.
+    own are as well; the surfaces are round, and only rims and irregularities are turned. A lens that is not misaligned
+    is returned.
     """
     if not azimuth_deg or not lens.misaligned:
         return lens
@@ -329,7 +334,13 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
         return (into, *placements, back) if placements else ()
 
     surfaces = tuple(
-        replace(s, before=turned(s.before), after=turned(s.after), rim=s.rim and s.rim.turned(azimuth_deg))
+        replace(
+            s,
+            before=turned(s.before),
+            after=turned(s.after),
+            rim=s.rim and s.rim.turned(azimuth_deg),
+            irregularity=s.irregularity and s.irregularity.turned(azimuth_deg),
+        )
         for s in lens.surfaces
     )
     return replace(lens, surfaces=surfaces, sensor_before=turned(lens.sensor_before))
@@ -339,10 +350,10 @@ SET_STRAIGHT = Message("set it straight")
 
 
 def check_aligned(lens: Lens, what: Message, remedy: Message = SET_STRAIGHT) -> None:
-    """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are tilted or decentred."""
+    """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are not symmetric."""
     if lens.misaligned:
         raise GeometryError(
-            "surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; {remedy}",
+            "surface {surface} is tilted, decentred or irregular, and {what} knows rotational symmetry only; {remedy}",
             surface=_first_misaligned(lens),
             what=what,
             remedy=remedy,
@@ -350,8 +361,14 @@ def check_aligned(lens: Lens, what: Message, remedy: Message = SET_STRAIGHT) -> 
 
 
 def _first_misaligned(lens: Lens) -> int:
-    """Return the first surface, from 1, that a break stands before or behind; the sensor is that behind the last."""
-    placed = (s.rim is not None or any(not p.idle for p in (*s.before, *s.after)) for s in lens.surfaces)
+    """Return the first surface, from 1, that is not symmetric or that a break stands before or behind.
+
+    The sensor is that behind the last.
+    """
+    placed = (
+        s.rim is not None or s.irregularity is not None or any(not p.idle for p in (*s.before, *s.after))
+        for s in lens.surfaces
+    )
     return next((number for number, found in enumerate(placed, 1) if found), len(lens.surfaces) + 1)
 
 
@@ -426,6 +443,8 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
             placement.check(number)
         if surface.rim:
             surface.rim.check(number)
+        if surface.irregularity:
+            surface.irregularity.check(number)
         _check_shape(surface, number)
 
 

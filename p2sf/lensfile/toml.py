@@ -31,6 +31,7 @@ aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
 shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see SHAPES
 ideal_focal_length = 100.0       # an ideal lens in this plane, which needs no radius; left out: a real surface
 diffraction = { order = 1, normalisation_radius = 10.0, coefficients = [-300.0] }  # radians, of ρ², ρ⁴, …
+irregularity = { fringes = 0.5, fringes_45 = 0, normalisation_radius = 10.0 }  # a cylinder, 273 nm a fringe
 before = [{ decentre = [0, 0.1, 0], tilt_deg = [0.5, 0, 0] }]  # how its axes stand in those before it: moved, then
 after = [{ tilt_deg = [-0.5, 0, 0], tilt_first = true }]       # turned about x, y, z; tilt_first: z, y, x, then moved
 
@@ -65,6 +66,7 @@ from p2sf.glass.media import (
     ShiftedIndex,
     TabulatedIndex,
 )
+from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
 from p2sf.lens.positions import Axis, alone
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial, Shape
@@ -155,6 +157,7 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
         _Line("aspheric", _list(surface.aspheric), "[]"),
         _Line("shape", _shape(surface.shape) if surface.shape else ""),
         _Line("diffraction", _diffraction(surface.diffraction) if surface.diffraction else ""),
+        _Line("irregularity", _irregularity(surface.irregularity) if surface.irregularity else ""),
         _Line("before", placements_text(surface.before), "[]"),
         _Line("after", placements_text(surface.after), "[]"),
     )
@@ -177,6 +180,11 @@ def _diffraction(diffraction: Diffraction) -> str:
     order, radius = digits(diffraction.order), digits(diffraction.normalisation_mm)
     numbers = _list(diffraction.coefficients)
     return f"{{ order = {order}, normalisation_radius = {radius}, coefficients = {numbers} }}"
+
+
+def _irregularity(one: Irregularity) -> str:
+    first, second, radius = map(digits, (one.fringes, one.fringes_45, one.normalisation_mm))
+    return f"{{ fringes = {first}, fringes_45 = {second}, normalisation_radius = {radius} }}"
 
 
 def _list(numbers: Iterable[float]) -> str:
@@ -218,7 +226,7 @@ TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
-SHAPED = ("ideal_focal_length", "shape", "diffraction", "before", "after")
+SHAPED = ("ideal_focal_length", "shape", "diffraction", "irregularity", "before", "after")
 SURFACE = ("radius", "thickness", "glass", "semi_diameter", "inner_radius", "rim", "conic", "aspheric", *SHAPED)
 # The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
 # ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
@@ -329,6 +337,7 @@ def _surface(table: Table, scale: float) -> Surface:
         after=read_placements(table, "after", scale),
         ideal_focal_length=focal,
         rim=read_rim(table, scale),
+        irregularity=_read_irregularity(table, scale),
     )
 
 
@@ -362,6 +371,16 @@ def _read_diffraction(surface: Table, scale: float) -> Diffraction | None:
     table.check_keys(("order", "normalisation_radius", "coefficients"))
     radius = table.number("normalisation_radius", OPENING) * scale
     return Diffraction(_terms(table), radius, table.number("order", FINITE, 1.0))
+
+
+def _read_irregularity(surface: Table, scale: float) -> Irregularity | None:
+    table = surface.inline("irregularity")
+    if table is None:
+        return None
+    table.check_keys(("fringes", "fringes_45", "normalisation_radius"))
+    upright, turned = (table.number(key, FINITE, 0.0) for key in ("fringes", "fringes_45"))
+    found = Irregularity(upright, turned, table.number("normalisation_radius", OPENING)).scaled(scale)
+    return None if found.idle else found
 
 
 def _terms(table: Table) -> tuple[float, ...]:

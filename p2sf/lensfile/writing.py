@@ -57,6 +57,14 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
             path,
             ending=ending,
         )
+    irregular = [number for number, surface in enumerate(lens.surfaces, 1) if surface.irregularity]
+    if ending != ".toml" and irregular:
+        raise LensFileError(
+            "surface {surface} is irregular, which a file that ends in {ending} cannot say; save as TOML",
+            path,
+            surface=irregular[0],
+            ending=ending,
+        )
     if ending == ".json":
         _check_aligned(lens, Message("a file that ends in {ending}", ending=ending))
     text = writers[ending](lens)

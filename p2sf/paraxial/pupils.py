@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.conventions import FloatOrArray, anywhere, vergence
+from p2sf.conventions import FloatOrArray, anywhere, slope_from_degrees, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
@@ -204,6 +204,14 @@ def paraxial_rays(
     nu[-1] = settled_angle(rays.power, rays.gap, y, nu[1:])
     scale = n / a if field == "slope" else n * close / reach
     return ParaxialRays(y, nu, centre_y * scale, centre_nu * scale, rays.index, side * rim * scale, rays.wavelength_um)
+
+
+def needed_radii(lens: Lens) -> np.ndarray:
+    """Return what the rays of the widest field need of every surface, mm, an object at infinity, paraxially."""
+    rays = paraxial_rays(lens, np.inf, lens.reference_wavelength_um)
+    slope = slope_from_degrees(max(abs(angle) for angle in lens.fields_deg))
+    needed: np.ndarray = np.abs(rays.y) + np.abs(rays.chief_y) * slope
+    return needed
 
 
 def _check_field(field: str, a: np.ndarray, close: np.ndarray) -> None:

@@ -250,7 +250,9 @@ def _by_method(
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         psf = seidel_psf(c, *window, quality, mask=mask_seen(lens, source))
         psf = replace(psf, predicted_error=seidel_error(lens, source, c))
-        straight = Message("{sampling}; the lens set straight, without its tilts and decentres", sampling=psf.sampling)
+        straight = Message(
+            "{sampling}; the lens set straight, without its tilts, decentres and irregularities", sampling=psf.sampling
+        )
         return replace(psf, sampling=straight) if lens.misaligned else psf
     if method == "fitted":
         started = perf_counter()

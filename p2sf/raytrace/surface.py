@@ -83,7 +83,8 @@ class Normal(NamedTuple):
     """Surface normal (−slope·x, −slope·y, axial), not normalised, where the rays meet the surface.
 
     ``axial`` None stands for 1 − slope·z, a sphere's. ``square`` is the normal's squared length, None for 1.
-    ``along`` = ray·normal = n·cosI·length, and ``along_square`` its square.
+    ``along`` = ray·normal = n·cosI·length, and ``along_square`` its square. ``uneven``: (2, …) what an irregularity
+    adds to ∂z/∂x and ∂z/∂y, to be taken from the normal as well.
     """
 
     slope: np.ndarray | float
@@ -91,6 +92,7 @@ class Normal(NamedTuple):
     square: np.ndarray | None
     along: np.ndarray
     along_square: np.ndarray
+    uneven: np.ndarray | None = None
 
 
 def to_plane(beam: Beam, index: FloatOrArray) -> None:
@@ -118,7 +120,7 @@ def move(beam: Beam, motion: Motion, index: FloatOrArray, number: int) -> None:
 
 def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal | None:
     """Carry every ray to the surface and return its normal there; None for a plane."""
-    if surface.shape is not None or any(surface.aspheric):
+    if surface.shape is not None or any(surface.aspheric) or surface.irregularity is not None:
         return _meet_asphere(beam, surface, index, number)
     if surface.curvature:
         return _meet_conic(beam, surface, index, number)
@@ -188,9 +190,14 @@ def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int
     """
     step, _ = _conic_step(beam, surface.curvature, surface.conic, index)
     beam.advance(np.where(np.isfinite(step), step, 0.0), index)
+    uneven = None
     for _ in range(NEWTON_STEPS):
         sag, slope = sag_and_slope(surface, beam.x * beam.x + beam.y * beam.y)
         along = beam.r - 2 * slope * (beam.x * beam.p + beam.y * beam.q)
+        if surface.irregularity is not None:
+            more, uneven = surface.irregularity.sag_and_gradient(beam.x, beam.y)
+            sag = sag + more
+            along -= (uneven * beam.ray[:2]).sum(0)
         miss = sag - beam.z
         open_ = ~(np.abs(miss) <= ROUNDING * (np.abs(beam.x) + np.abs(beam.y) + np.abs(beam.z)))
         if not open_.any() or not np.isfinite(miss[open_]).any():
@@ -199,7 +206,10 @@ def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int
     beam.fail(~np.isfinite(miss), Status.MISSED, number)
     beam.fail(open_ | ~(along > 0 if _forwards(index) else along < 0), Status.REFUSED, number)
     slope = 2 * slope
-    return Normal(slope, 1.0, 1 + slope * slope * (beam.x * beam.x + beam.y * beam.y), along, along * along)
+    square = 1 + slope * slope * (beam.x * beam.x + beam.y * beam.y)
+    if uneven is not None:
+        square = 1 + np.square(slope * beam.place[:2] + uneven).sum(0)
+    return Normal(slope, 1.0, square, along, along * along, uneven)
 
 
 def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: FloatOrArray, number: int) -> None:
@@ -221,6 +231,8 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
         beam.ray -= push * beam.place
     else:
         beam.r += push * normal.axial
+        if normal.uneven is not None:
+            beam.ray[:2] -= push * normal.uneven
         push *= normal.slope
         beam.ray[:2] -= push * beam.place[:2]
 
@@ -236,22 +248,25 @@ def diffract(beam: Beam, normal: Normal | None, diffraction: Diffraction, after:
     unit = WAVES_MM * beam.wavelength_um
     beam.path += unit * phase
     beam.ray[:2] += (2 * unit * slope) * beam.place[:2]
-    tilt, axial, length_square = _whole(beam, normal)
-    along = beam.r * axial - tilt * (beam.x * beam.p + beam.y * beam.q)
+    steep, axial, length_square = _whole(beam, normal)
+    along = beam.r * axial - (steep * beam.ray[:2]).sum(0)
     gain = after * after - (beam.ray * beam.ray).sum(0)
     length = np.sqrt(length_square)
     root = _root(beam, along * along / length_square, gain, number, why=Status.EVANESCENT)
     push = (_along(root, after) - along / length) / length
     beam.r += push * axial
-    beam.ray[:2] -= (push * tilt) * beam.place[:2]
+    beam.ray[:2] -= push * steep
 
 
-def _whole(beam: Beam, normal: Normal | None) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
-    """Return slope, axial part and squared length of a normal, with what a plane's and a sphere's leave out."""
+def _whole(beam: Beam, normal: Normal | None) -> tuple[np.ndarray, FloatOrArray, FloatOrArray]:
+    """Return a normal's −x and −y, (2, …), its axial part and squared length, with what plane and sphere leave out."""
     if normal is None:
-        return 0.0, 1.0, 1.0
+        return np.zeros_like(beam.place[:2]), 1.0, 1.0
     axial = 1 - normal.slope * beam.z if normal.axial is None else normal.axial
-    return normal.slope, axial, 1.0 if normal.square is None else normal.square
+    steep = normal.slope * beam.place[:2]
+    if normal.uneven is not None:
+        steep = steep + normal.uneven
+    return steep, axial, 1.0 if normal.square is None else normal.square
 
 
 def _along(values: np.ndarray, index: FloatOrArray) -> np.ndarray:

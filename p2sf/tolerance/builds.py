@@ -13,6 +13,7 @@ from p2sf.pupil.quadrature import whole_disc
 from p2sf.threads import one_blas_thread
 from p2sf.tolerance.contrast import Pairs, pairs_of
 from p2sf.tolerance.differentials import FINE, NODES, Differentials
+from p2sf.tolerance.errors_of_build import IRREGULAR, Tolerance
 
 TOGETHER = 500  # builds at a time
 FEW_RAYS_RMS = 0.15  # waves up to which the rays of the differentials carry exp(2πiW)
@@ -50,6 +51,7 @@ def simulate(
 ) -> Builds:
     """Return ``builds`` with every error anywhere within its tolerance, all alike likely.
 
+    Where both irregularities of a surface are tolerances, its size is drawn and its direction, which may be any.
     ``compensators``: places of the tolerances that are set, whatever their amount, so that the mean square of the
     wavefronts of all fields is least. Raises RequestError for a place that there is not, and Cancelled.
     """
@@ -59,9 +61,21 @@ def simulate(
             "compensators {places} are not among the {count} tolerances", places=tuple(compensators), count=count
         )
     rng = np.random.default_rng(seed)
-    errors = rng.uniform(-1, 1, (builds, count)) * known.amounts
+    errors = _any_direction(known.tolerances, rng.uniform(-1, 1, (builds, count))) * known.amounts
     errors[:, list(compensators)] = 0.0
     return evaluate(known, errors, compensators, frequency_per_mm, progress, cancelled)
+
+
+def _any_direction(tolerances: Sequence[Tolerance], drawn: np.ndarray) -> np.ndarray:
+    """Return numbers from −1 to 1, (builds, errors), with those of a surface's two irregularities on a circle."""
+    places = {(one.kind, one.first): place for place, one in enumerate(tolerances) if one.kind in IRREGULAR}
+    found = drawn.copy()
+    for (kind, surface), turned in places.items():
+        upright = places.get((IRREGULAR[0], surface))
+        if kind == IRREGULAR[1] and upright is not None:
+            size, angle = drawn[:, upright], np.pi * drawn[:, turned]
+            found[:, upright], found[:, turned] = size * np.cos(angle), size * np.sin(angle)
+    return found
 
 
 def evaluate(
@@ -112,7 +126,9 @@ class _Form:
         self.shape = known.phase.shape
         self.frequency_per_mm = frequency_per_mm
         count = len(known.tolerances)
-        self.pairs = np.triu_indices(count)
+        one, other = np.triu_indices(count)
+        felt = known.second[one, other].any((1, 2))
+        self.pairs = one[felt], other[felt]
         factor = np.where(self.pairs[0] == self.pairs[1], 0.5, 1.0)
         root = np.sqrt(known.weight)
         self.out = [_orthonormal(root[k], known.fx[k], known.fy[k]) for k in range(self.shape[0])]

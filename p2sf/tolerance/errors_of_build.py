@@ -7,11 +7,15 @@ from typing import Literal
 
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, ShiftedIndex
-from p2sf.lens.lens import Lens
+from p2sf.lens.irregularity import Irregularity
+from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
+from p2sf.paraxial.pupils import needed_radii
 
-Kind = Literal["decentre_x", "decentre_y", "tilt_x", "tilt_y", "radius", "thickness", "index"]
+Kind = Literal[
+    "decentre_x", "decentre_y", "tilt_x", "tilt_y", "radius", "thickness", "index", "irregularity", "irregularity_45"
+]
 UNITS: dict[Kind, str] = {
     "decentre_x": "mm",
     "decentre_y": "mm",
@@ -20,14 +24,38 @@ UNITS: dict[Kind, str] = {
     "radius": "%",
     "thickness": "mm",
     "index": "",
+    "irregularity": "fringes",
+    "irregularity_45": "fringes",
 }
+IRREGULAR: tuple[Kind, ...] = ("irregularity", "irregularity_45")
 MOVES: tuple[Kind, ...] = ("decentre_x", "decentre_y", "tilt_x", "tilt_y")
 Grade = Literal["commercial", "precision", "high"]
 # ± amounts in the units above, of the order that makers offer under these names.
 GRADES: dict[Grade, dict[Kind, float]] = {
-    "commercial": {"decentre_x": 0.1, "tilt_x": 0.05, "radius": 0.5, "thickness": 0.15, "index": 1e-3},
-    "precision": {"decentre_x": 0.03, "tilt_x": 0.017, "radius": 0.1, "thickness": 0.05, "index": 5e-4},
-    "high": {"decentre_x": 0.01, "tilt_x": 0.005, "radius": 0.03, "thickness": 0.01, "index": 2e-4},
+    "commercial": {
+        "decentre_x": 0.1,
+        "tilt_x": 0.05,
+        "radius": 0.5,
+        "thickness": 0.15,
+        "index": 1e-3,
+        "irregularity": 1.0,
+    },
+    "precision": {
+        "decentre_x": 0.03,
+        "tilt_x": 0.017,
+        "radius": 0.1,
+        "thickness": 0.05,
+        "index": 5e-4,
+        "irregularity": 0.5,
+    },
+    "high": {
+        "decentre_x": 0.01,
+        "tilt_x": 0.005,
+        "radius": 0.03,
+        "thickness": 0.01,
+        "index": 2e-4,
+        "irregularity": 0.2,
+    },
 }
 
 
@@ -36,7 +64,8 @@ class Tolerance:
     """One number of a lens that may be off by up to ``amount`` either way, in the unit of its kind (`UNITS`).
 
     ``first``, ``last``: the surfaces, from 1, that are decentred or tilted as one piece about the first vertex; of the
-    other kinds ``first`` alone counts: the radius, the thickness behind, the index of the glass behind.
+    other kinds ``first`` alone counts: the radius, the thickness behind, the index of the glass behind, and the surface
+    that is irregular, as `Irregularity` has it over its clear radius.
 
     Raises GeometryError for surfaces or an amount that cannot be.
     """
@@ -69,10 +98,10 @@ def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance,
     """Return the tolerances of a grade for all that can be off: every surface, thickness and glass."""
     amounts, found = GRADES[grade], []
     for number, surface in enumerate(lens.surfaces, 1):
-        works = (not surface.bare or surface.medium != lens.media[number - 1]) and not surface.ideal
-        if works:
+        if works(lens, number) and not surface.ideal:
             found += [Tolerance(kind, number, amounts["decentre_x"]) for kind in ("decentre_x", "decentre_y")]
             found += [Tolerance(kind, number, amounts["tilt_x"]) for kind in ("tilt_x", "tilt_y")]
+            found += [Tolerance(kind, number, amounts["irregularity"]) for kind in IRREGULAR]
         if not isinf(surface.radius):
             found.append(Tolerance("radius", number, amounts["radius"]))
         if number < len(lens.surfaces):
@@ -80,6 +109,12 @@ def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance,
         if not surface.reflects and surface.medium != AIR:
             found.append(Tolerance("index", number, amounts["index"]))
     return tuple(found)
+
+
+def works(lens: Lens, number: int) -> bool:
+    """Return whether a surface, from 1, does anything to light."""
+    surface = lens.surfaces[number - 1]
+    return not surface.bare or surface.medium != lens.media[number - 1]
 
 
 def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) -> Lens:
@@ -91,7 +126,7 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
     count = len(lens.surfaces)
     surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[Kind, float]]()
     for tolerance, error in zip(tolerances, errors, strict=True):
-        place, sensor = tolerance.first - 1, tolerance.piece == (count + 1, count + 1) and tolerance.kind in MOVES
+        sensor = tolerance.piece == (count + 1, count + 1) and tolerance.kind in MOVES
         if not (1 <= tolerance.first <= tolerance.piece[1] <= count or sensor):
             raise GeometryError(
                 "surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}",
@@ -104,16 +139,9 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
         if tolerance.kind in MOVES:
             piece = moves.setdefault(tolerance.piece, {})
             piece[tolerance.kind] = piece.get(tolerance.kind, 0.0) + error
-            continue
-        surface = surfaces[place]
-        if tolerance.kind == "radius":
-            surfaces[place] = replace(surface, radius=surface.radius * (1 + error / 100))
-        elif tolerance.kind == "thickness":
-            surfaces[place] = replace(surface, thickness=surface.thickness + error)
-        elif surface.reflects:
-            raise GeometryError("surface {surface} is a mirror, which has no index to be off", surface=tolerance.first)
         else:
-            surfaces[place] = replace(surface, medium=ShiftedIndex(surface.medium, error))
+            place = tolerance.first - 1
+            surfaces[place] = _altered(lens, surfaces[place], tolerance, error)
     built = replace(lens, surfaces=tuple(surfaces))
     for (first, last), numbers in moves.items():
         if first > count:
@@ -121,6 +149,28 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
         else:
             built = displaced(built, first, last, placed(numbers))
     return built
+
+
+def _altered(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -> Surface:
+    """Return a surface, number ``tolerance.first``, with an error that moves nothing, on top of what is off already."""
+    if tolerance.kind == "radius":
+        return replace(surface, radius=surface.radius * (1 + error / 100))
+    if tolerance.kind == "thickness":
+        return replace(surface, thickness=surface.thickness + error)
+    if tolerance.kind in IRREGULAR:
+        upright, turned = (error if tolerance.kind == kind else 0.0 for kind in IRREGULAR)
+        radius = clear_radius(lens, tolerance.first)
+        before = surface.irregularity or Irregularity(0.0, 0.0, radius)
+        return replace(surface, irregularity=before.added(upright, turned, radius))
+    if surface.reflects:
+        raise GeometryError("surface {surface} is a mirror, which has no index to be off", surface=tolerance.first)
+    return replace(surface, medium=ShiftedIndex(surface.medium, error))
+
+
+def clear_radius(lens: Lens, number: int) -> float:
+    """Return the clear radius of a surface, from 1, or where it has none, what the widest field needs, mm."""
+    stated = lens.surfaces[number - 1].semi_diameter
+    return stated if isfinite(stated) else float(needed_radii(lens)[number - 1])
 
 
 def placed(errors: Mapping[Kind, float]) -> Placement:

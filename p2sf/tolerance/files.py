@@ -3,7 +3,8 @@
 grade = "precision"              # where the rest comes from: commercial, precision, high, or "none"
 
 [[tolerance]]                    # in place of the grade's, or beside them
-kind = "decentre_y"              # decentre_x, decentre_y (mm), tilt_x, tilt_y (°), radius (%), thickness (mm), index
+kind = "decentre_y"              # decentre_x, decentre_y (mm), tilt_x, tilt_y (°), radius (%), thickness (mm), index,
+                                 # irregularity, irregularity_45 (fringes of 273 nm from peak to valley)
 first = 3                        # the surface; of decentres and tilts the first of a piece
 last = 4                         # left out: that surface alone
 amount = 0.02                    # either way

@@ -21,7 +21,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.source import Source
-from p2sf.paraxial.pupils import paraxial_rays
+from p2sf.paraxial.pupils import ParaxialRays, paraxial_rays
 from p2sf.paraxial.seidel import seidel_sums
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.pupil.zernike_terms import ZernikeTerm, zernike_values
@@ -80,8 +80,8 @@ def third_order(lens: Lens, depth_mm: float, wavelength_um: float) -> ThirdOrder
     """Return coma and astigmatism over the field to third order, from Seidel's sums about the chief ray of H = 0.
 
     Exact to the first power of tilts and decentres for coma, to the second for astigmatism but for what they change
-    the chief ray by at second order. Raises GeometryError where that ray does not reach the sensor, and for a surface
-    with a term in r or r³.
+    the chief ray by at second order. Irregular surfaces add the same astigmatism to all fields. Raises GeometryError
+    where that ray does not reach the sensor, and for a surface with a term in r or r³.
     """
     rays = paraxial_rays(lens, depth_mm, wavelength_um)
     heights, angles = _base_ray(lens, Source(depth_mm, 0.0, wavelength_um))
@@ -93,7 +93,21 @@ def third_order(lens: Lens, depth_mm: float, wavelength_um: float) -> ThirdOrder
         found.append((waves * sums.coma.sum(), waves * sums.astigmatism.sum()))
     (coma_less, less), (coma, still), (coma_more, more) = found
     linear = np.array([coma, (coma_more - coma_less) / 2])
-    return ThirdOrder(linear, np.array([still, (more - less) / 2, (more + less) / 2 - still]))
+    square = (more + less) / 2 - still
+    return ThirdOrder(linear, np.array([still + _of_irregularities(lens, rays), (more - less) / 2, square]))
+
+
+def _of_irregularities(lens: Lens, rays: ParaxialRays) -> complex:
+    """Return W22 of irregular surfaces, waves: twice the part in cos 2θ of (n′ − n)·sag over the axial beam.
+
+    A surface that is higher by δ shortens the path of a ray along the axis by (n′ − n)δ.
+    """
+    found = 0j
+    for place, surface in enumerate(lens.surfaces):
+        if surface.irregularity:
+            step = float(rays.index[place + 1] - rays.index[place])
+            found += 2 * step * float(rays.y[place]) ** 2 * complex(*surface.irregularity.terms)
+    return found * UM_PER_MM / float(rays.wavelength_um)
 
 
 def _base_ray(lens: Lens, source: Source) -> tuple[np.ndarray, np.ndarray]:

@@ -1,4 +1,4 @@
-"""Exact rays through 200 random misaligned systems against a tracer in space, folding mirrors included.
+"""Exact rays through 200 random misaligned systems against a tracer in space, folds and irregularities included.
 
 ``python -m tests.long.misalignment [SYSTEMS]`` prints the largest differences, and exits with 1 where a point differs
 by more than 1e-9 mm, or a path by more than 1e-9 waves and 1e-14 of itself.
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.raytrace.trace import trace
-from tests.support.misaligned import random_system
+from tests.support.misaligned import random_system, with_irregularities
 from tests.support.space_rays import fly
 
 UM = 0.55
@@ -37,6 +37,8 @@ def compare(systems: range) -> Worst:
     worst = Worst()
     for seed in systems:
         lens, rng = random_system(seed), np.random.default_rng(10**6 + seed)
+        if seed % 2:
+            lens = with_irregularities(lens, seed)
         points = np.c_[rng.uniform(-2, 2, (RAYS, 2)), np.full(RAYS, -3.0)]
         along = np.c_[rng.uniform(-0.1, 0.1, (RAYS, 2)), np.ones(RAYS)]
         found = trace(lens, points, along, UM)

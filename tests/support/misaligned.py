@@ -1,10 +1,12 @@
 """Random misaligned systems: tilted and decentred surfaces and groups, folding mirrors, tilted sensors."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
 
 from p2sf.glass.media import AIR, MIRROR, ConstantIndex
+from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.misalignment import displaced, folding, with_tilted_sensor
 from p2sf.lens.placement import Placement
@@ -43,6 +45,16 @@ def random_system(seed: int) -> Lens:
     if rng.random() < 0.5:
         lens = displaced(lens, elements[0], elements[-1] + 1, random_placement(rng))
     return with_tilted_sensor(lens, random_placement(rng)) if rng.random() < 0.5 else lens
+
+
+def with_irregularities(lens: Lens, seed: int) -> Lens:
+    """Return the lens with half of its surfaces irregular, up to 0.05 mm from peak to valley."""
+    rng = np.random.default_rng(seed)
+    surfaces = [
+        replace(s, irregularity=Irregularity(*rng.uniform(-130, 130, 2), 8.0)) if rng.random() < 0.5 else s
+        for s in lens.surfaces
+    ]
+    return replace(lens, surfaces=tuple(surfaces))
 
 
 def _radius(rng: np.random.Generator, least: float) -> float:

@@ -2,7 +2,8 @@
 
 from math import inf
 
-from p2sf.glass.media import ConstantIndex
+from p2sf.glass.media import AIR, MIRROR, ConstantIndex
+from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Aperture, Lens, Surface
 
 FIRST, SECOND, GAP = 50.0, -80.0, 25.0  # of the two thin lenses, mm
@@ -38,3 +39,11 @@ def two_thin_lenses(sensor: float = 40.0, aim: str = "stop") -> Lens:
         Surface(thickness=sensor, ideal_focal_length=SECOND, semi_diameter=8.0),
     )
     return Lens(rows, Aperture("stop_semi_diameter", 4.0), 2, aim=aim)
+
+
+def in_the_stop(medium, irregularity: Irregularity | None) -> Lens:
+    """Return a plane in the stop, of radius 5 mm, and far behind it an ideal lens that focuses what comes."""
+    back = -1.0 if medium == MIRROR else 1.0
+    plane = Surface(inf, back * 10.0, medium, semi_diameter=5.0, irregularity=irregularity)
+    ideal = Surface(inf, back * 200.0, AIR, ideal_focal_length=200.0)
+    return Lens((plane, ideal), Aperture("stop_semi_diameter", 5.0), 1)

@@ -15,6 +15,8 @@ from scipy.spatial.transform import Rotation
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.placement import Placement
 
+HALF_FRINGE_MM = 0.54607e-3 / 4  # a fringe is half a wave of the green line of mercury, from peak to valley
+
 
 @dataclass
 class Pose:
@@ -56,14 +58,28 @@ def poses(lens: Lens) -> list[Pose]:
 def _sag(surface: Surface, x: float, y: float) -> float:
     square, c = x * x + y * y, 0.0 if abs(surface.radius) == inf else 1 / surface.radius
     conic = c * square / (1 + np.sqrt(max(1 - (1 + surface.conic) * c * c * square, 0.0)))
-    return conic + sum(a * square ** (2 + k) for k, a in enumerate(surface.aspheric))
+    return conic + sum(a * square ** (2 + k) for k, a in enumerate(surface.aspheric)) + _uneven(surface, x, y)[0]
+
+
+def _uneven(surface: Surface, x: float, y: float) -> tuple[float, np.ndarray]:
+    """Return the sag of an irregularity of A·ρ² cos 2(θ − θ₀), θ from +y towards +x, and its gradient."""
+    one = surface.irregularity
+    if one is None:
+        return 0.0, np.zeros(2)
+    highest, theta0 = HALF_FRINGE_MM * one.peak_to_valley, np.arctan2(one.fringes_45, one.fringes) / 2
+    r, theta = np.hypot(x, y), np.arctan2(x, y)
+    scale = highest / one.normalisation_mm**2
+    along, around = 2 * scale * r * np.cos(2 * (theta - theta0)), -2 * scale * r * np.sin(2 * (theta - theta0))
+    outward, turning = np.array([np.sin(theta), np.cos(theta)]), np.array([np.cos(theta), -np.sin(theta)])
+    return scale * r * r * np.cos(2 * (theta - theta0)), along * outward + around * turning
 
 
 def _normal(surface: Surface, x: float, y: float) -> np.ndarray:
     square, c = x * x + y * y, 0.0 if abs(surface.radius) == inf else 1 / surface.radius
     steep = c / np.sqrt(1 - (1 + surface.conic) * c * c * square)
     steep += sum(2 * (2 + k) * a * square ** (1 + k) for k, a in enumerate(surface.aspheric))
-    normal = np.array([-steep * x, -steep * y, 1.0])
+    gradient = steep * np.array([x, y]) + _uneven(surface, x, y)[1]
+    normal = np.array([*-gradient, 1.0])
     return normal / np.linalg.norm(normal)
 
 

@@ -13,6 +13,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.bending import elements
 from p2sf.paraxial.seidel import coefficients
+from p2sf.tolerance.errors_of_build import IRREGULAR, Tolerance, build
 from p2sf.tolerance.nodal import exact_aberrations, field_aberrations, nodal_sensitivities, third_order
 
 WAVE = 0.5875618
@@ -144,6 +145,20 @@ def test_nodes_of_exact_rays_have_no_aberration_to_either_side():
     assert sorted(abs(field(*node)) for node in nodes) == pytest.approx(
         sorted(np.abs(third.astigmatism_nodes)), rel=0.05
     )
+
+
+def test_an_irregular_surface_adds_the_same_astigmatism_to_all_fields(gauss):
+    """By exact rays at f/24, whose rest is of fifth order; a cylinder along x = y turns astigmatism by 45°."""
+    small = with_f_number(gauss, 24.0)
+    bad = build(small, [Tolerance(kind, 3, 90.0) for kind in IRREGULAR], (40.0, 70.0))
+    known, still = third_order(bad, inf, WAVE), third_order(small, inf, WAVE)
+    added = known.astigmatism - still.astigmatism
+    assert abs(added[0]) > 0.1 and added[1:] == pytest.approx([0, 0], abs=1e-12)
+    assert known.coma == pytest.approx(still.coma, abs=1e-9)
+    for place in ((0.0, 0.0), (0.5, 1.0), (-2.0, 0.3)):
+        source = Source(field_deg=place, wavelength_um=WAVE)
+        exact = exact_aberrations(bad, source)[1] - exact_aberrations(small, source)[1]
+        assert exact == pytest.approx(added[0], rel=0.02)
 
 
 def test_a_lost_chief_ray_is_refused_with_the_surface(gauss):

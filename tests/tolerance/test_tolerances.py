@@ -6,11 +6,15 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, RequestError
+from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import with_sensor
 from p2sf.lens.source import Source
 from p2sf.metrics.frequency_pupil import pupil_of_rays
 from p2sf.metrics.measures import PupilPart, mtf_of
+from p2sf.pupil.quadrature import whole_disc
+from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.trace import trace
 from p2sf.tolerance import (
     GRADES,
     Builds,
@@ -24,8 +28,10 @@ from p2sf.tolerance import (
     usual_tolerances,
 )
 from p2sf.tolerance.builds import evaluate
-from p2sf.tolerance.errors_of_build import MOVES
+from p2sf.tolerance.differentials import NODES
+from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES
 from tests.long.tolerances import agreement, gauss
+from tests.support.simple_lenses import in_the_stop
 from tests.support.tolerances import exact_quality
 
 UM = 0.5875618
@@ -40,6 +46,9 @@ FEW = (
     Tolerance("radius", 1, 0.3),
     Tolerance("thickness", 4, 0.1),
     Tolerance("index", 1, 1e-3),
+    Tolerance("irregularity", 3, 2.0),
+    Tolerance("irregularity_45", 3, 2.0),
+    Tolerance("irregularity", 10, 2.0),
 )
 
 
@@ -61,6 +70,11 @@ def straight(known, waves: np.ndarray) -> np.ndarray:
         terms = np.stack([np.ones_like(root), known.fx[field], known.fy[field]], 1) * root[:, None]
         out.append(one * root - terms @ np.linalg.lstsq(terms, one * root, rcond=None)[0])
     return np.array(out)
+
+
+def rms(known, waves: np.ndarray) -> float:
+    """Return the RMS in the worst field, without piston and tilt."""
+    return float(np.sqrt(np.square(straight(known, waves)).sum(-1)).max())
 
 
 def phases(lens, tolerances, errors) -> np.ndarray:
@@ -114,6 +128,59 @@ def test_builds_are_those_of_exact_rays(lens, known):
         rms, strehl = exact_quality(build(lens, FEW, one), FIELDS)
         assert found.rms_waves[number] == pytest.approx(rms, rel=5e-3)
         assert found.strehl[number] == pytest.approx(strehl, abs=3e-3)
+
+
+def test_an_irregularity_hardly_meets_other_errors(far):
+    """What is left out: of ten fringes with 0.1 mm or 0.1°, by four lenses with both, less than 0.002 waves RMS."""
+    tolerances = Tolerance("irregularity", 3, 10.0), Tolerance("decentre_y", 3, 0.1), Tolerance("tilt_x", 3, 0.1)
+    for place in (1, 2):
+        both = 0.0
+        for a, b in ((1, 1), (-1, -1), (1, -1), (-1, 1)):
+            errors = np.zeros(3)
+            errors[0], errors[place] = a * 10.0, b * 0.1
+            both = both + a * b * phases(far.lens, tolerances, errors) / 4
+        assert 0 < rms(far, both) < 0.002
+    alone = phases(far.lens, tolerances, (10.0, 0.0, 0.0)) - phases(far.lens, tolerances, (-10.0, 0.0, 0.0))
+    assert rms(far, alone) > 0.3, "twenty fringes that matter"
+
+
+def test_a_cylinder_in_the_stop_has_the_slope_of_its_law():
+    """∂W/∂N = −(n′ − n)·F/2λ·ρ² cos 2θ of the phase, whose sign is the opposite of the displayed wavefront's."""
+    lens = in_the_stop(ConstantIndex(1.5), None)
+    known = differentials(lens, [Source(wavelength_um=UM)], [Tolerance(kind, 1, 1.0) for kind in IRREGULAR])
+    xi, eta, _ = whole_disc(*NODES)
+    scale = -0.5 * 0.273035 / 2 / UM
+    assert known.first[0, 0] == pytest.approx(scale * (eta**2 - xi**2), abs=1e-4 * abs(scale))
+    assert known.first[1, 0] == pytest.approx(scale * 2 * xi * eta, abs=1e-4 * abs(scale))
+    assert not known.second.any()
+
+
+def test_the_direction_of_an_irregularity_may_be_any(known):
+    """Of a surface with both, the size is even up to the tolerance and the direction around; of one, its sign only."""
+    found = simulate(known, 4000, seed=5).errors
+    upright, turned = found[:, 9], found[:, 10]
+    size, angle = np.hypot(upright, turned), np.arctan2(turned, upright)
+    assert size.max() <= 2.0 and abs(size.mean() - 1.0) < 4 * 2 / np.sqrt(12 * 4000)
+    counts = np.histogram(angle, 8, (-np.pi, np.pi))[0]
+    assert np.abs(counts - 500).max() < 4 * np.sqrt(500)
+    alone = np.abs(found[:, 11])
+    assert alone.max() <= 2.0 and abs(alone.mean() - 1.0) < 4 * 2 / np.sqrt(12 * 4000)
+
+
+def test_an_irregularity_is_over_what_the_field_needs_where_no_clear_radius_is_stated(lens):
+    """On the first surface of this lens rays of the widest field land farthest out, but for what is vignetted."""
+    open_ = replace(lens, surfaces=tuple(replace(one, semi_diameter=np.inf) for one in lens.surfaces))
+    made = build(open_, [Tolerance("irregularity", 1, 1.0)], (1.0,)).surfaces[0].irregularity
+    marginal, chief = (trace_heights(open_, field, eta) for field, eta in ((0.0, 1.0), (14.0, 0.0)))
+    assert made.normalisation_mm == pytest.approx(abs(marginal) + abs(chief), rel=0.02)  # paraxial ones at 14°
+    stated = build(lens, [Tolerance("irregularity", 1, 1.0)], (1.0,)).surfaces[0].irregularity
+    assert stated.normalisation_mm == lens.surfaces[0].semi_diameter
+
+
+def trace_heights(lens, field_deg: float, eta: float) -> float:
+    """Return where a ray meets the first surface, mm."""
+    rays = pupil_rays(lens, Source(field_deg=field_deg), np.zeros(1), np.array([eta]))
+    return float(trace(lens, rays.origins, rays.directions, UM).points[1, 0, 1])
 
 
 def test_most_builds_agree_with_exact_rays_focused_anew():
@@ -199,6 +266,7 @@ def test_usual_tolerances_are_of_all_that_can_be_off(lens):
         "radius",
         "thickness",
         "index",
+        *IRREGULAR,
     }
     assert not any(one.first == lens.stop_surface and one.kind != "thickness" for one in found), "the stop is bare"
     assert {one.amount for one in found if one.kind == "radius"} == {GRADES["high"]["radius"]}
@@ -224,7 +292,7 @@ def test_what_cannot_be_is_refused(lens, make, said):
 
 
 def test_a_compensator_that_there_is_not_is_refused(known):
-    with pytest.raises(RequestError, match="compensators 99 are not among the 9"):
+    with pytest.raises(RequestError, match="compensators 99 are not among the 12"):
         simulate(known, 10, (99,))
 
 

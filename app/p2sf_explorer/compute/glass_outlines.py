@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_mask, with_sensor
 from p2sf.lens.placement import Motion
 from p2sf.lens.source import Source
-from p2sf.paraxial.pupils import find_stop, paraxial_rays
+from p2sf.paraxial.pupils import needed_radii
 from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf_explorer.compute.meridional import path
@@ -219,12 +219,9 @@ def vertices(lens: Lens) -> list[float]:
 @lru_cache(maxsize=32)
 def clear_rims(lens: Lens) -> tuple[float, ...]:
     """Return a half-height to draw for each surface: its clear rim, or what the widest field's rays need."""
-    stop = find_stop(lens)
-    rays = paraxial_rays(lens, np.inf, lens.reference_wavelength_um, stop)
-    slope = np.tan(np.deg2rad(max(abs(angle) for angle in lens.fields_deg)))
-    needed = np.abs(rays.y) + np.abs(rays.chief_y) * slope
     rims = [
-        s.semi_diameter if isfinite(s.semi_diameter) else 1.05 * n for s, n in zip(lens.surfaces, needed, strict=True)
+        s.semi_diameter if isfinite(s.semi_diameter) else 1.05 * n
+        for s, n in zip(lens.surfaces, needed_radii(lens), strict=True)
     ]
     kept = [float(_inside_surface(s, r)) for s, r in zip(lens.surfaces, rims, strict=True)]
     return tuple(with_edges(lens, kept))

@@ -17,14 +17,16 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 
 SET_STRAIGHT: dict[str, Message] = {
-    "seidel": Message("Of the lens set straight: its tilts and decentres have no part in these sums."),
-    "coefficients": Message("Of the lens set straight: six coefficients know no tilts and decentres."),
-    "first_order": Message("Of the lens set straight: paraxial rays know no tilts and decentres."),
-    "ybar": Message("Of the lens set straight: paraxial rays know no tilts and decentres."),
+    "seidel": Message("Of the lens set straight: its tilts, decentres and irregularities have no part in these sums."),
+    "coefficients": Message("Of the lens set straight: six coefficients know no tilts, decentres and irregularities."),
+    "first_order": Message("Of the lens set straight: paraxial rays know no tilts, decentres and irregularities."),
+    "ybar": Message("Of the lens set straight: paraxial rays know no tilts, decentres and irregularities."),
     "depth_of_field": Message(
         "The paraxial curve and its limits are of the lens set straight; the exact rays are not."
     ),
-    "accuracy": Message("Seidel is of the lens set straight; the other methods know its tilts and decentres."),
+    "accuracy": Message(
+        "Seidel is of the lens set straight; the other methods know its tilts, decentres and irregularities."
+    ),
 }
 """What panels leave out of a misaligned lens."""
 CLEAR_STOP: dict[str, Message] = {
@@ -94,8 +96,8 @@ def _set_straight(setup: ParaxialSetup) -> Message | None:
     if not setup.lens.misaligned or setup.altered:
         return None
     return Message(
-        "Six coefficients are those of the lens set straight, without its tilts and decentres; choose auto, fitted or "
-        "traced to see what these do."
+        "Six coefficients are those of the lens set straight, without its tilts, decentres and irregularities; choose "
+        "auto, fitted or traced to see what these do."
     )
 
 

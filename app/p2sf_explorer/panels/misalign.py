@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QPushButton, QScrollArea, QWidget
 
 from p2sf.lens.lens import Lens
-from p2sf.tolerance.errors_of_build import Kind
+from p2sf.tolerance.errors_of_build import IRREGULAR, Kind
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
@@ -35,6 +35,8 @@ WORDS: dict[Kind, str] = {
     "radius": "Radius {surface}",
     "thickness": "Thickness {surface}",
     "index": "Index behind {surface}",
+    "irregularity": "Irregularity {surface}",
+    "irregularity_45": "Irregularity {surface}, 45°",
 }
 TIPS: dict[Kind, str] = {
     "decentre_x": "Decentre x: the piece is moved sideways, out of the layout's plane.",
@@ -44,6 +46,14 @@ TIPS: dict[Kind, str] = {
     "radius": "Radius: its error in percent; fringes (fr.) are those of a test plate of the right radius.",
     "thickness": "Thickness: its error behind this surface; what follows moves with it.",
     "index": "Index: the error of the glass behind this surface, the same at every wavelength.",
+    "irregularity": (
+        "Irregularity: a cylinder ground into this surface, in fringes (fr.) of 273 nm from the highest to the lowest "
+        "points of its clear rim. A positive one raises it towards +z along y."
+    ),
+    "irregularity_45": (
+        "Irregularity at 45°: the same, raised where x and y are of one sign. Both together are a cylinder in any "
+        "direction."
+    ),
 }
 UNITS: dict[Kind, str] = {
     "decentre_x": " mm",
@@ -59,13 +69,17 @@ WIDE_PX = 760  # at scale 1: from this width on there are two columns of sliders
 COLUMNS = 2
 
 
+def _unit(kind: Kind) -> str:
+    return f" {tr('fr.')}" if kind in IRREGULAR else UNITS.get(kind, "")
+
+
 class ErrorRow(QWidget):
     """One number that may be off: its slider, and a button that sets it right."""
 
     def __init__(self, kind: Kind, store: Store, parent: QWidget):
         super().__init__(parent)  # without one it would be a window for a moment, and take the focus
         self.kind, self.adjustment, self._store = kind, Adjustment(kind, (1, 1), 1.0), store
-        self.slider = LensSlider(WORDS[kind], TIPS[kind], UNITS.get(kind, ""), store, self._with, DIGITS.get(kind, 3))
+        self.slider = LensSlider(WORDS[kind], TIPS[kind], _unit(kind), store, self._with, DIGITS.get(kind, 3))
         self.back = QPushButton("↺", self)
         self.back.setObjectName("small")
         self.back.setToolTip(tr(RESET_TIP))
@@ -220,7 +234,7 @@ class MisalignPanel:
         words = tr("nothing is off") if not count else tr("{count} numbers are off", count=count)
         if count == 1:
             kind, first, _, amount = shown.errors[0]
-            value = f"{signed(amount, DIGITS.get(kind, 3))}{UNITS.get(kind, '')}"
+            value = f"{signed(amount, DIGITS.get(kind, 3))}{_unit(kind)}"
             words = f"{tr(WORDS[kind], surface=first)} {value}"
         return f"{words} · {tr('on top of the tilts of its file')}" if shown.file_tilted else words
 

@@ -49,8 +49,9 @@ from p2sf_explorer.workers.worker import LatestWins
 
 SENSOR_TILTS: tuple[Kind, ...] = ("tilt_x", "tilt_y")
 TIP = (
-    "Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within "
-    "its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew."
+    "Tolerances: every radius, thickness, glass, tilt, decentre and irregularity is off by what a workshop leaves, "
+    "anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each "
+    "is focused anew."
 )
 GRADE_TIP = "What workshops offer under this name; ± values below are typed over."
 CRITERION_TIP = "What a lens is judged by, in the worst of three fields: axis, seven tenths and edge."

@@ -3,7 +3,7 @@
 from math import isfinite
 
 from p2sf.errors import P2SFError
-from p2sf.tolerance.errors_of_build import UNITS, Kind
+from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, UNITS, Kind
 
 BuildError = tuple[Kind, int, int, float]
 """Kind, as `p2sf.tolerance.Tolerance` has it, first and last surface from 1, and amount in the unit of the kind.
@@ -21,6 +21,7 @@ LARGEST: dict[Kind, float] = {
     "radius": 99.0,
     "thickness": 1000.0,
     "index": 1.0,
+    **dict.fromkeys(IRREGULAR, 1000.0),
 }
 
 
@@ -73,11 +74,11 @@ def with_error(errors: BuildErrors, kind: Kind, piece: tuple[int, int], amount: 
 
 
 def without_piece(errors: BuildErrors, piece: tuple[int, int]) -> BuildErrors:
-    """Return the errors without those of a piece, nor of the radii, thicknesses and glasses in it."""
+    """Return the errors without those of a piece, nor of the surfaces, thicknesses and glasses in it."""
     first, last = piece
 
     def of_it(kind: Kind, low: int, high: int) -> bool:
-        return (low, high) == piece or (kind in ("radius", "thickness", "index") and first <= low and high <= last)
+        return (low, high) == piece or (kind not in MOVES and first <= low and high <= last)
 
     return tuple(one for one in errors if not of_it(*one[:3]))
 

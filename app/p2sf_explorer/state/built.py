@@ -1,4 +1,4 @@
-"""The lens with the errors of its build: pieces tilted and decentred, radii, thicknesses, indices off. No Qt."""
+"""The lens with the errors of its build: pieces tilted and decentred, surfaces, thicknesses, indices off. No Qt."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -8,7 +8,7 @@ from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.bending import elements
-from p2sf.tolerance.errors_of_build import MOVES, Kind, Tolerance, build
+from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Kind, Tolerance, build, works
 from p2sf_explorer.state.build_errors import BuildErrors
 
 STEEPEST_DEG = 60.0  # to which an exaggerated drawing tilts
@@ -86,9 +86,8 @@ def _elements(lens: Lens) -> tuple[tuple[int, int], ...]:
     """Return the elements, and of the other surfaces those that refract or reflect by themselves."""
     spans = list(elements(lens))
     inside = {number for first, last in spans for number in range(first, last + 1)}
-    for number, surface in enumerate(lens.surfaces, 1):
-        works = not surface.bare or surface.medium != lens.media[number - 1]
-        if works and number not in inside:
+    for number in range(1, len(lens.surfaces) + 1):
+        if works(lens, number) and number not in inside:
             spans.append((number, number))
     return tuple(sorted(spans))
 
@@ -129,6 +128,7 @@ REACH: dict[Kind, float] = {
     "radius": 2.0,
     "thickness": 0.5,
     "index": 0.005,
+    **dict.fromkeys(IRREGULAR, 5.0),
 }
 """To which the sliders go, in the units of the kinds: some times what a careless workshop leaves."""
 SENSOR_REACH_DEG = 10.0  # a sensor is tilted on purpose, too
@@ -136,7 +136,7 @@ SENSOR_REACH_DEG = 10.0  # a sensor is tilted on purpose, too
 
 @lru_cache(maxsize=64)
 def adjustments(lens: Lens, span: tuple[int, int]) -> tuple[Adjustment, ...]:
-    """Return what of a piece may be off: its place as a whole, then radii, thicknesses and glasses of its surfaces."""
+    """Return what of a piece may be off: its place as a whole, then its radii, thicknesses, glasses and surfaces."""
     count = len(lens.surfaces)
     if span[0] > count:
         return tuple(Adjustment(kind, span, SENSOR_REACH_DEG) for kind in ("tilt_x", "tilt_y"))
@@ -149,4 +149,6 @@ def adjustments(lens: Lens, span: tuple[int, int]) -> tuple[Adjustment, ...]:
             found.append(Adjustment("thickness", one, REACH["thickness"]))
         if not surface.reflects and surface.medium != AIR and number < count:
             found.append(Adjustment("index", one, REACH["index"]))
+        if works(lens, number) and not surface.ideal:
+            found += [Adjustment(kind, one, REACH[kind]) for kind in IRREGULAR]
     return tuple(found)

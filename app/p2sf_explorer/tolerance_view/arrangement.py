@@ -4,9 +4,10 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QWidget
 
-from p2sf.tolerance.errors_of_build import UNITS, Kind
+from p2sf.tolerance.errors_of_build import IRREGULAR, Kind
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.tolerance_view.tables import unit_words
 
 # What one value of a grade is for: name and kinds.
 OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
@@ -15,6 +16,7 @@ OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
     ("radius", ("radius",)),
     ("thickness", ("thickness",)),
     ("refractive index", ("index",)),
+    ("irregularity", IRREGULAR),
 )
 # Pixels at scale 1: from where parts stand side by side, below which errors are alone, and the least size.
 WIDE, LOW, LEAST = 720, 320, (120, 90)
@@ -30,7 +32,7 @@ class KindRow(QWidget):
         self._grid.setSpacing(4)
         self._parts: list[QWidget] = []
         for (name, kinds), box in zip(OF_KINDS, boxes.values(), strict=True):
-            unit = UNITS[kinds[0]]
+            unit = unit_words(kinds[0])
             box.setPrefix("± ")
             box.setSuffix(f" {unit}" if unit not in ("", "°") else unit)
             part, label = QWidget(), QLabel(tr(name))

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
 
 from p2sf.errors import P2SFError
 from p2sf.tolerance import Tolerance
-from p2sf.tolerance.errors_of_build import UNITS, Kind
+from p2sf.tolerance.errors_of_build import IRREGULAR, UNITS, Kind
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import read_number, significant
@@ -31,6 +31,8 @@ ERROR_WORDS: dict[Kind, str] = {
     "radius": "radius, surface {where}",
     "thickness": "thickness behind surface {where}",
     "index": "index behind surface {where}",
+    "irregularity": "irregularity, surface {where}",
+    "irregularity_45": "irregularity at 45°, surface {where}",
 }
 
 
@@ -38,6 +40,11 @@ def error_words(one: Tolerance) -> str:
     """Return how an error is named."""
     first, last = one.piece
     return tr(ERROR_WORDS[one.kind], where=str(first) if first == last else f"{first}–{last}")
+
+
+def unit_words(kind: Kind) -> str:
+    """Return the unit of a kind, as the window writes it."""
+    return tr("fr.") if kind in IRREGULAR else UNITS[kind]
 
 
 class _Table(QTableWidget):
@@ -137,7 +144,7 @@ class ErrorTable(_Table):
     def _on_typed(self, item: QTableWidgetItem) -> None:
         one = self._rows[item.row()]
         try:
-            unit = UNITS[one.kind]
+            unit = unit_words(one.kind)
             value = read_number(item.text(), "tolerance", {"": 1.0, unit: 1.0})
         except P2SFError:
             value = -1.0
@@ -149,7 +156,7 @@ class ErrorTable(_Table):
 
 
 def _written_amount(one: Tolerance) -> str:
-    unit = UNITS[one.kind]
+    unit = unit_words(one.kind)
     return f"{one.amount:g}{unit}" if unit in ("", "°") else f"{one.amount:g} {unit}"
 
 

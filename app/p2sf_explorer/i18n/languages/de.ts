@@ -303,6 +303,10 @@
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>Inspect</source><translation>Prüfen</translation></message>
 <message><source>Install</source><translation>Installieren</translation></message>
+<message><source>Irregularity at 45°: the same, raised where x and y are of one sign. Both together are a cylinder in any direction.</source><translation>Passfehler unter 45°: dasselbe, gehoben, wo x und y von einem Vorzeichen sind. Beide zusammen sind ein Zylinder in beliebiger Richtung.</translation></message>
+<message><source>Irregularity {surface}</source><translation>Passfehler {surface}</translation></message>
+<message><source>Irregularity {surface}, 45°</source><translation>Passfehler {surface}, 45°</translation></message>
+<message><source>Irregularity: a cylinder ground into this surface, in fringes (fr.) of 273 nm from the highest to the lowest points of its clear rim. A positive one raises it towards +z along y.</source><translation>Passfehler: ein Zylinder in dieser Fläche, in Ringen von 273 nm zwischen den höchsten und tiefsten Punkten am freien Rand. Ein positiver hebt sie entlang y in Richtung +z.</translation></message>
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Its primary is 2.2 µm too flat at the edge: spherical aberration of half a wave RMS in blue</source><translation>Sein Hauptspiegel ist am Rand 2,2 µm zu flach: sphärische Aberration von einer halben Welle RMS im Blauen</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
@@ -390,9 +394,9 @@
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
 <message><source>Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, narrows the core and feeds the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
 <message><source>Of the clear stop: builds have no part of the mask in it.</source><translation>Von der freien Blende: die Maske in ihr geht in gebaute Objektive nicht ein.</translation></message>
-<message><source>Of the lens set straight: its tilts and decentres have no part in these sums.</source><translation>Vom gerade gestellten Objektiv: seine Kippungen und Dezentrierungen gehen in diese Summen nicht ein.</translation></message>
-<message><source>Of the lens set straight: paraxial rays know no tilts and decentres.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen und Dezentrierungen.</translation></message>
-<message><source>Of the lens set straight: six coefficients know no tilts and decentres.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen und Dezentrierungen.</translation></message>
+<message><source>Of the lens set straight: its tilts, decentres and irregularities have no part in these sums.</source><translation>Vom gerade gestellten Objektiv: seine Kippungen, Dezentrierungen und Passfehler gehen in diese Summen nicht ein.</translation></message>
+<message><source>Of the lens set straight: paraxial rays know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Of the lens set straight: six coefficients know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
 <message><source>Of the whole field, the same at every point.</source><translation>Des ganzen Feldes, an jedem Punkt gleich.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Abstand von der Achse.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the square of the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Quadrat des Abstands von der Achse.</translation></message>
@@ -588,7 +592,7 @@
 <message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
 <message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens, where something stands in the stop of the same pupil, and thin of the clear one. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse, mit etwas in der Blende die derselben Pupille, und dünn die der freien. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
-<message><source>Seidel is of the lens set straight; the other methods know its tilts and decentres.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen und Dezentrierungen.</translation></message>
+<message><source>Seidel is of the lens set straight; the other methods know its tilts, decentres and irregularities.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen, Dezentrierungen und Passfehler.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>Sensor</source><translation>Sensor</translation></message>
@@ -618,7 +622,7 @@
 <message><source>Show the window as it was; Ctrl+Z comes back to this one</source><translation>Das Fenster zeigen, wie es war; Strg+Z kehrt zu diesem zurück</translation></message>
 <message><source>Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back</source><translation>Die angepasste Pupille dieses Punktes im Fenster zeigen, als freie Pupille; Rückgängig holt das Objektiv zurück</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
-<message><source>Six coefficients are those of the lens set straight, without its tilts and decentres; choose auto, fitted or traced to see what these do.</source><translation>Die sechs Koeffizienten sind die des gerade gestellten Objektivs, ohne seine Kippungen und Dezentrierungen; auto, fitted oder traced wählen, um zu sehen, was diese tun.</translation></message>
+<message><source>Six coefficients are those of the lens set straight, without its tilts, decentres and irregularities; choose auto, fitted or traced to see what these do.</source><translation>Die sechs Koeffizienten sind die des gerade gestellten Objektivs, ohne seine Kippungen, Dezentrierungen und Passfehler; auto, fitted oder traced wählen, um zu sehen, was diese tun.</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
 <message><source>Smaller type</source><translation>Kleinere Schrift</translation></message>
 <message><source>Snapshot</source><translation>Sichern</translation></message>
@@ -762,7 +766,7 @@
 <message><source>Tolerance of all errors of this kind</source><translation>Toleranz aller Fehler dieser Art</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerances</source><translation>Toleranzen</translation></message>
-<message><source>Tolerances: every radius, thickness, glass, tilt and decentre is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Verkippung und Dezentrierung weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
+<message><source>Tolerances: every radius, thickness, glass, tilt, decentre and irregularity is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Verkippung, jede Dezentrierung und jeder Passfehler weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
 <message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
@@ -1192,6 +1196,7 @@
 <message><source>formula number</source><translation>Formelnummer</translation></message>
 <message><source>formula {formula} of {name} gives no real index there; check its coefficients</source><translation>Formel {formula} von {name} ergibt dort keinen reellen Index; ihre Koeffizienten prüfen</translation></message>
 <message><source>found</source><translation>gefunden</translation></message>
+<message><source>fr.</source><translation>Ringe</translation></message>
 <message><source>free pupil</source><translation>freie Pupille</translation></message>
 <message><source>free some space or choose another disk</source><translation>Platz schaffen oder einen anderen Datenträger wählen</translation></message>
 <message><source>frequency on the sensor, 1/mm</source><translation>Ortsfrequenz auf dem Sensor, 1/mm</translation></message>
@@ -1249,6 +1254,9 @@
 <message><source>inner radius</source><translation>Innenradius</translation></message>
 <message><source>interpolant "{interpolant}" is unknown; choose {interpolants}</source><translation>die Interpolation "{interpolant}" ist unbekannt; {interpolants} wählen</translation></message>
 <message><source>ipywidgets is not installed; run pip install 'p2sf[notebook]'</source><translation>ipywidgets ist nicht installiert; pip install 'p2sf[notebook]' ausführen</translation></message>
+<message><source>irregularity</source><translation>Passfehler</translation></message>
+<message><source>irregularity at 45°, surface {where}</source><translation>Passfehler unter 45°, Fläche {where}</translation></message>
+<message><source>irregularity, surface {where}</source><translation>Passfehler, Fläche {where}</translation></message>
 <message><source>is a Fresnel surface</source><translation>ist eine Fresnel-Fläche</translation></message>
 <message><source>is a lens module that hides its surfaces</source><translation>ist ein Linsenmodul, das seine Flächen verbirgt</translation></message>
 <message><source>is an ideal lens without a prescription</source><translation>ist eine ideale Linse ohne Konstruktionsdaten</translation></message>
@@ -1415,7 +1423,7 @@
 <message><source>partial dispersion</source><translation>Teildispersion</translation></message>
 <message><source>parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop</source><translation>Teile des Objektivs sind gekippt oder dezentriert, und seine Pupille ist keine paraxiale Scheibe; {parameter} stop wählen</translation></message>
 <message><source>parts of the lens are tilted or decentred, which {what} cannot say; save as TOML, or for Zemax at one position</source><translation>Teile des Objektivs sind gekippt oder dezentriert, was {what} nicht sagen kann; als TOML speichern oder für Zemax in einer Stellung</translation></message>
-<message><source>parts of the lens are tilted or decentred; all paraxial figures and the six coefficients are those of the lens set straight, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt oder dezentriert; alle paraxialen Werte und die sechs Koeffizienten sind die des gerade gestellten Objektivs und lassen aus, was das hinzufügt: Koma auf der Achse, ein gekipptes Feld</translation></message>
+<message><source>parts of the lens are tilted, decentred or irregular; all paraxial figures and the six coefficients are those of the lens set straight, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt, dezentriert oder haben Passfehler; alle paraxialen Werte und die sechs Koeffizienten sind die des gerade gestellten Objektivs und lassen aus, was das hinzufügt: Koma auf der Achse, ein gekipptes Feld</translation></message>
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
@@ -1618,10 +1626,11 @@
 <message><source>surface {surface} is a mirror, which has no index to be off</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
 <message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
 <message><source>surface {surface} is an ideal lens, which a CODE V file cannot say; save as TOML</source><translation>Fläche {surface} ist eine ideale Linse, die eine CODE-V-Datei nicht fasst; als TOML speichern</translation></message>
+<message><source>surface {surface} is irregular, which a file that ends in {ending} cannot say; save as TOML</source><translation>Fläche {surface} hat einen Passfehler, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
-<message><source>surface {surface} is tilted or decentred, and {what} knows rotational symmetry only; {remedy}</source><translation>Fläche {surface} ist gekippt oder dezentriert, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
+<message><source>surface {surface} is tilted, decentred or irregular, and {what} knows rotational symmetry only; {remedy}</source><translation>Fläche {surface} ist gekippt, dezentriert oder hat einen Passfehler, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
@@ -1634,6 +1643,7 @@
 <message><source>surface {surface}: inner radius {inner} mm; give a number from 0 to below the semi-diameter</source><translation>Fläche {surface}: innerer Radius {inner} mm; eine Zahl von 0 bis unter den halben Durchmesser angeben</translation></message>
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
 <message><source>surface {surface}: ior is no table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
+<message><source>surface {surface}: irregularity of {fringes:g} and {more:g} fringes over a radius of {radius:g} mm; give finite numbers, and a positive radius</source><translation>Fläche {surface}: ein Passfehler von {fringes:g} und {more:g} Ringen über einen Radius von {radius:g} mm; endliche Zahlen und einen positiven Radius angeben</translation></message>
 <message><source>surface {surface}: its rim has the centre ({centre:g}) mm and the half-widths {widths}; give finite numbers, and positive widths</source><translation>Fläche {surface}: ihr Rand hat die Mitte ({centre:g}) mm und die halben Breiten {widths}; endliche Zahlen und positive Breiten angeben</translation></message>
 <message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
@@ -2233,7 +2243,7 @@
 <message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
 <message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
-<message><source>{sampling}; the lens set straight, without its tilts and decentres</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen und Dezentrierungen</translation></message>
+<message><source>{sampling}; the lens set straight, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
 <message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{share} % ± {error} % keep {limit}</source><translation>{share} % ± {error} % halten {limit}</translation></message>
