@@ -1,6 +1,6 @@
-"""What ``import p2sf`` offers: each function finds the modules that do the work when it is first called.
+"""The functions of ``import p2sf``; each imports the modules that it needs when it is first called.
 
-Degrees and nanometres are taken here, slopes and micrometres inside (`p2sf.conventions`).
+These functions take degrees and nanometres; inside, slopes and micrometres are used (`p2sf.conventions`).
 """
 
 import os
@@ -48,7 +48,7 @@ def load_lens(name_or_path: Path) -> Lens:
     ----------
     name_or_path : str or path
         The name of a shipped lens, such as "double_gauss_28" (``p2sf lenses`` lists them), or a file of P2SF (TOML),
-        Zemax, CODE V, OSLO, ray-optics, ISET, the Optical Bench, or a CSV table; the content says which.
+        Zemax, CODE V, OSLO, ray-optics, ISET or the Optical Bench, or a CSV table; the content decides which.
 
     Returns
     -------
@@ -58,8 +58,8 @@ def load_lens(name_or_path: Path) -> Lens:
     Raises
     ------
     LensFileError
-        For a name that is neither shipped nor a file, for a file that cannot be read, and for a glass that no catalogue
-        has; says which line.
+        If the name is neither a shipped lens nor a file, if the file cannot be read, or if no catalogue has one of its
+        glasses; the message names the line.
 
     Examples
     --------
@@ -96,33 +96,34 @@ def render(
     lens : Lens
         The lens, see `load_lens`.
     source : Source
-        The point source; at infinity on the axis when not given.
+        The point source; by default at infinity, on the axis.
     method : {"auto", "seidel", "fitted", "traced", "huygens", "gaussian"}
-        How it is computed; "auto" takes the cheapest method whose predicted R² is at least ``tolerance``.
+        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``tolerance``.
     pixels : int
         Samples along each side.
     pixel_um : float, optional
-        Distance between samples, µm; one that shows the whole PSF when not given.
+        Distance between samples, µm; by default one that shows the whole PSF.
     quality : {"settled", "preview"}
-        Converged (relative L2 error of the sum at most 1e-4), or quick.
+        Converged (relative L2 error of the sum at most 1e-4), or fast.
     tolerance : float
-        Least R² against the exact reference that "auto" accepts.
+        Smallest R² against the exact reference that "auto" accepts.
     clip : bool
-        Stop rays at every clear semi-diameter, not at the aperture stop alone.
+        Stop rays at every clear semi-diameter, not only at the aperture stop.
     focus_mm : float, optional
-        Put the sensor at the paraxial image of this distance, mm; inf is allowed. As in the lens when not given.
+        Focus on the plane this far in front of the first vertex, mm; inf is allowed. By default the sensor stays where
+        the lens has it.
     sensor_shift_um : float
-        Move the sensor on top of that, µm, away from the lens.
+        Then move the sensor by this much away from the lens, µm.
     f_number : float, optional
-        Focal length over entrance-pupil diameter, instead of the lens's aperture.
+        Focal length over entrance-pupil diameter, in place of the lens's aperture.
     stop : {"file", "auto"}
         The stop that the lens names, or the narrowest rim at this depth.
     aim : {"stop", "paraxial"}, optional
-        Fill the real stop with exact rays, or the paraxial entrance pupil; as the lens says (``Lens.aim``) when not
-        given. "real" is the former name of "stop".
+        Whether exact rays fill the real stop or the paraxial entrance pupil; by default as the lens says
+        (``Lens.aim``). "real" is the former name of "stop".
     threads : int, optional
-        How many threads share a sum of many rays; the result is the same on any number. As the environment variable
-        P2SF_THREADS says, or as many as there are cores, when not given.
+        Number of threads for a sum of many rays; the result does not depend on it. By default the environment
+        variable P2SF_THREADS, or else the number of cores.
 
     Returns
     -------
@@ -132,13 +133,13 @@ def render(
     Raises
     ------
     RequestError
-        For a value that cannot be.
+        If a value is invalid.
     GeometryError
-        Where this lens forms no image of this source.
+        If the lens forms no image of this source.
     GlassError
-        For a wavelength outside the data of a glass.
+        If the wavelength is outside the data of a glass.
     SamplingError
-        For a grid that cannot carry the PSF.
+        If the grid is too coarse or too large for the PSF.
 
     Examples
     --------
@@ -215,7 +216,7 @@ def zernike(
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
 ) -> "ZernikeFit":
-    """Decompose the exact wavefront of one source into Zernike terms, orthogonal over the pupil in force.
+    """Decompose the exact wavefront of one source into Zernike terms, orthogonal over the open part of the pupil.
 
     Parameters
     ----------
@@ -224,15 +225,15 @@ def zernike(
     basis : {"noll", "fringe"}
         Noll's order with waves RMS, or the Fringe order of 37 terms with peak waves.
     terms : int
-        How many terms, from the first.
+        Number of terms, from the first.
     clip : bool
-        Stop rays at every clear semi-diameter; the terms are then made orthogonal over what is left of the pupil.
+        Stop rays at every clear semi-diameter; the terms are then orthogonal over what remains of the pupil.
 
     Returns
     -------
     ZernikeFit
-        Per term its coefficient in waves and its share of the variance without piston and tilt; RMS and residual. The
-        wavefront is (optical path of the chief ray − that of the ray)/λ on the sphere about the chief ray's sensor
+        For each term its coefficient in waves and its share of the variance without piston and tilt; RMS and residual.
+        The wavefront is (optical path of the chief ray − that of the ray)/λ on the sphere about the chief ray's sensor
         point.
 
     Raises
@@ -286,11 +287,11 @@ def choose_method(
     Raises
     ------
     RequestError
-        For a value that cannot be, and for a tolerance that is not below 1.
+        If a value is invalid, such as a tolerance that is not below 1.
     GeometryError
-        Where this lens forms no image of this source, or the chief ray does not reach the sensor.
+        If the lens forms no image of this source, or the chief ray does not reach the sensor.
     GlassError
-        For a wavelength outside the data of a glass.
+        If the wavelength is outside the data of a glass.
 
     Examples
     --------
@@ -321,34 +322,34 @@ def mtf(
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
 ) -> "Mtf":
-    """Compute the modulation transfer function from the pupil: of all light, without a window.
+    """Compute the modulation transfer function from the pupil, so that it includes all light and needs no window.
 
     Parameters
     ----------
     lens, source, clip, focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`.
     method : {"traced", "huygens", "fitted", "seidel", "auto"}
-        What describes the pupil: exact rays ("traced" and "huygens" are one here), a fit, the six coefficients, or what
-        `choose_method` chooses.
+        What describes the pupil: exact rays ("traced" and "huygens" are the same here), a fit, the six coefficients,
+        or what `choose_method` chooses.
     frequency_per_mm : array_like, optional
-        Cycles per mm on the sensor, (n,); even ones up to the cut-off when not given.
+        Cycles per mm on the sensor, (n,); by default evenly spaced up to the cut-off.
     spectrum : str, optional
-        Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
-        lateral colour; of the source's own wavelength when not given.
+        A spectrum ("d65", "a", "e", "planck:4300", "lines:486,656"), whose wavelengths are weighted as the eye does,
+        with lateral colour. By default only the wavelength of the source.
     turn_deg : float
-        By how much the axis of the tangential patterns is turned from the field's direction, degrees from +y to +x.
+        Angle of the tangential patterns to the direction of the field, degrees from +y to +x.
 
     Returns
     -------
     Mtf
-        Contrast tangential and sagittal, and that of the same pupil without aberration, which nothing exceeds.
+        Tangential and sagittal contrast, and that of the same pupil without aberration, which they never exceed.
 
     Raises
     ------
     RequestError, GeometryError, GlassError
-        As for `render`; GeometryError also where rays of different parts of the pupil arrive in one direction.
+        As for `render`; GeometryError also if rays from different parts of the pupil arrive in the same direction.
     SamplingError
-        For a blur too large to be summed.
+        If the blur is too large to be summed.
 
     Examples
     --------
@@ -380,32 +381,32 @@ def encircled_energy(
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
 ) -> "Energy":
-    """Compute the share of all light within radii of its centroid, from the pupil.
+    """Compute from the pupil which share of all light lies within a radius of the centroid.
 
     Parameters
     ----------
     lens, source, clip, focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`.
     method : {"traced", "huygens", "fitted", "seidel", "auto"}
-        What describes the pupil: exact rays ("traced" and "huygens" are one here), a fit, the six coefficients, or what
-        `choose_method` chooses.
+        What describes the pupil: exact rays ("traced" and "huygens" are the same here), a fit, the six coefficients,
+        or what `choose_method` chooses.
     radius_um : array_like, optional
-        Radii, µm, (n,); even ones from 0 to beyond the blur when not given.
+        Radii, µm, (n,); by default evenly spaced from 0 to beyond the blur.
     spectrum : str, optional
-        Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
-        lateral colour; of the source's own wavelength when not given.
+        A spectrum ("d65", "a", "e", "planck:4300", "lines:486,656"), whose wavelengths are weighted as the eye does,
+        with lateral colour. By default only the wavelength of the source.
 
     Returns
     -------
     Energy
-        Shares within the radii, the radii of half and of 80 % of all light, and the RMS distance of rays, µm.
+        The share within each radius; the radii of 50 % and 80 % of all light and the RMS distance of the rays, µm.
 
     Raises
     ------
     RequestError, GeometryError, GlassError
-        As for `render`; GeometryError also where rays of different parts of the pupil arrive in one direction.
+        As for `render`; GeometryError also if rays from different parts of the pupil arrive in the same direction.
     SamplingError
-        For a blur too large to be summed.
+        If the blur is too large to be summed.
 
     Examples
     --------
@@ -436,32 +437,32 @@ def line_spread(
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
 ) -> "LineSpread":
-    """Compute the images of a line and of an edge from the pupil: line and edge spread functions.
+    """Compute the line and edge spread functions, the images of a line and of an edge, from the pupil.
 
     Parameters
     ----------
     lens, source, clip, focus_mm, sensor_shift_um, f_number, stop, aim
         As for `render`.
     method : {"traced", "huygens", "fitted", "seidel", "auto"}
-        What describes the pupil: exact rays ("traced" and "huygens" are one here), a fit, the six coefficients, or what
-        `choose_method` chooses.
+        What describes the pupil: exact rays ("traced" and "huygens" are the same here), a fit, the six coefficients,
+        or what `choose_method` chooses.
     position_um : array_like, optional
-        Distances from the centroid, µm, (n,); even ones that show the blur when not given.
+        Distances from the centroid, µm, (n,); by default evenly spaced over the blur.
     spectrum : str, optional
-        Of all wavelengths of a spectrum ("d65", "a", "e", "planck:4300", "lines:486,656") as the eye weighs them, with
-        lateral colour; of the source's own wavelength when not given.
+        A spectrum ("d65", "a", "e", "planck:4300", "lines:486,656"), whose wavelengths are weighted as the eye does,
+        with lateral colour. By default only the wavelength of the source.
 
     Returns
     -------
     LineSpread
-        Light per µm of lines along y and along x, and the share of edges that are dark below 0.
+        Light per µm across a line along y and a line along x, and the share of light across edges dark below 0.
 
     Raises
     ------
     RequestError, GeometryError, GlassError
-        As for `render`; GeometryError also where rays of different parts of the pupil arrive in one direction.
+        As for `render`; GeometryError also if rays from different parts of the pupil arrive in the same direction.
     SamplingError
-        For a blur too large to be summed.
+        If the blur is too large to be summed.
 
     Examples
     --------
@@ -497,7 +498,7 @@ def _pupil_parts(
 
 
 class TradeoffTable(list["MethodCost"]):
-    """What `tradeoff` measured: a list of rows that prints as a table."""
+    """Result of `tradeoff`: a list of rows that prints as a table."""
 
     def __repr__(self) -> str:
         lines = self._cells()
@@ -525,22 +526,22 @@ def tradeoff(
     pixel_um: float | None = None,
     aim: AimChoice | None = None,
 ) -> TradeoffTable:
-    """Measure what each method costs in time and in error against the settled Huygens sum of exact rays.
+    """Measure the time of each method and its error against the settled Huygens sum of exact rays.
 
     Parameters
     ----------
     lens : Lens
         The lens, see `load_lens`.
     fields_deg, wavelengths_nm : sequence of float, optional
-        Field angles, degrees, and wavelengths, nm; the fields and the middle wavelength of the lens if not given.
+        Field angles, degrees, and wavelengths, nm; by default the fields and the middle wavelength of the lens.
     depths_mm : sequence of float
         Object distances from the first vertex, mm.
     methods : str or sequence of str
-        Which methods are measured, or which one.
+        One method, or several.
     pixels : int
         Samples along each side of the compared window.
     pixel_um : float, optional
-        Their distance, µm; one that shows the whole PSF when not given.
+        Distance between samples, µm; by default one that shows the whole PSF.
     aim : {"stop", "paraxial"}, optional
         As for `render`.
 
@@ -589,7 +590,7 @@ def build_database(
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
 ) -> "Stored":
-    """Describe every PSF of a lens in a box of depth, field and wavelength by a few numbers.
+    """Describe all PSFs of a lens within a range of depths, fields and wavelengths by a few numbers.
 
     Parameters
     ----------
@@ -597,33 +598,33 @@ def build_database(
         The lens, see `load_lens`.
     depths_mm, fields_deg, wavelengths_nm : array_like
         Nodes along each axis, ascending: object distances from the first vertex, mm, of which the last may be inf;
-        field angles, degrees; wavelengths, nm. What lies between the outermost nodes is covered.
+        field angles, degrees; wavelengths, nm. The database covers everything between the outermost nodes.
     method : {"seidel", "fitted"}
-        The method whose numbers are kept.
+        The method whose numbers are stored.
     interpolant : {"exact", "table1", "linear"}
-        For "seidel": polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or straight lines.
+        For "seidel": polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or linear interpolation.
     fields_x_deg : array_like, optional
         For "fitted": angles along x, degrees, ascending, where ``fields_deg`` are those along y. A lens with tilts or
         decentres needs them, since its PSFs depend on both.
     path : str or path, optional
-        Where the database is written as well, a file that ends in .npz.
+        A .npz file to which the database is also written.
     focus_mm, sensor_shift_um, f_number, stop, aim
-        As for `render`; a stop that is "auto" is that of an object at infinity.
+        As for `render`; the stop "auto" is that for an object at infinity.
 
     Returns
     -------
     Stored
-        ``.psf(source)`` and ``.coefficients(source)`` look sources up; ``.meta`` says what the numbers come from and
+        ``.psf(source)`` and ``.coefficients(source)`` look up a source. ``.meta`` says where the numbers come from, and
         ``.meta["errors_waves"]`` how exact they are.
 
     Raises
     ------
     DatabaseError
-        For nodes that are no axis, and for glass data that no series follows.
+        If nodes are not ascending, or if the data of a glass cannot be interpolated.
     RequestError, GeometryError, GlassError
         As for `render`.
     ExportError
-        For a name that does not end in .npz, and for a place that cannot be written.
+        If the name does not end in .npz, or if the file cannot be written.
 
     Examples
     --------
@@ -699,7 +700,7 @@ def _check_database_path(path: Path) -> None:
 
 
 def open_database(path: Path) -> "Stored":
-    """Open a PSF database, a .npz file or a stack that `build_database` or ``p2sf database build`` wrote.
+    """Open a PSF database: a .npz file or a stack written by `build_database` or ``p2sf database build``.
 
     Parameters
     ----------
@@ -709,12 +710,12 @@ def open_database(path: Path) -> "Stored":
     Returns
     -------
     Stored
-        ``.psf(source)`` and ``.coefficients(source)`` look sources up, ``.meta`` says what the numbers come from.
+        ``.psf(source)`` and ``.coefficients(source)`` look up a source; ``.meta`` says where the numbers come from.
 
     Raises
     ------
     DatabaseError
-        For a file that is missing, foreign, cut short, damaged or of a newer version.
+        If the file is missing, damaged, cut short, of another kind or of a newer version.
 
     Examples
     --------
@@ -727,29 +728,29 @@ def open_database(path: Path) -> "Stored":
 
 
 def plan(lens: Lens, scene: "Scene | Path", check: Callable[[], None] | None = None) -> "Plan":
-    """Find the cheapest model of a lens that keeps the tolerance of a scene.
+    """Find the cheapest model of a lens that stays within the tolerance of a scene.
 
     Parameters
     ----------
     lens : Lens
         The lens, see `load_lens`.
     scene : Scene or path
-        Sensor, depths, colours and tolerance, or a TOML file of them (``p2sf plan --help``).
+        Sensor, depths, colours and tolerance, or a TOML file that states them (``p2sf plan --help``).
     check : callable, optional
-        Called now and then; what it raises stops the work.
+        Called repeatedly during the work; an exception that it raises stops the work.
 
     Returns
     -------
     Plan
-        What `form_image` needs; ``.decisions`` says what was decided and why, ``.predicted_error`` the relative error,
-        ``.meets`` whether that is within the tolerance.
+        The plan, for `form_image`. ``.decisions`` says what was decided and why, ``.predicted_error`` is the relative
+        error, and ``.meets`` says whether it is within the tolerance.
 
     Raises
     ------
     RequestError
-        For a scene that cannot be.
+        If the scene is invalid.
     GeometryError, GlassError
-        Where the lens cannot form the image of the scene.
+        If the lens cannot form the image of the scene.
 
     Examples
     --------
@@ -774,20 +775,20 @@ def form_image(
     surround: Literal["edge", "black"] = "edge",
     threads: int | None = None,
 ) -> np.ndarray:
-    """Form the picture that the sensor receives through the lens: distortion, illumination, blur, pixels.
+    """Form the picture that the sensor receives through the lens, with distortion, illumination, blur and pixels.
 
     Parameters
     ----------
     planned : Plan
         What `plan` found for the lens and the scene.
     values : array_like
-        The picture without the lens, linear light, shape (rows, columns, channels) of the scene's sensor and colours.
+        The scene in linear light, shape (rows, columns, channels) as the scene's sensor and colours say.
     depth_mm : array_like, optional
-        Depth of every pixel, mm, shape (rows, columns); the far end of the scene when not given.
+        Depth of every pixel, mm, shape (rows, columns); by default the far end of the scene.
     method : {"patches", "lowrank"}
-        By patches that overlap, or by few kernels for the whole picture.
+        With overlapping patches, or with a few kernels for the whole picture.
     surround : {"edge", "black"}
-        What is beyond the picture: its last pixels, or nothing.
+        What surrounds the picture: its outermost pixels repeated, or darkness.
     threads : int, optional
         As for `render`.
 
@@ -799,7 +800,7 @@ def form_image(
     Raises
     ------
     RequestError
-        For shapes that do not fit the scene, and for values that are not finite.
+        If shapes do not fit the scene, or values are not finite.
 
     Examples
     --------

@@ -4,7 +4,7 @@ from p2sf.messages import Message, ParameterName
 
 
 class P2SFError(ValueError):
-    """Any failure that a user's input can cause.
+    """Any failure caused by what a user put in.
 
     ``P2SFError("{parameter} is {value:g} mm; give a positive number", parameter="depth_mm", value=-1)``: ``message`` is
     the sentence as data (`p2sf.messages`), ``str`` of the error is it in plain English. ``parameter`` is the Python
@@ -21,11 +21,11 @@ class P2SFError(ValueError):
 
 
 class GlassError(P2SFError):
-    """A glass that nobody sells, that several makers sell, or a wavelength outside its data."""
+    """A glass that is unknown or ambiguous, or a wavelength outside its data."""
 
 
 class GeometryError(P2SFError):
-    """A lens, stop, object or field for which the asked quantity does not exist."""
+    """A lens, stop, object or field for which the requested quantity does not exist."""
 
 
 class SamplingError(P2SFError):
@@ -33,7 +33,7 @@ class SamplingError(P2SFError):
 
 
 class RequestError(P2SFError):
-    """A setup, as a user states it, that cannot be."""
+    """An invalid setting."""
 
 
 class ExportError(P2SFError):
@@ -41,7 +41,7 @@ class ExportError(P2SFError):
 
 
 class Cancelled(P2SFError):
-    """A long computation that its caller stopped."""
+    """A long computation was stopped by its caller."""
 
 
 class LensFileError(P2SFError):

@@ -140,30 +140,30 @@ class Lens:
     aperture : Aperture
         How wide the lens is open.
     stop_surface : int, optional
-        The surface that is the aperture stop, from 1; the narrowest rim for an object at infinity if not given.
+        Number of the aperture stop, from 1; by default the narrowest rim for an object at infinity.
     name, title, source, comment : str
         A short name, a title, where the numbers come from, and anything else.
     character : str
-        What a list of lenses says about this one, in a line.
+        One line about the lens, for lists of lenses.
     fields_deg, wavelengths_nm : tuple of float
-        Field angles, degrees, and wavelengths, nm, that the lens is meant for; the middle wavelength is its reference.
+        Field angles, degrees, and wavelengths, nm, for which the lens is meant; the middle wavelength is its reference.
     object_medium : Medium
-        What the object stands in.
+        The medium of object space.
     aim : str
         How exact rays fill the pupil: "stop", evenly up to the rim of the real stop; "paraxial", evenly over the
         paraxial entrance pupil.
     mask : PupilMask
-        What stands in the stop: an obscuration, vanes, blades, an apodisation, a phase; the clear disc if not given.
+        What stands in the stop: obscuration, vanes, blades, apodisation, phase; by default nothing.
     positions : Positions, optional
-        For a lens that zooms or focuses inside: all of its columns, and where between them this lens is
-        (`p2sf.lens_at` moves it).
+        For a lens that zooms or focuses inside: all of its columns, and the present position between them
+        (see `p2sf.lens_at`).
     sensor_before : tuple of Placement
-        How the sensor stands in the axes at its place behind the last surface: its tilt.
+        Tilt and decentre of the sensor, relative to its place behind the last surface.
 
     Raises
     ------
     GeometryError
-        For a surface, stop, aperture, wavelength or aim that cannot be.
+        If a surface, the stop, the aperture, a wavelength or the aim is invalid.
     """
 
     surfaces: tuple[Surface, ...]
@@ -250,7 +250,7 @@ class Lens:
 
     @cached_property
     def directions(self) -> tuple[int, ...]:
-        """Return for every medium 1 where light runs to the right in it, −1 after an odd number of mirrors."""
+        """Return for every medium 1 if light runs to the right in it, −1 after an odd number of mirrors."""
         return tuple(accumulate((-1 if surface.reflects else 1 for surface in self.surfaces), mul, initial=1))
 
     @cached_property
@@ -263,7 +263,7 @@ class Lens:
 
     @cached_property
     def motions(self) -> tuple[Motion, ...]:
-        """Return the axes of the first surface in those of the lens, of each next one in the last's, of the sensor."""
+        """Return the axes of each surface, and of the sensor, relative to those before; the first to the lens's."""
         found = []
         onward = along_z(0.0)
         for surface in self.surfaces:
@@ -273,13 +273,13 @@ class Lens:
 
     @cached_property
     def steps(self) -> tuple[float | None, ...]:
-        """Return of every one of the ``motions`` how far along z it goes, mm, None where it does anything else."""
+        """Return for each of the ``motions`` the distance along z, mm, or None if it is more than a shift along z."""
         plain = (not motion.turns and not motion.origin[:2].any() for motion in self.motions)
         return tuple(float(m.origin[2]) if along else None for m, along in zip(self.motions, plain, strict=True))
 
     @cached_property
     def frames(self) -> tuple[Motion, ...]:
-        """Return the axes of every surface, and of the sensor, in those of the lens: z from the first vertex, mm."""
+        """Return the axes of every surface and of the sensor in those of the lens, z from the first vertex, mm."""
         return tuple(accumulate(self.motions, Motion.then))
 
 

@@ -28,9 +28,9 @@ class Psf:
     method : str
         The method that made it.
     strehl : float or numpy.ndarray or None
-        Peak over the unaberrated peak of the same pupil; None where the method knows no pupil.
+        Peak over the unaberrated peak of the same pupil; None if the method has no pupil.
     energy : float or numpy.ndarray or None
-        Share of all light that falls into the window; None where the samples are too far apart to tell.
+        Share of all light that falls into the window; None if the samples are too far apart to tell.
     numbers : int
         How many coefficients describe it.
     rays : int
@@ -40,14 +40,14 @@ class Psf:
     seconds : float
         How long it took.
     tolerance : float or None
-        Bound of the relative L2 error of the method's own sum in the window; None where it promises none.
+        Bound on the relative L2 error of the method's own sum in the window; None if it promises none.
     predicted_error : float or None
         Predicted 1 − R² of the method against the reference, at these settings: what its description of the pupil
-        misses, which ``tolerance`` does not contain. None where nothing was traced to tell.
+        misses, which ``tolerance`` does not include. None if no rays were traced from which to tell.
     azimuth_deg : float
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
     integrated : bool
-        Whether a sample is the light of a whole pixel around its place; if not, it is the intensity at that place.
+        Whether a sample is the light on a whole pixel; if not, it is the intensity at a point.
     """
 
     values: np.ndarray

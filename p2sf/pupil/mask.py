@@ -98,21 +98,21 @@ class PupilMask:
     Parameters
     ----------
     obscuration : float
-        Radius of the dark disc in the middle over the rim's radius, 0 to 0.99.
+        Radius of the dark disc in the middle, as a share of the rim's, 0 to 0.99.
     vanes : int
-        How many vanes run from the middle to the rim, evenly around.
+        Number of vanes from the middle to the rim, evenly spaced.
     vane_width : float
-        Width of a vane over the rim's diameter.
+        Width of a vane, as a share of the rim's diameter.
     vane_angle_deg : float
         Direction of the first vane, degrees from +η towards +ξ.
     blades : int
-        How many blades the iris has, their corners on the rim's circle; 0 for a round stop.
+        Number of blades of the iris, their corners on the rim's circle; 0 for a round stop.
     roundness : float
         Curvature of the blades' edges times the rim's radius: 0 for straight ones, 1 for a circle.
     blade_angle_deg : float
         Direction of the first corner, degrees from +η towards +ξ.
     apodisation : float
-        Radius, over the rim's, where the amplitude has fallen to 1/e and the intensity to 1/e²; inf for none.
+        Radius where the amplitude has fallen to 1/e and the intensity to 1/e², as a share of the rim's; inf for none.
     apodisation_power : int
         2 for a Gaussian, exp(−(ρ/width)²), a larger even number for a super-Gaussian.
     zernike_um : tuple of float

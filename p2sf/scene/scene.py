@@ -65,16 +65,15 @@ RGB = (
 
 @dataclass(frozen=True)
 class Scene:
-    """Sensor, colours, depths (mm from the first vertex, inf allowed) and the error that is tolerable.
+    """What is photographed: sensor, colours, depths (mm from the first vertex, inf allowed) and the tolerable error.
 
-    ``tolerance``: relative L2 error of a pixel's kernel, which bounds a white picture's; or with ``measure`` "r2"
-    the least R², with "mtf" the error of the MTF, root mean square over all spatial frequencies that the pixels show,
-    and with "psnr" the least peak signal-to-noise ratio in dB of a picture of white noise, between black and white, the
-    hardest there is: what is missing at low frequencies, where pictures have most of their light, is less.
-    ``focus_mm`` puts the sensor at the paraxial image of that distance and ``f_number`` sets
-    the stop, None leaves both as the lens file has them. ``zoom`` and ``focus_position`` turn the rings of a lens that
-    has them, as `Request` has it. ``aim`` is how exact rays fill the pupil, as `Request` has
-    it, and with ``clip`` the rims of all surfaces clip them. ``depth_map`` names a picture of depths in mm.
+    ``tolerance`` is the relative L2 error of a pixel's kernel. With ``measure`` "r2" it is the smallest R²; with "mtf"
+    the error of the MTF, root mean square over all spatial frequencies that the pixels show; with "psnr" the smallest
+    peak signal-to-noise ratio in dB of a picture of white noise between black and white. Pictures with most of their
+    light at low frequencies come out better.
+
+    ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `Request`; None leaves them as the
+    lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths in mm.
     """
 
     sensor: Sensor
