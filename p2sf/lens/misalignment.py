@@ -1,7 +1,7 @@
 """A lens with an element, a group, a mirror or the sensor tilted and decentred."""
 
 from dataclasses import replace
-from functools import reduce
+from functools import lru_cache, reduce
 
 import numpy as np
 
@@ -48,6 +48,13 @@ def _restoring(lens: Lens, first: int, last: int, placement: Placement) -> Place
 def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
     """Return the lens with its sensor placed so, in the axes at its place behind the last surface."""
     return replace(lens, sensor_before=() if placement.idle else (placement,))
+
+
+@lru_cache(maxsize=16)
+def straightened(lens: Lens) -> Lens:
+    """Return the lens without its tilts and decentres, as first order and the Seidel sums take it; rims stay."""
+    surfaces = tuple(replace(s, before=(), after=()) if s.before or s.after else s for s in lens.surfaces)
+    return replace(lens, surfaces=surfaces, sensor_before=())
 
 
 def folding(placement: Placement) -> dict[str, tuple[Placement, ...]]:

@@ -26,6 +26,7 @@ from p2sf.raytrace.trace import Index, launch, per_ray, run
 AIM_STEPS = 12
 STEPS_TOGETHER = 2  # of all rays at once; those that need more are fewer, and taken by themselves
 AIM_ERROR = 1e-10  # of the pupil's radius: the most that an entrance point may be off
+CHIEF_AIM_ERROR = 1e-6  # the same for the chief ray where other rays are only looked for from there
 SUM_AIM_ERROR = 1e-6  # the same for rays whose phase and frequency are taken as they are, only their cell is off
 DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the weight, is good to that
 ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
@@ -42,6 +43,7 @@ MANY = 512  # rays, from which on a map that need not be confirmed ray by ray co
 
 Nodes: TypeAlias = np.ndarray  # (ray,)
 Point: TypeAlias = tuple[np.ndarray, np.ndarray]  # x and y, mm
+Slopes: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,7 +298,8 @@ def _aimed_to_sensor(
     for _ in range(STEPS_TOGETHER):
         launched = _through(enter, *_beside(x, y, step))
         beam = run(lens, start(launched), enter.index, last=at)
-        move_x, move_y, gain = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+        move_x, move_y, (a, b, c, d) = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+        gain = a * d - b * c
         if ((np.hypot(move_x, move_y) <= _move_mm(enter, AIM_ERROR)) & (gain > 0)).all():
             run(lens, beam, enter.index, first=at + 1)
             beam.path += launched.path
@@ -346,12 +349,21 @@ def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
 
 @dataclass(frozen=True, eq=False)
 class _Aim:
-    """Entrance points (…, ray), mm; ``gain`` = ∂(stop point)/∂(entrance point); which rays ``missed`` their goal."""
+    """Entrance points (…, ray), mm; ∂(stop point)/∂(entrance point) = ((a, b), (c, d)); which rays ``missed``."""
 
     x: np.ndarray
     y: np.ndarray
-    gain: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+    c: np.ndarray
+    d: np.ndarray
     missed: np.ndarray
+
+    @property
+    def gain(self) -> np.ndarray:
+        """Return the determinant of the derivatives: area on the stop over that at the entrance."""
+        gain: np.ndarray = self.a * self.d - self.b * self.c
+        return gain
 
 
 def _newton(
@@ -369,10 +381,11 @@ def _newton(
     """
     step = _difference_mm(enter)
     beam = _at_stop(lens, enter, _beside(*guess, step), part)
-    move_x, move_y, gain = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+    move_x, move_y, slopes = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
     far = np.hypot(move_x, move_y)
+    found = _Aim(guess[0] + move_x, guess[1] + move_y, *slopes, ~(far <= enough))
     # A gain that is not positive belongs to another sheet, where rays of the pupil have crossed.
-    found = _Aim(guess[0] + move_x, guess[1] + move_y, gain, ~((far <= enough) & (gain > 0)))
+    found.missed[~(found.gain > 0)] = True
     again = (far > enough).any(tuple(range(far.ndim - 1)))
     if steps > 1 and again.any():
         some = (goal[0][..., again], goal[1][..., again]), (found.x[..., again], found.y[..., again])
@@ -417,13 +430,13 @@ def _at_stop(lens: Lens, enter: Entrance, points: Point, part: float = 1.0) -> B
     return run(lens, rays, enter.index, last=int(np.max(enter.stop.surface)))
 
 
-def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return Newton's step from the landing points of a ray and its two neighbours, and the determinant there."""
+def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.ndarray, Slopes]:
+    """Return Newton's step from the landing points of a ray and its two neighbours, and ((a, b), (c, d)) of `_Aim`."""
     a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
     b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
     area: np.ndarray = a * d - b * c
     with np.errstate(invalid="ignore", divide="ignore"):
-        return (d * miss[0] - b * miss[1]) / area, (a * miss[1] - c * miss[0]) / area, area
+        return (d * miss[0] - b * miss[1]) / area, (a * miss[1] - c * miss[0]) / area, (a, b, c, d)
 
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
@@ -534,42 +547,34 @@ def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
 # from where light enters; so all starts at the chief ray, which a search finds if it must.
 
 
-@dataclass(frozen=True, eq=False)
-class _ChiefAim:
-    """Where the chief ray enters, mm, and ∂(stop point)/∂(entrance point) = ((a, b), (c, d)) there; (…, 1)."""
-
-    x: np.ndarray
-    y: np.ndarray
-    a: np.ndarray
-    b: np.ndarray
-    c: np.ndarray
-    d: np.ndarray
+def chief_rays(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> PupilRays:
+    """Return the chief rays of a misaligned lens, (…, 1), found to `CHIEF_AIM_ERROR`; NaN where there is none."""
+    _check_aim(lens)
+    enter = entrance(lens, source, stop)
+    chief = _chief_aim(lens, source, enter, stop)
+    return replace(_through(enter, chief.x, chief.y), stop_surface=int(np.max(enter.stop.surface)))
 
 
-def _chief_aim(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _ChiefAim:
-    """Return how the rays close to the chief ray, which goes through the stop's centre, enter; NaN if not found."""
+def _chief_aim(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _Aim:
+    """Return how the chief ray, which goes through the stop's centre, enters, (…, 1); NaN if not found."""
     if stop is None and isinstance(source, Source):
         return _cached_chief_aim(lens, source)
     return _found_chief_aim(lens, enter)
 
 
 @lru_cache(maxsize=64)
-def _cached_chief_aim(lens: Lens, source: Source) -> _ChiefAim:
+def _cached_chief_aim(lens: Lens, source: Source) -> _Aim:
     return _found_chief_aim(lens, entrance(lens, source))
 
 
-def _found_chief_aim(lens: Lens, enter: Entrance) -> _ChiefAim:
+def _found_chief_aim(lens: Lens, enter: Entrance) -> _Aim:
     centre = np.zeros(1), np.zeros(1)
-    guess, enough = _paraxial(enter, *centre), _move_mm(enter, AIM_ERROR)
+    guess, enough = _paraxial(enter, *centre), _move_mm(enter, CHIEF_AIM_ERROR)
     found = _newton(lens, enter, centre, guess, enough)
     if found.missed.any():
         found = _newton(lens, enter, centre, _nearest(lens, enter), enough)
-    x, y = (np.where(found.missed, np.nan, part) for part in (found.x, found.y))
-    step = _difference_mm(enter)
-    beam = _at_stop(lens, enter, _beside(x, y, step))
-    a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
-    b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
-    return _ChiefAim(x, y, a, b, c, d)
+    found.x[found.missed] = found.y[found.missed] = np.nan
+    return found
 
 
 def _nearest(lens: Lens, enter: Entrance) -> Point:
@@ -582,7 +587,7 @@ def _nearest(lens: Lens, enter: Entrance) -> Point:
     return np.take_along_axis(x, best, -1), np.take_along_axis(y, best, -1)
 
 
-def _about_chief(chief: _ChiefAim, goal: Point) -> Point:
+def _about_chief(chief: _Aim, goal: Point) -> Point:
     """Return entrance points of rays that meet the stop at ``goal``, to first order about the chief ray."""
     area = chief.a * chief.d - chief.b * chief.c
     x: np.ndarray = chief.x + (chief.d * goal[0] - chief.b * goal[1]) / area
@@ -590,7 +595,7 @@ def _about_chief(chief: _ChiefAim, goal: Point) -> Point:
     return x, y
 
 
-def _outwards(lens: Lens, enter: Entrance, goal: Point, chief: _ChiefAim, found: _Aim) -> _Aim:
+def _outwards(lens: Lens, enter: Entrance, goal: Point, chief: _Aim, found: _Aim) -> _Aim:
     """Return ``found`` with the rays that missed aimed anew, from the chief ray outwards."""
     lost = np.flatnonzero(found.missed.any(tuple(range(found.missed.ndim - 1))))
     some = goal[0][..., lost], goal[1][..., lost]
@@ -628,7 +633,7 @@ def _cached_skew_map(lens: Lens, source: Source) -> Point | None:
     return _skew_map(lens, enter, _cached_chief_aim(lens, source))
 
 
-def _skew_map(lens: Lens, enter: Entrance, chief: _ChiefAim) -> Point | None:
+def _skew_map(lens: Lens, enter: Entrance, chief: _Aim) -> Point | None:
     """Return coefficients as `_rough_map` does, of all terms, from rays around the chief ray."""
     xi, eta, _ = whole_disc(*ROUGH_NODES)
     x, y = _about_chief(chief, _goal(enter, xi, eta))

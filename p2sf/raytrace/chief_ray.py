@@ -10,7 +10,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
-from p2sf.raytrace.aiming import Sources, pupil_rays, start
+from p2sf.raytrace.aiming import Sources, chief_rays, start
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import run, status_message
 
@@ -29,7 +29,7 @@ def _check_cached(lens: Lens, source: Source) -> None:
 
 
 def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
-    rays = pupil_rays(lens, source, np.zeros(1), np.zeros(1), stop)
+    rays = chief_rays(lens, source, stop)
     beam, heights = start(rays), []
     run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
     lost = beam.status != Status.PASSED

@@ -53,13 +53,19 @@ def status_message(status: int, surface: int) -> Message:
 
 
 def trace(
-    lens: Lens, origins: ArrayLike, directions: ArrayLike, wavelength_um: FloatOrArray, clip: bool = False
+    lens: Lens,
+    origins: ArrayLike,
+    directions: ArrayLike,
+    wavelength_um: FloatOrArray,
+    clip: bool = False,
+    stop_clips: bool = True,
 ) -> Trace:
     """Trace skew rays; ``origins`` in mm from the first vertex and ``directions`` of any length, each (…, ray, 3).
 
     An origin may lie anywhere on its ray in object space. ``wavelength_um`` broadcasts against the leading
-    axes. ``clip`` applies every clear semi-diameter and the stop's rim. A ray that fails becomes NaN and keeps
-    its reason and surface. Raises GlassError. Source: Welford 1986, ch. 4.
+    axes. ``clip`` applies every clear semi-diameter and, with ``stop_clips``, the stop's rim, which the outermost rays
+    of its pupil touch. A ray that fails becomes NaN and keeps its reason and surface. Raises GlassError.
+    Source: Welford 1986, ch. 4.
     """
     origins, directions = np.broadcast_arrays(np.asarray(origins, float), np.asarray(directions, float))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -68,14 +74,21 @@ def trace(
     waves = wavelength_um if np.ndim(wavelength_um) == 0 else np.asarray(wavelength_um)[..., None]
     beam = launch(index[0], waves, *np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0))
     beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # an origin or direction that is not finite
-    points = [origins]
-    rims = lens_rims(lens) if clip else None
-    run(lens, beam, index, rims, visit=lambda number: points.append(_points(beam, lens, number)))
+    places: list[np.ndarray] = []
+    lost: list[np.ndarray] = []
+
+    def visit(_: int) -> None:
+        places.append(beam.place.copy())
+        lost.append(beam.status != Status.PASSED)
+
+    run(lens, beam, index, lens_rims(lens, stop_clips) if clip else None, visit=visit)
+    points = _points(lens, np.array(places))
+    points[np.array(lost)] = np.nan
     cosines = np.stack([beam.p, beam.q, beam.r], -1) / np.abs(np.asarray(index[-1]))[..., None]
     if lens.misaligned:
         cosines = cosines @ lens.frames[-1].rotation.T
     cosines[beam.status != Status.PASSED] = np.nan
-    return Trace(np.stack(points), cosines, beam.path, beam.status, beam.failed_surface)
+    return Trace(np.concatenate([origins[None], points]), cosines, beam.path, beam.status, beam.failed_surface)
 
 
 def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
@@ -195,16 +208,15 @@ def _same(before: FloatOrArray, after: FloatOrArray) -> bool:
     return equal if isinstance(equal, bool) else bool(equal.all())
 
 
-def _points(beam: Beam, lens: Lens, number: int) -> np.ndarray:
-    """Return where rays are, in the axes of the lens, from where they are in those of a surface."""
+def _points(lens: Lens, places: np.ndarray) -> np.ndarray:
+    """Return points (surfaces + 1, …, ray, 3) in the axes of the lens, from places (surfaces + 1, 3, …, ray) in own."""
     if lens.misaligned:
-        rotation, origin = lens.frames[number - 1]
-        points: np.ndarray = np.moveaxis(beam.place, 0, -1) @ rotation.T + origin
-    else:
-        vertex = sum(surface.thickness for surface in lens.surfaces[: number - 1])
-        points = np.stack([beam.x, beam.y, beam.z + vertex], -1)
-    points[beam.status != Status.PASSED] = np.nan
-    return points
+        rotation, origin = (np.array(part) for part in zip(*lens.frames, strict=True))
+        flat = rotation @ places.reshape(*places.shape[:2], -1) + origin[..., None]
+        return np.moveaxis(flat.reshape(places.shape), 1, -1)
+    vertices = np.cumsum([0.0, *(surface.thickness for surface in lens.surfaces)])
+    places[:, 2] += vertices.reshape(-1, *[1] * (places.ndim - 2))
+    return np.moveaxis(places, 1, -1)
 
 
 def per_ray(index: np.ndarray) -> Index:

@@ -8,6 +8,7 @@ from math import isfinite
 import numpy as np
 
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_mask, with_sensor
+from p2sf.lens.misalignment import straightened
 from p2sf.lens.placement import Motion
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import needed_radii
@@ -110,7 +111,7 @@ def sections(lens: Lens) -> tuple[Section, ...]:
 
 def _placed_glass(lens: Lens) -> Glass:
     """Return the outlines of a misaligned lens, whose elements stand as its parts do, seen along x."""
-    rims, places = clear_rims(lens), sections(lens)
+    rims, places = clear_rims(straightened(lens)), sections(lens)
     index = np.abs(indices(lens, lens.reference_wavelength_um))
     own = [_own_profile(surface, rim) for surface, rim in zip(lens.surfaces, rims, strict=False)]
     outlines = []

@@ -10,6 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, seen_from, with_sensor
+from p2sf.lens.misalignment import straightened
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
@@ -36,7 +37,7 @@ from p2sf_explorer.state.state import State
 
 HEIGHTS = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 AIM_MOVE = 1e-5  # of the stop's rim: a last step of the secant method that leaves far less than can be drawn
-DRAWN_AIM = 1e-4  # of the pupil's radius, where rays are drawn only
+DRAWN_AIM = 1e-2  # of the pupil's radius, where rays are drawn only: the one step it mostly takes leaves up to 5e-4
 STRAIGHT = 0.99  # cosine of the angle up to which the marks of the aligned axis are drawn
 SAME_FIELD_DEG = 1e-6  # of one field and another
 REACH = 3.0  # rays from infinity begin this many lens lengths before the lens, outside any window
@@ -218,8 +219,11 @@ def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
 
 
 def widest_image(lens: Lens) -> float:
-    """Return how high the chief ray of the file's widest field meets the sensor, mm; 0 where it does not."""
-    y, slope = widest_exit(still(lens))
+    """Return how high the chief ray of the file's widest field meets the sensor, mm; 0 where it does not.
+
+    That of a misaligned lens is taken of the lens set straight: what is drawn keeps its scale while a part is moved.
+    """
+    y, slope = widest_exit(straightened(still(lens)))
     return abs(y + slope * lens.sensor_mm)
 
 
@@ -308,7 +312,7 @@ def skew_paths(lens: Lens, source: Source, etas: tuple[float, ...], clip: bool, 
         return ()
     origins, directions = np.broadcast_arrays(rays.origins, rays.directions)
     starts = origins + directions * ((front - origins[..., 2:]) / directions[..., 2:])
-    found = trace(seen, starts, directions, source.wavelength_um, clip)
+    found = trace(seen, starts, directions, source.wavelength_um, clip, stop_clips=False)
     y, z = upright_part(source) * found.points[..., 1], found.points[..., 2]
     if source.azimuth_deg:
         y = y - sin(radians(source.azimuth_deg)) * found.points[..., 0]

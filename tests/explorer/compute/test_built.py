@@ -7,7 +7,7 @@ import pytest
 
 from p2sf.errors import P2SFError
 from p2sf.glass.media import ShiftedIndex
-from p2sf.lens.misalignment import displaced
+from p2sf.lens.misalignment import displaced, straightened
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
@@ -200,6 +200,28 @@ def test_the_drawn_rays_are_those_that_are_traced():
     ray = next(ray for ray in drawn.rays if ray.kind == "chief")
     assert ray.y[-1] == pytest.approx(float(y), abs=2e-3)  # aimed for a drawing
     assert len(ray.z) == len(setup.lens.surfaces) + 2
+
+
+@pytest.mark.parametrize(
+    ("name", "errors", "field"),
+    [("double_gauss_28", SKEW, 0.0), ("double_gauss_28", SKEW, 9.0), ("petzval", (("decentre_y", 1, 2, 0.2),), 3.0)],
+)
+def test_drawn_rays_meet_the_rim_of_the_stop_which_does_not_clip_them(name, errors, field):
+    """The stop stands upright behind the pieces that are moved, so that η = ±1 is y = ±rim there."""
+    state = changed(with_lens(new_state(), name), errors=errors, field_deg=field, f_number=4.0, clip=True)
+    stop, rays = paraxial_setup(state).stop, live(state, "preview").layout.rays
+    edge = [ray for ray in rays if ray.kind == "rim"]
+    assert len(edge) == 2 and not any(ray.clipped for ray in rays)
+    heights = sorted(float(ray.y[int(stop.surface)]) for ray in edge)
+    rim = float(stop.semi_diameter)
+    assert heights == pytest.approx([-rim, rim], abs=1e-3 * rim)  # far less than can be seen
+
+
+def test_the_drawn_sensor_keeps_its_height_while_a_part_is_moved():
+    """It holds the widest field of the lens set straight; its height does not flicker with an error of the build."""
+    assert straightened(with_errors(prescription(START), SKEW)) == prescription(START)
+    halves = {live(of((("decentre_y", 3, 5, by),)), "preview").layout.sensor_half for by in (0.0, 0.01, 0.3)}
+    assert len(halves) == 1
 
 
 def test_a_section_is_seen_along_x():
