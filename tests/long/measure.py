@@ -103,7 +103,7 @@ def six_coefficients(trials: int) -> None:
     """Print errors of the six model, with one focus and with two, beside the Cramér–Rao bound."""
     for foci in ((0.0,), (0.0, SECOND_FOCUS)):
         rng, errors, bounds, seconds, wrong = np.random.default_rng(1), [], [], [], 0
-        for _ in range(trials):
+        for trial in range(trials):
             six, place = random_six(rng), rng.uniform(-1, 1, 2) * OPTICS.pixel_um
             taken = pictures(pupil_model("seidel"), six, place, foci, rng)
             began = process_time()
@@ -114,6 +114,7 @@ def six_coefficients(trials: int) -> None:
             errors.append(best - six)
             bounds.append(found.bounds)
             wrong += int((np.sign(best) != np.sign(six))[np.abs(six) > 0.1].any())
+            print(f"  {trial}: {np.round(errors[-1], 4)} bounds {np.round(bounds[-1], 4)}, {seconds[-1]:.2f} s", flush=True)
         report(f"six, {len(foci)} focus, {trials} trials", np.array(errors), np.array(bounds), seconds)
         print(f"  wrong signs (of numbers over 0.1 waves; with one focus in both twins): {wrong}")
 
@@ -131,7 +132,7 @@ def free_pupils(trials: int) -> None:
     """Print RMS wavefront errors of 26 numbers at two foci, over directions: what a picture tells."""
     model, rng, errors, seconds, bounds = pupil_model("26"), np.random.default_rng(2), [], [], []
     orders = np.array([int(name[2]) for name in model.wave_names])
-    for _ in range(trials):
+    for trial in range(trials):
         waves = rng.normal(0, 0.25, orders.size) / (orders - 1) ** 2
         maps = model.paraxial_map + rng.normal(0, 0.005, len(model.map_names))
         numbers = np.concatenate([waves, maps])
@@ -142,6 +143,7 @@ def free_pupils(trials: int) -> None:
         errors.append(rms_over_directions(found, numbers))
         count = len(model.wave_names)
         bounds.append(float(np.sqrt(np.trace(found.covariance[:count, :count]))))
+        print(f"  {trial}: {errors[-1]:.4f} bound {bounds[-1]:.4f}, {seconds[-1]:.2f} s", flush=True)
     print(
         f"26 numbers, 2 foci, {trials} trials: RMS wavefront error median {np.median(errors):.4f}, 95 % "
         f"{np.quantile(errors, 0.95):.4f} waves; bound median {np.median(bounds):.4f}; CPU median "
