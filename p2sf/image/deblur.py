@@ -17,6 +17,8 @@ from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each, one_blas_thread
 
 DARKEST = 1e-4  # of white: the floor that keeps Richardson–Lucy's ratio finite
+MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
+MASK_NORM = 6.0  # √ of the sum of squares of (1, −2, 1) × (1, −2, 1)
 CORNER = 0.02  # cycles per pixel below which natural pictures' spectra are taken as flat
 
 
@@ -129,6 +131,20 @@ def richardson_lucy(
         estimate = np.maximum(estimate * blur.transposed(measured / blurred) / gain, 0)
         watch.advance()
     return estimate
+
+
+def estimated_noise(values: np.ndarray) -> float:
+    """Return the standard deviation of a picture's noise, (rows, columns, channels), in its own unit.
+
+    The difference of two Laplacians, a mask that edges and slopes hardly pass (Immerkær 1996); of its values the median
+    and not the mean, which texture enlarges. Noise must differ from pixel to pixel: what demosaicing has smoothed is
+    underestimated. Raises RequestError for fewer than 3 × 3 pixels.
+    """
+    if min(values.shape[:2]) < 3:
+        raise RequestError("a picture of {shape} pixels; give at least 3 × 3", shape=str(values.shape[:2]))
+    down = values[:-2] - 2 * values[1:-1] + values[2:]
+    both = down[:, :-2] - 2 * down[:, 1:-1] + down[:, 2:]
+    return MAD * float(np.median(np.abs(both))) / MASK_NORM
 
 
 def with_one_kernel(lattice: Lattice, kernels: np.ndarray) -> Lattice:

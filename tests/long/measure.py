@@ -114,7 +114,8 @@ def six_coefficients(trials: int) -> None:
             errors.append(best - six)
             bounds.append(found.bounds)
             wrong += int((np.sign(best) != np.sign(six))[np.abs(six) > 0.1].any())
-            print(f"  {trial}: {np.round(errors[-1], 4)} bounds {np.round(bounds[-1], 4)}, {seconds[-1]:.2f} s", flush=True)
+            told = f"{np.round(errors[-1], 4)} bounds {np.round(bounds[-1], 4)}"
+            print(f"  {trial}: {told}, {seconds[-1]:.2f} s", flush=True)
         report(f"six, {len(foci)} focus, {trials} trials", np.array(errors), np.array(bounds), seconds)
         print(f"  wrong signs (of numbers over 0.1 waves; with one focus in both twins): {wrong}")
 

@@ -4,14 +4,17 @@ A measurement takes seconds: only `question` runs on the live path, and a worker
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
+from p2sf.measure.as_built import CERTAIN
+from p2sf.measure.frame_fit import FrameFit
 from p2sf.measure.frame_terms import lens_optics
 from p2sf.measure.measurement import Measurement, measured
 from p2sf.measure.point_fit import PointFit
@@ -20,11 +23,15 @@ from p2sf.measure.points import window_of
 from p2sf.measure.reading import read_frame
 from p2sf.messages import Message, Number
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.files.opening import stamp
 from p2sf_explorer.results.first_order import Row
+from p2sf_explorer.state.build_errors import with_error, without_piece
 from p2sf_explorer.state.scales import signed, significant
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import UNTOUCHED
+from p2sf_explorer.state.workspaces import on_stage
 
 NAMES = {
     "sensor_shift_um": "sensor shift",
@@ -52,24 +59,16 @@ PointLine: TypeAlias = tuple[tuple[str, str, str, str], Message | None]
 
 @dataclass(frozen=True)
 class MeasurementRequest:
-    """Everything a measurement depends on; ``stamp`` changes with the file."""
+    """Everything a measurement depends on; ``stamp`` changes with the file, ``picture`` "" is none."""
 
-    path: str
-    stamp: tuple[int, int]
+    picture: str
     pixel_um: float
+    beside: bool
     lens: Lens
     depth_mm: float
     wavelength_um: float
-    beside: bool
-
-
-@dataclass(frozen=True)
-class LensRequest:
-    """What a measurement takes from the window: lens and wavelength; where its source lies does not matter."""
-
-    lens: Lens
-    depth_mm: float
-    wavelength_nm: float
+    clip: bool
+    stamp: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,26 +86,46 @@ class PointPictures:
         return float(np.abs(self.difference).max())
 
 
-def question(live: Live) -> LensRequest:
-    """Return what the window gives to a measurement."""
-    source = live.setup.source
-    return LensRequest(live.setup.lens, source.depth_mm, source.wavelength_um * NM_PER_UM)
+def question(live: Live) -> MeasurementRequest:
+    """Return the measurement of the state's picture; where the window's source lies in the field does not matter."""
+    view, source = live.state.measured, live.setup.source
+    known = view.picture, view.pixel_um, view.beside
+    return MeasurementRequest(*known, designed(live), source.depth_mm, source.wavelength_um, live.state.optics.clip)
 
 
-def request(path: str, pixel_um: float, asked: LensRequest, beside: bool) -> MeasurementRequest:
-    """Return the measurement of a file beside the lens on screen, or with its scale alone."""
-    return MeasurementRequest(
-        path, stamp(path), pixel_um, asked.lens, asked.depth_mm, asked.wavelength_nm / NM_PER_UM, beside
-    )
+def designed(live: Live) -> Lens:
+    """Return the lens on screen with its sensor set straight: its tilt is what a measurement tells."""
+    state, sensor = live.state, sensor_piece(live.setup.lens)
+    straight = without_piece(state.optics.errors, sensor)
+    if straight == state.optics.errors:
+        return live.setup.lens
+    return paraxial_setup(changed(state, errors=straight)).lens
+
+
+def sensor_piece(lens: Lens) -> tuple[int, int]:
+    """Return the first and last surface by which errors of a build name the sensor."""
+    behind = len(lens.surfaces) + 1
+    return behind, behind
+
+
+def dated(asked: MeasurementRequest) -> MeasurementRequest:
+    """Return the request for its file as it is now."""
+    return replace(asked, stamp=stamp(asked.picture))
 
 
 def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: Callable[[float], None]) -> Measurement:
     """Return the measurement of a picture. Raises P2SFError for one that cannot be read or holds no point."""
-    frame = read_frame(asked.path, asked.pixel_um)
+    if not Path(asked.picture).is_file():
+        raise RequestError(
+            "{name} is not in {folder} any more; put it back there, or choose another picture",
+            name=Path(asked.picture).name,
+            folder=str(Path(asked.picture).parent),
+        )
+    frame = read_frame(asked.picture, asked.pixel_um)
     optics = scale(asked, frame.geometry.pixel_um)
     lens = asked.lens if asked.beside else None
     depth = asked.depth_mm if asked.beside else inf
-    return measured([frame], optics, lens=lens, depth_mm=depth, progress=progress, cancelled=cancelled)
+    return measured([frame], optics, lens=lens, depth_mm=depth, clip=asked.clip, progress=progress, cancelled=cancelled)
 
 
 def scale(asked: MeasurementRequest, pixel_um: float) -> Optics:
@@ -199,3 +218,21 @@ def as_free_pupil(fit: PointFit) -> dict[str, Any]:
     w40, w31, w22, focus = (round(float(value), 4) for value in fit.numbers[:4])
     waves = {"w40": w40, "w31": w31, "w22": w22, "wd": focus}
     return UNTOUCHED | {"added_waves": tuple(waves.get(term, 0.0) for term in TERMS), "free_pupil": True}
+
+
+def into_image(found: FrameFit, pixel_um: float, state: State) -> dict[str, Any]:
+    """Return the entries of the State that sharpen photos by the lens as measured, in the Image panel.
+
+    The sensor is moved, and tilted where its tilt is certain; field polynomials are no part of a lens.
+    """
+    assert found.model.lens is not None
+    told = dict(zip(found.model.unknowns, found.values.tolist(), strict=True))
+    certain = dict(zip(found.model.unknowns, np.abs(found.values) > CERTAIN * found.errors, strict=True))
+    sensor, errors = sensor_piece(found.model.lens), state.optics.errors
+    # Right-handed angles: one about x takes +y along z, one about y takes +x against it.
+    tilt_x, tilt_y = (round(told[name], 4) if certain[name] else 0.0 for name in ("tilt_y_deg", "tilt_x_deg"))
+    errors = with_error(with_error(errors, "tilt_x", sensor, tilt_x), "tilt_y", sensor, -tilt_y)
+    shift = round(state.optics.sensor_shift_um + told["sensor_shift_um"], 2)
+    view = on_stage(state.display, "image") | {"tab": "measured"}
+    photo = {"photo_show": "taken", "photo_pixel_um": pixel_um, "photo_full": False}
+    return UNTOUCHED | view | photo | {"sensor_shift_um": shift, "errors": errors}

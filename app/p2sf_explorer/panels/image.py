@@ -18,6 +18,7 @@ from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.results.image import (
+    TAKEN,
     ImageRequest,
     ImageResult,
     coarse,
@@ -49,6 +50,7 @@ SHOWS: dict[str, tuple[str, tuple[str, str]]] = {
     "lens": ("through the lens", ("scene", "image")),
     "sharpened": ("sharpened by its PSFs", ("image", "sharpened")),
     "axis": ("by the axis's PSF", ("image", "sharpened wrongly")),
+    "taken": ("photo it took, sharpened", ("photo", "sharpened")),
     "psfs": ("its PSFs, as a map", ("image", "PSFs, √")),
 }
 PHOTOS = "Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)"
@@ -135,7 +137,8 @@ class ImagePanel:
         if self.photo.findData(state.photo.source) < 0:
             self.photo.addItem(Path(state.photo.source).name, state.photo.source)
         pitch = state.photo.pixel_um
-        size = (FULL if state.photo.full else "") if pitch is None else str(float(pitch))
+        all_of_it = state.photo.full and (pitch is None or state.photo.show == TAKEN)
+        size = FULL if all_of_it else "" if pitch is None else str(float(pitch))
         if self.pixel.findData(size) < 0:
             self.pixel.addItem(tr("{pitch} µm pixels", pitch=f"{pitch:g}"), size)
         photo = state.photo
@@ -247,6 +250,9 @@ class ImagePanel:
     def _choose_pixel(self) -> None:
         size = self.pixel.currentData()
         full = size == FULL
+        if full and self._store.state.photo.show == TAKEN:  # whose pixels are as large as before
+            self._store.update(photo_full=True)
+            return
         self._store.update(photo_pixel_um=float(size) if size and not full else None, photo_full=full)
 
     def _ask_photo(self) -> None:

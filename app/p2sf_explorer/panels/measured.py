@@ -31,17 +31,17 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import decimal_separator, local, tr
 from p2sf_explorer.measuring.measurement import (
-    LensRequest,
     MeasurementRequest,
     PointLine,
     PointPictures,
     answer,
     as_free_pupil,
+    dated,
     has_lens_as_built,
+    into_image,
     own_six,
     point_lines,
     point_rows,
-    request,
     shown,
     whole_rows,
 )
@@ -61,9 +61,9 @@ PICTURES = "Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.n
 BUILT = "P2SF lens (*.toml);;PSF database (*.npz)"
 EMPTY = "Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF."
 HEADS = ("x, mm", "y, mm", "R²", "χ²", "not used because")
+STOPPED = "stopped; choose the picture again to measure it"
 PARTS = ("measured", "model", "difference")
 LOW = 300  # pixels of the body's height below which there is no room for a list
-PITCH_UM = 3.45  # of a usual industrial camera
 
 
 class MeasuredPanel:
@@ -84,6 +84,11 @@ class MeasuredPanel:
             "Save this lens with the sensor where the picture tells it is, or its PSF database",
             self._ask_built,
         )
+        self.sharpen = small_button(
+            "To Image",
+            "Take the lens as measured into the window and sharpen photos that it took; undo brings the lens back",
+            self._sharpen,
+        )
         self.pixel = QDoubleSpinBox()
         self.beside = QCheckBox(tr("this lens"))
         self.note = QLabel()
@@ -91,11 +96,10 @@ class MeasuredPanel:
         self.table = FactTable()
         self._lay_out()
         self.overlay = Overlay(self.body)
-        self._asked: LensRequest | None = None
-        self._path = ""
+        self._asked: MeasurementRequest | None = None
         self._request: MeasurementRequest | None = None
         self._found: Measurement | None = None
-        self._refusal = ""
+        self._refusal, self._stopped = "", False
         self.worker = LatestWins(self.widget)
         self._connect()
         self._show_readout()
@@ -105,11 +109,9 @@ class MeasuredPanel:
         self.pixel.setRange(0.05, 1000.0)
         self.pixel.setDecimals(3)
         self.pixel.setSuffix(" µm")
-        self.pixel.setValue(PITCH_UM)
         self.pixel.setKeyboardTracking(False)
         self.pixel.setToolTip(tr("Pixel pitch of the picture; listings and this program's PSFs state their own"))
         self.pixel.setAccessibleName(tr("Pixel pitch"))
-        self.beside.setChecked(True)
         self.beside.setToolTip(tr("Fit departures from the lens on screen; without it, the lens gives the scale only"))
         self.body = MeasuredBody(self.chart, self.list, self.table)
         whole = QWidget()
@@ -119,7 +121,7 @@ class MeasuredPanel:
         # In one row they are wider than the panel of a small window.
         for parts in (
             (self.open, self.stop_button, self.save, self.built, self.take),
-            (self.pixel, self.beside),
+            (self.pixel, self.beside, self.sharpen),
         ):
             column.addLayout(_row(parts))
         column.addWidget(self.body, 1)
@@ -133,41 +135,45 @@ class MeasuredPanel:
         self.worker.failed.connect(self._on_failure)
         self.worker.progressed.connect(self._on_progress)
         self.list.itemSelectionChanged.connect(self._paint_point)
-        self.pixel.valueChanged.connect(self._measure)
-        self.beside.toggled.connect(self._measure)
+        self.pixel.valueChanged.connect(lambda pitch: self._store.update(measured_pixel_um=pitch))
+        self.beside.clicked.connect(lambda on: self._store.update(measured_beside=bool(on)))
         self.take.clicked.connect(self._take)
         self.drop = MeasuredDrop(self.widget)
         self.drop.photo.connect(self.open_picture)
         self.drop.refused.connect(self._store.refused)
 
     def show(self, live: Live) -> None:
-        """Take the lens on screen; a picture is measured again where it has changed and nothing is dragged."""
-        self._asked = live.views["measured"]
-        if live.quality == "settled" and self._path and self._wanted() != self._request:
+        """Follow the state; a picture is measured again where anything has changed and nothing is dragged."""
+        self._asked = asked = live.views["measured"]
+        for control, follow in ((self.pixel, self.pixel.setValue), (self.beside, self.beside.setChecked)):
+            control.blockSignals(True)
+            follow(asked.pixel_um if control is self.pixel else asked.beside)
+            control.blockSignals(False)
+        if live.quality == "settled":
             self._measure()
 
     def open_picture(self, path: str) -> None:
-        """Measure a picture."""
-        self._path = path
+        """Measure a picture, the present one once more."""
+        self._request = None
+        self._store.update(measured_picture=path)
         self._measure()
 
-    def _wanted(self) -> MeasurementRequest | None:
-        if self._asked is None or not self._path:
-            return None
-        return request(self._path, self.pixel.value(), self._asked, self.beside.isChecked())
-
     def _measure(self) -> None:
-        asked = self._wanted()
+        asked = dated(self._asked) if self._asked else None
         if asked is None or asked == self._request:
             return
-        self._request, self._refusal = asked, ""
-        self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set, progress))
+        if self._request is None or asked.picture != self._request.picture:
+            self._found = None
+        self._request, self._refusal, self._stopped = asked, "", False
+        self.worker.cancel()
+        if asked.picture:
+            self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set, progress))
         self._show_readout()
 
     def _stop(self) -> None:
+        self._stopped = True
         self.worker.cancel()
-        self.note.setText(tr("stopped"))
-        self._show_readout(tr("stopped"))
+        self._show_readout()
 
     def _on_progress(self, key: MeasurementRequest, share: float) -> None:
         if key == self._request:
@@ -186,19 +192,22 @@ class MeasuredPanel:
             self._refusal, self._found = said(why), None
             self._show_readout()
 
-    def _show_readout(self, text: str = "") -> None:
-        working = self.worker.busy
+    def _show_readout(self, progress: str = "") -> None:
+        found, name = self._found, Path(self._request.picture).name if self._request else ""
+        working = self.worker.busy and bool(name) and not self._stopped
         self.stop_button.setVisible(working)
         self.save.setVisible(not working)
         for button in (self.save, self.take):
-            button.setEnabled(self._found is not None and self._found.used > 0)
-        self.built.setEnabled(self._found is not None and has_lens_as_built(self._found))
-        self.overlay.say(self._refusal or ("" if self._found else tr("measuring") if self._path else tr(EMPTY)), 0)
-        name = Path(self._path).name
-        if self._found is not None and not text:
-            count = tr("{used} of {all} points", used=self._found.used, all=len(self._found.points))
-            text = tr("measuring") if working else f"{name} · {count}"
-        self.widget.set_readout(text or name)
+            button.setEnabled(found is not None and found.used > 0)
+        for button in (self.built, self.sharpen):
+            button.setEnabled(found is not None and has_lens_as_built(found))
+        instead = STOPPED if self._stopped else "measuring" if name else EMPTY
+        self.overlay.say(self._refusal or ("" if found else tr(instead)), 0)
+        if working:
+            name = progress or tr("measuring")
+        elif found is not None:
+            name = f"{name} · {tr('{used} of {all} points', used=found.used, all=len(found.points))}"
+        self.widget.set_readout(name)
 
     def _paint_point(self) -> None:
         found, number = self._found, self.list.chosen()
@@ -223,8 +232,8 @@ class MeasuredPanel:
         heads = (tr(name) for name in PARTS)
         signed = parts.measured, parts.modelled, parts.difference
         self.chart.means(zip(heads, signed, strict=True), parts.pixel_um)
-        most = local(tr("Δ ≤ {percent} %", percent=f"{100 * parts.largest:.1f}"))
-        names = [tr("measured"), tr("model"), most]
+        most = local(tr("± {percent} %", percent=f"{100 * parts.largest:.1f}"))
+        names = [tr("data"), tr("model"), most]  # short: the pictures are as wide as they
         self.chart.show_notes([(float(k), float("inf"), name, "muted", 0) for k, name in enumerate(names)])
 
     def _take(self) -> None:
@@ -232,6 +241,14 @@ class MeasuredPanel:
         fit = self._found.fits[number] if self._found is not None and number is not None else None
         if fit is not None:
             self._store.update(**as_free_pupil(fit))
+
+    def _sharpen(self) -> None:
+        found = self._found
+        if found is None or found.whole is None:
+            return
+        self._store.update(**into_image(found.whole, found.optics.pixel_um, self._store.state))
+        for message in left_out(found.whole, "built.toml"):
+            self._store.said.emit(message)
 
     def _ask_picture(self) -> None:
         path, _ = QFileDialog.getOpenFileName(self.widget, tr("Choose a picture of points"), "", tr(PICTURES))

@@ -13,11 +13,13 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM, slope_from_degrees
-from p2sf.errors import GeometryError
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, slope_from_degrees
+from p2sf.errors import GeometryError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
-from p2sf.image.deblur import psnr, wiener, with_one_kernel
+from p2sf.image.charts import CHARTS
+from p2sf.image.deblur import estimated_noise, psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
+from p2sf.image.misaligned import field_map, settled_lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
 from p2sf.io.transfer import srgb_from_linear
@@ -27,9 +29,9 @@ from p2sf.messages import Message
 from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
-from p2sf.scene import Plan, Scene, Sensor, plan
+from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.results.photos import NOISE, channels_of, cut_away, full_shape, scene_values
+from p2sf_explorer.results.photos import MOST_PIXELS, NOISE, channels_of, cut_away, full_shape, own_shape, scene_values
 
 SEEN = 0.005  # of a photo's side: less is a pixel or two
 
@@ -128,6 +130,12 @@ UNMEASURED = {
 }
 RAY_NOTE = Message("These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.")
 SHARPENED = ("sharpened", "axis")  # of what can be shown
+TAKEN = "taken"  # of what can be shown: the photo was taken through the lens, and is sharpened
+LEAST_NOISE = 1e-3  # of white, that sharpening reckons with
+NO_PHOTO = "choose a photo that was taken through this lens by Photo…, or drop it here: a chart was not"
+NO_PIXEL = "choose how large the pixels of the camera are; To Image in Measured states those of the measured picture"
+FILTERED = "Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo."
+TOO_MANY = "the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it"
 CELL_PX = 24  # of the map of PSFs, at least
 ROWS_AT_ONCE = 256
 CORNER = 0.97  # of the way to the outermost chief ray
@@ -141,7 +149,10 @@ TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, wher
 
 @dataclass(frozen=True)
 class ImageRequest:
-    """Everything the picture depends on; ``pixel_um`` None takes the lens's whole field, ``shape`` is the sensor's."""
+    """Everything the picture depends on; ``pixel_um`` None takes the lens's whole field, ``shape`` is the sensor's.
+
+    ``grey_nm``: the wavelength of a photo without colours that the lens took; 0 where it does not matter.
+    """
 
     lens: Lens
     depth_mm: float
@@ -151,6 +162,7 @@ class ImageRequest:
     centre_mm: float
     clip: bool = False
     shape: tuple[int, int] = (ROWS, COLUMNS)
+    grey_nm: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,6 +190,8 @@ class ImageResult:
 def question(live: Live) -> ImageRequest:
     """Return what the picture of the present state depends on."""
     state, setup = live.state, live.setup
+    if state.photo.show == TAKEN:
+        return _taken(live)
     whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
     photo, optics = state.photo, state.optics
@@ -186,9 +200,29 @@ def question(live: Live) -> ImageRequest:
     return ImageRequest(setup.lens, optics.depth_mm, *what, centre, optics.clip, shape)
 
 
+def _taken(live: Live) -> ImageRequest:
+    """Return the request for a photo that the lens took: all of it, or its pixels at the field point."""
+    state, setup = live.state, live.setup
+    photo, wave_nm = state.photo, setup.source.wavelength_um * NM_PER_UM
+    what = photo.source, photo.show, photo.pixel_um
+    asked = ImageRequest(setup.lens, state.optics.depth_mm, *what, 0.0, state.optics.clip, grey_nm=wave_nm)
+    if photo.source in CHARTS or photo.pixel_um is None:
+        return asked  # `_taken_values` says what is wrong
+    own = own_shape(photo.source)
+    if photo.full:
+        return replace(asked, shape=own)
+    shape = min(ROWS, own[0]), min(COLUMNS, own[1])
+    room = (own[0] - shape[0]) / 2  # pixels above and below
+    top = room - float(setup.coefficients.image_height) * UM_PER_MM / photo.pixel_um
+    middle = room - round(min(max(top, 0.0), 2 * room))
+    return replace(asked, shape=shape, centre_mm=middle * photo.pixel_um / UM_PER_MM)
+
+
 def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
     begun, watch = perf_counter(), watch or Progress()
+    if request.show == TAKEN:
+        return _sharpened(request, watch, begun, quick=True)
     small = replace(request, shape=small_shape(request.shape))
     coarse_plan = unmeasured_plan(small)
     why_not = no_plan(coarse_plan if small == request else unmeasured_plan(request))
@@ -216,11 +250,84 @@ def planned(request: ImageRequest, watch: Progress | None = None, known: ImageRe
     ``known``: a planned picture of the same optics, whose plan and kernels are this one's too.
     """
     begun, watch = perf_counter(), watch or Progress()
+    if request.show == TAKEN:
+        return _sharpened(request, watch, begun, known)
     if known:
         return _answer(request, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
     share = PLANNING if request.shape == small_shape(request.shape) else PLANNING_LARGE
     new_plan = plan(request.lens, scene_of(request), planning(watch, share))
     return _answer(request, new_plan, forming(watch, share), begun, plan_notes(new_plan))
+
+
+def _sharpened(
+    request: ImageRequest, watch: Progress, begun: float, known: ImageResult | None = None, quick: bool = False
+) -> ImageResult:
+    """Return a photo that the lens took and the same sharpened, ``quick``: by few PSFs, or not yet if it is large."""
+    photo = _taken_values(request)
+    small = request.shape == small_shape(request.shape)
+    used, lattice = _taken_lattice(request, photo.shape[-1], watch, quick, known)
+    noise = max(LEAST_NOISE, estimated_noise(photo))
+    sharp = wiener(photo, lattice, noise, part_of(watch, PLANNING, 1.0)) if small or not quick else photo
+    count, product = psf_counts(used)
+    why_not = no_plan(used) if quick else None
+    measured = ((Message("Coarse"), UNMEASURED[why_not]),) if quick else plan_notes(used) if used.decisions else ()
+    return ImageResult(
+        question=request,
+        before=in_colours(photo),
+        after=in_colours(sharp),
+        quality="coarse" if quick else "planned",
+        plan=used,
+        lattice=lattice,
+        seconds=perf_counter() - begun,
+        headline=count,
+        notes=((Message("Sharpening"), Message(FILTERED, noise=noise)), (Message("PSFs"), product), *measured),
+        no_plan=why_not,
+    )
+
+
+def _taken_values(request: ImageRequest) -> np.ndarray:
+    """Return the pixels asked for of a photo, (rows, columns, 3), or 1 where it has no colours; RequestError."""
+    if request.photo in CHARTS:
+        raise RequestError(NO_PHOTO)
+    if request.pixel_um is None:
+        raise RequestError(NO_PIXEL)
+    rows, columns = request.shape
+    if rows * columns > MOST_PIXELS:
+        raise RequestError(TOO_MANY, count=rows * columns / 1e6, most=MOST_PIXELS / 1e6)
+    own = own_shape(request.photo)
+    whole = scene_values(request.photo, own)
+    top = round((own[0] - rows) / 2 - request.centre_mm * UM_PER_MM / request.pixel_um)
+    left = (own[1] - columns) // 2
+    part = whole[top : top + rows, left : left + columns]
+    grey = np.array_equal(part[..., 0], part[..., 1]) and np.array_equal(part[..., 0], part[..., 2])
+    return part[..., :1] if grey else part
+
+
+def _taken_lattice(
+    request: ImageRequest, channels: int, watch: Progress, quick: bool, known: ImageResult | None
+) -> tuple[Plan, Lattice]:
+    """Return the plan and the kernels of a photo that the lens took; a tilted sensor has kernels of its own."""
+    if known and len(known.plan.scene.channels) == channels:
+        return known.plan, known.lattice
+    assert request.pixel_um is not None
+    light = channels_of(request.lens) if channels > 1 else (Channel("grey", (request.grey_nm,), (1.0,)),)
+    sensor = Sensor(*request.shape, request.pixel_um, (0.0, request.centre_mm))
+    scene = Scene(sensor, light, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
+    tilted = bool(request.lens.sensor_before)
+    if quick or tilted:
+        straight = preview_plan(scene.camera(replace(request.lens, sensor_before=())), scene)
+        if quick:
+            return straight, preview_lattice(straight, part_of(watch, 0.0, PLANNING))
+        middle = light[len(light) // 2]
+        seen = field_map(request.lens, request.depth_mm, float(middle.shares @ middle.wavelengths_um), sensor)
+        return straight, settled_lattice(seen, scene, part_of(watch, 0.0, PLANNING))[0]
+    made = plan(request.lens, scene, planning(watch, PLANNING / 2))
+    return made, plan_lattice(made, made.vergences[0], part_of(watch, PLANNING / 2, PLANNING))
+
+
+def in_colours(values: np.ndarray) -> np.ndarray:
+    """Return a picture of one channel or three as one of three."""
+    return np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values
 
 
 def same_optics(one: ImageRequest, two: ImageRequest) -> bool:
@@ -371,7 +478,7 @@ def fine_enough(answer: ImageResult) -> bool:
 
 def no_plan(plan: Plan) -> Message | None:
     """Return why a plan is not worth its time, `TOO_WIDE` or `TOO_LARGE`; None where it is."""
-    kernels = plan.kernels(1, plan.vergences[0])
+    kernels = plan.kernels(len(plan.colours) // 2, plan.vergences[0])
     middle, _ = kernels.lights(plan.scene.sensor.corners_mm()[0])[0]
     if 2 * middle.radius * kernels.pixel_um > MOST_SAMPLES:
         return TOO_LARGE
@@ -427,7 +534,7 @@ def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
         kernel = lattice.kernels[a][b]
         edge = (size - kernel.shape[-1]) // 2
         total[:, edge : size - edge, edge : size - edge] += np.float32(down[a] * right[b]) * kernel
-    return np.moveaxis(total / total.max(), 0, -1)
+    return in_colours(np.moveaxis(total / total.max(), 0, -1))
 
 
 def pixels(values: np.ndarray) -> np.ndarray:

@@ -34,7 +34,7 @@ def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
     """Return what share of a photo's height and of its width does not fit the frame; RequestError."""
     if photo in CHARTS:
         return 0.0, 0.0
-    rows, columns = _shape(photo, changed(photo))
+    rows, columns = own_shape(photo)
     tall, wide = middle(rows, columns, shape)
     return 1 - tall / rows, 1 - wide / columns
 
@@ -56,9 +56,14 @@ def _kept_chart(name: str, shape: tuple[int, int]) -> np.ndarray:
 
 def full_shape(photo: str) -> tuple[int, int]:
     """Return the rows and columns of a photo, or of one reduced to `MOST_PIXELS`; RequestError."""
-    rows, columns = CHART_SHAPE if photo in CHARTS else _shape(photo, changed(photo))
+    rows, columns = CHART_SHAPE if photo in CHARTS else own_shape(photo)
     shrink = max(1.0, (rows * columns / MOST_PIXELS) ** 0.5)
     return max(1, int(rows / shrink)), max(1, int(columns / shrink))
+
+
+def own_shape(photo: str) -> tuple[int, int]:
+    """Return the rows and columns of a photo; RequestError."""
+    return _shape(photo, changed(photo))
 
 
 @lru_cache(maxsize=16)

@@ -312,7 +312,8 @@ class Playback:
 class PhotoView:
     """The picture before the lens: ``source`` is a chart's name or a file; ``pixel_um`` None shows the whole field.
 
-    ``full`` then takes every pixel of the photo. ``look`` is how before and after are put to the eye.
+    ``full`` then takes every pixel of the photo. ``look`` is how before and after are put to the eye. Where ``show`` is
+    "taken", the photo was taken through the lens: its own pixels are of ``pixel_um``, and ``full`` takes all of them.
     """
 
     PREFIX: ClassVar[str] = "photo_"
@@ -323,6 +324,23 @@ class PhotoView:
     split: float = 0.5
     full: bool = False
     look: str = "split"
+
+    def __post_init__(self) -> None:
+        _check_entries(self)
+
+
+@dataclass(frozen=True)
+class MeasuredView:
+    """The ``picture`` of points that is measured, "" for none, and its pixel.
+
+    ``beside``: departures from the lens on screen are fitted; otherwise the lens gives the scale only.
+    """
+
+    PREFIX: ClassVar[str] = "measured_"
+
+    picture: str = ""
+    pixel_um: float = 3.45
+    beside: bool = True
 
     def __post_init__(self) -> None:
         _check_entries(self)
@@ -468,6 +486,7 @@ class State:
     compare: Compare = field(default_factory=Compare)  # whose check needs this class
     playback: Playback = Playback()
     photo: PhotoView = PhotoView()
+    measured: MeasuredView = MeasuredView()
     lesson: LessonPlace = LessonPlace()
     camera: Cameras = Cameras()
     matrix: MatrixView = MatrixView()

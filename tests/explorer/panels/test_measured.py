@@ -1,21 +1,30 @@
-"""The Measured panel measures a picture beside the lens on screen, and takes a fitted pupil into the window."""
+"""The Measured panel measures a picture beside the lens on screen, and takes what it finds into the window."""
 
 import numpy as np
 import pytest
 
-from p2sf.lens.lens import with_f_number
+from p2sf.image import Forming, form_image
+from p2sf.image.charts import draw_chart
+from p2sf.image.deblur import psnr
+from p2sf.io.photo_files import write_photo
+from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.results import image
+from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
-SHIFT_UM = 20.0
+SHIFT_UM = 60.0
 
 
 @pytest.fixture(scope="module")
 def picture(tmp_path_factory):
-    """Return a picture of 3 × 2 points through the Cooke triplet at f/4, its sensor 20 µm too far."""
+    """Return a picture of 3 × 2 points through the Cooke triplet at f/4, its sensor 60 µm too far."""
     path = tmp_path_factory.mktemp("frames") / "points.npy"
     lens = with_f_number(find_lens("cooke_triplet"), 4.0)
     exposure = Exposure(sensor_shift_um=SHIFT_UM)
@@ -51,11 +60,49 @@ def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window,
     assert what_if.free_pupil and what_if.added_waves[0] == pytest.approx(panel._found.fits[3].numbers[0], abs=1e-4)
     window.store.undo()
     assert not window.store.state.what_if.free_pupil
+    sharpened_by_what_was_measured(panel, window.store, tmp_path, shift)
+    assert state_from_json(state_to_json(window.store.state)).measured.picture == str(picture)
 
 
-def test_what_is_no_picture_of_points_is_said(panel, qtbot, tmp_path):
+def sharpened_by_what_was_measured(panel, store, folder, shift):
+    """A noisy photo through the lens comes within 0.5 dB of what the true lens makes of it; the design loses more."""
+    before = store.state
+    panel.sharpen.click()
+    taken = store.state
+    assert taken.display.stage == "image" and taken.photo.show == "taken" and taken.photo.pixel_um == 3.45
+    assert taken.optics.sensor_shift_um == pytest.approx(shift, abs=0.05)
+    store.undo()
+    assert store.state == before
+    truth = photographed(folder / "photo.tif")
+
+    def quality(**changes):
+        found = image.planned(image.question(live(changed(taken, photo_source=str(folder / "photo.tif"), **changes))))
+        return psnr(found.after[16:-16, 16:-16, :1], truth[16:-16, 16:-16])
+
+    as_measured, true, designed = quality(), quality(sensor_shift_um=SHIFT_UM), quality(sensor_shift_um=0.0)
+    assert abs(as_measured - true) < 0.5 < true - designed
+
+
+def photographed(path):
+    """Write what the lens of `picture` makes of a landscape, with noise, and return the landscape."""
+    lens = with_f_number(find_lens("cooke_triplet"), 4.0)
+    lens = with_sensor(lens, lens.sensor_mm + SHIFT_UM / 1000)
+    scene = Scene(Sensor(128, 160, 3.45), (Channel("green", (550.0,), (1.0,)),))
+    truth = draw_chart("landscape", 128, 160)[..., 1:2]
+    blurred = form_image(plan(lens, scene), truth, how=Forming(geometry=False))
+    noise = np.random.default_rng(0).normal(0, 0.005, blurred.shape)
+    write_photo(path, blurred + noise.astype(np.float32), "linear")
+    return truth
+
+
+def test_what_is_no_picture_of_points_is_said(panel, window, qtbot, tmp_path):
     np.save(tmp_path / "noise.npy", np.random.default_rng(0).normal(50, 5, (40, 40)))
     panel.open_picture(str(tmp_path / "noise.npy"))
     qtbot.waitUntil(lambda: bool(panel._refusal), timeout=30000)
     assert "o point stands out" in panel._refusal
-    assert not panel.save.isEnabled() and not panel.take.isEnabled()
+    assert not panel.save.isEnabled() and not panel.take.isEnabled() and not panel.sharpen.isEnabled()
+    window.store.update(measured_picture=str(tmp_path / "moved.npy"))
+    qtbot.waitUntil(lambda: "moved.npy is not in" in panel._refusal, timeout=30000)
+    window.store.undo()
+    assert window.store.state.measured.picture.endswith("noise.npy")
+    qtbot.waitUntil(lambda: "o point stands out" in panel._refusal, timeout=30000)

@@ -48,6 +48,8 @@ ALONE = dict(
     free_pupil=st.booleans(),
     linked=some_of(LINKABLE),
     playback_seconds=st.floats(0.1, 600, **finite),
+    measured_picture=st.sampled_from(["", "/some where/points.tif"]),
+    measured_pixel_um=st.floats(0.05, 1000, **finite),
     **{name: st.sampled_from(values) for name, values in CHOICES.items() if name != "shown"},
 )
 PLAYED = st.builds(dict, playback_slider=st.just("depth_mm"), playback_range=st.none() | st.just((500.0, inf)))

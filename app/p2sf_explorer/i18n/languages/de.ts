@@ -661,6 +661,7 @@
 <message><source>Table</source><translation>Tabelle</translation></message>
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
 <message><source>Take it up again</source><translation>Wieder aufnehmen</translation></message>
+<message><source>Take the lens as measured into the window and sharpen photos that it took; undo brings the lens back</source><translation>Das Objektiv, wie gemessen, ins Fenster übernehmen und Fotos schärfen, die es aufgenommen hat; Rückgängig bringt das Objektiv zurück</translation></message>
 <message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Teach</source><translation>Lehren</translation></message>
 <message><source>Telecentric relay 1:1, NA 0.05 (finite objects only)</source><translation>Telezentrisches Übertragungsobjektiv 1:1, NA 0,05 (nur für nahe Objekte)</translation></message>
@@ -758,6 +759,7 @@
 <message><source>Tilt about x: right-handed; a positive one turns y towards z, the piece's top away from the object.</source><translation>Kippung um x: rechtshändig; eine positive dreht y nach z, das Teil oben vom Objekt weg.</translation></message>
 <message><source>Tilt about y</source><translation>Kippung um y</translation></message>
 <message><source>Tilt about y: right-handed; a positive one turns z towards x.</source><translation>Kippung um y: rechtshändig; eine positive dreht z nach x.</translation></message>
+<message><source>To Image</source><translation>Ins Bild</translation></message>
 <message><source>To pupil</source><translation>Als Pupille</translation></message>
 <message><source>To report it, copy the text below and send it to the authors: it names versions and places in the program, no folder or file of yours.</source><translation>Um den Fehler zu melden, den Text unten kopieren und den Autoren schicken: Er nennt Versionen und Stellen im Programm, keinen Ordner und keine Datei von Ihnen.</translation></message>
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
@@ -858,6 +860,7 @@
 <message><source>Which sum</source><translation>Welche Summe</translation></message>
 <message><source>Why the picture is computed in this way: the plan's decisions, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
 <message><source>Why…</source><translation>Warum …</translation></message>
+<message><source>Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo.</source><translation>Wiener-Filter mit den PSFs dieses Objektivs, für ein Rauschen von {noise:.1%} von Weiß, wie aus dem Foto geschätzt.</translation></message>
 <message><source>Window</source><translation>Fenster</translation></message>
 <message><source>Working f-number</source><translation>Wirksame Blendenzahl</translation></message>
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
@@ -926,6 +929,7 @@
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
 <message><source>a picture of rays</source><translation>ein Bild von Strahlen</translation></message>
+<message><source>a picture of {shape} pixels; give at least 3 × 3</source><translation>ein Bild von {shape} Pixeln; mindestens 3 × 3 angeben</translation></message>
 <message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
 <message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
@@ -1046,10 +1050,12 @@
 <message><source>chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or set the lens straighter</source><translation>Hauptstrahlen treffen den Sensor in keiner glatten Ordnung, um {miss:.2g} Pixel; einen kleineren Sensor nehmen oder das Objektiv gerader stellen</translation></message>
 <message><source>choose a folder that is one</source><translation>einen Ordner wählen, der einer ist</translation></message>
 <message><source>choose a folder you may write to</source><translation>einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
+<message><source>choose a photo that was taken through this lens by Photo…, or drop it here: a chart was not</source><translation>ein Foto, das dieses Objektiv aufgenommen hat, mit Foto … wählen oder hier ablegen: eine Tafel ist keines</translation></message>
 <message><source>choose a smaller field or stop down</source><translation>ein kleineres Feld wählen oder abblenden</translation></message>
 <message><source>choose a smaller field, stop down, or leave clipping off</source><translation>ein kleineres Feld wählen, abblenden oder den Randbeschnitt auslassen</translation></message>
 <message><source>choose another place</source><translation>einen anderen Ort wählen</translation></message>
 <message><source>choose fewer pixels or another disk</source><translation>weniger Pixel oder einen anderen Datenträger wählen</translation></message>
+<message><source>choose how large the pixels of the camera are; To Image in Measured states those of the measured picture</source><translation>wählen, wie groß die Pixel der Kamera sind; Ins Bild in Gemessen stellt die des gemessenen Bildes ein</translation></message>
 <message><source>choose {names}</source><translation>{names} wählen</translation></message>
 <message><source>clear</source><translation>frei</translation></message>
 <message><source>clear rim</source><translation>freier Rand</translation></message>
@@ -1091,6 +1097,7 @@
 <message><source>cubic phase</source><translation>kubische Phase</translation></message>
 <message><source>curvature</source><translation>Krümmung</translation></message>
 <message><source>cut by the frame's edge</source><translation>vom Rand der Aufnahme angeschnitten</translation></message>
+<message><source>data</source><translation>Daten</translation></message>
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>decentre</source><translation>Dezentrierung</translation></message>
 <message><source>decentre x, surface {where}</source><translation>Dezentrierung x, Fläche {where}</translation></message>
@@ -1435,6 +1442,8 @@
 <message><source>perfect, clear pupil</source><translation>ideal, freie Pupille</translation></message>
 <message><source>perfect, same pupil</source><translation>ideal, dieselbe Pupille</translation></message>
 <message><source>phase</source><translation>Phase</translation></message>
+<message><source>photo</source><translation>Foto</translation></message>
+<message><source>photo it took, sharpened</source><translation>sein Foto, geschärft</translation></message>
 <message><source>picture encoding "{encoding}" is unknown; choose {choices}</source><translation>die Bildkodierung "{encoding}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>picture − reference, µm</source><translation>Bild − Referenz, µm</translation></message>
 <message><source>pictures of {one} and {two}; compare two of one shape, at least {least} pixels a side</source><translation>Bilder von {one} und {two}; zwei von einer Form vergleichen, mit mindestens {least} Pixeln je Seite</translation></message>
@@ -1444,6 +1453,7 @@
 <message><source>pincushion {part} at {field}</source><translation>Kissen {part} bei {field}</translation></message>
 <message><source>piston</source><translation>Kolbenterm</translation></message>
 <message><source>pixel</source><translation>Pixel</translation></message>
+<message><source>pixel of the measured picture</source><translation>Pixel des gemessenen Bildes</translation></message>
 <message><source>pixel of the photo</source><translation>Pixel des Fotos</translation></message>
 <message><source>pixels a side</source><translation>Pixel je Seite</translation></message>
 <message><source>pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}</source><translation>Pixel von {pixel:g} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin:.0%}</translation></message>
@@ -1591,7 +1601,7 @@
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
 <message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
 <message><source>stop_surface is {number}; write a surface from 1 to {count}</source><translation>stop_surface ist {number}; eine Fläche von 1 bis {count} schreiben</translation></message>
-<message><source>stopped</source><translation>angehalten</translation></message>
+<message><source>stopped; choose the picture again to measure it</source><translation>angehalten; das Bild neu wählen, um es zu messen</translation></message>
 <message><source>stops</source><translation>Blenden</translation></message>
 <message><source>substituted</source><translation>ersetzt</translation></message>
 <message><source>sum</source><translation>Summe</translation></message>
@@ -1803,6 +1813,7 @@
 <message><source>the outline of half a pupil</source><translation>der Umriss einer halben Pupille</translation></message>
 <message><source>the paraxial pupil</source><translation>die paraxiale Pupille</translation></message>
 <message><source>the phase is {slope:.0f} waves steep; stop the lens down</source><translation>die Phase ist {slope:.0f} Wellen steil; das Objektiv abblenden</translation></message>
+<message><source>the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it</source><translation>das Foto hat {count:.3g} Megapixel, von denen höchstens {most:g} auf einmal geschärft werden; einen Teil davon wählen</translation></message>
 <message><source>the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
@@ -2113,6 +2124,7 @@
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
 <message><source>{name} is no list of tables; head every one with [[{name}]]</source><translation>{name} ist keine Liste von Tabellen; jede mit [[{name}]] überschreiben</translation></message>
+<message><source>{name} is not in {folder} any more; put it back there, or choose another picture</source><translation>{name} ist nicht mehr in {folder}; dorthin zurücklegen oder ein anderes Bild wählen</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
 <message><source>{name} is {found}; write a list of tables, each with decentre or tilt_deg</source><translation>{name} ist {found}; eine Liste von Tabellen schreiben, jede mit decentre oder tilt_deg</translation></message>
 <message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
@@ -2290,13 +2302,13 @@
 <message><source>{where}: this is not the same in all columns, and {position} lies between them; put the ring on a column, marked ▾, to edit it there</source><translation>{where}: dies ist nicht in allen Spalten gleich, und {position} liegt dazwischen; den Ring auf eine Spalte stellen, mit ▾ bezeichnet, um es dort zu ändern</translation></message>
 <message><source>{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if</source><translation>{why}, also stellt ein anderer Ort des Sensors nicht scharf; Wd am Regler einstellen oder das Was-wäre-wenn zurücksetzen</translation></message>
 <message><source>|f′| over the entrance pupil.</source><translation>|f′| durch die Eintrittspupille.</translation></message>
+<message><source>± {percent} %</source><translation>± {percent} %</translation></message>
 <message><source>±{half} µm depth of focus</source><translation>±{half} µm Fokustiefe</translation></message>
 <message><source>× A | B</source><translation>× A | B</translation></message>
 <message><source>× depths</source><translation>× Abstände</translation></message>
 <message><source>× no coma</source><translation>× keine Koma</translation></message>
 <message><source>× sensor shifts</source><translation>× Sensorversatz</translation></message>
 <message><source>× wavelengths</source><translation>× Wellenlängen</translation></message>
-<message><source>Δ ≤ {percent} %</source><translation>Δ ≤ {percent} %</translation></message>
 <message><source>Δn at d unknown, the file does not tell the index it wants</source><translation>Δn bei d unbekannt, die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>Δn at d {value:+.5f}</source><translation>Δn bei d {value:+.5f}</translation></message>
 <message><source>η, pupil radii (towards the field)</source><translation>η, Pupillenradien (zum Feld hin)</translation></message>
