@@ -7,12 +7,13 @@ so that the few numbers of the frame are solved for alone, by Levenberg's and Ma
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from math import ceil
 from typing import TypeAlias
 
 import numpy as np
 
 from p2sf.errors import Cancelled, RequestError
-from p2sf.measure.frame_terms import FrameModel, FramePoint, PointPupil, six_of_unknowns
+from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, PointPupil, six_of_unknowns
 from p2sf.measure.point_fit import chi2_warning, fit_point
 from p2sf.measure.point_model import PixelSum
 from p2sf.measure.pupil_nodes import has_twin
@@ -25,6 +26,7 @@ RTOL = 1e-5  # of the sum of squares in one step
 FIRST_DAMPING, WEAKER, STRONGER, MOST_DAMPING = 1e-3, 0.2, 5.0, 1e8
 MOST_INFLATION = 30.0  # of an error by what else is unknown
 LEAST_SINGULAR = 1e-10  # of the information of unknowns in units of what each alone is known to
+SHIFT, FOCUS_STEP, TRIED_POINTS = FOCUS[0], 0.25, 4  # waves of Wd from one shift tried to the next; points
 SUGGESTING = 8  # points whose single fits suggest where a fit without a lens starts
 
 Part: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -108,8 +110,8 @@ class PointSum:
         self.good = picture.usable
         self.data = np.where(self.good, picture.values, 0.0)
         self.root = np.where(self.good, 1 / np.sqrt(np.broadcast_to(picture.variance, self.data.shape)), 0.0)
-        half_um = max(self.data.shape) / 2 * model.optics.pixel_um
-        self.pupil: PointPupil = model.pupil(point.x_mm, point.y_mm, half_um)
+        self.half_um = max(self.data.shape) / 2 * model.optics.pixel_um
+        self.pupil: PointPupil = model.pupil(point.x_mm, point.y_mm, self.half_um)
         nodes = self.pupil.nodes
         self.phase = self.pupil.phase + point.focus_um * self.pupil.focus
         self.columns = np.concatenate([self.pupil.terms, -nodes.fx[None], -nodes.fy[None]]).astype(np.float32)
@@ -121,10 +123,20 @@ class PointSum:
         phase = self.phase + values @ self.pupil.terms - (nodes.fx * x + nodes.fy * y)
         return self.sum.light_and_slopes(phase, self.columns)
 
+    def unlikeness(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> float:
+        """Return the sum of squares that these values leave of a picture, its place, light and background fitted."""
+        x, y, _, _ = self.start(point, model, values)
+        nodes = self.pupil.nodes
+        light = self.sum.light(self.phase + values @ self.pupil.terms - (nodes.fx * x + nodes.fy * y))
+        columns = np.column_stack([(light * self.root).ravel(), self.root.ravel()])
+        data = (self.data * self.root).ravel()
+        rest = data - columns @ np.linalg.lstsq(columns, data, rcond=None)[0]
+        return float(rest @ rest)
+
     def start(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> np.ndarray:
         """Return x, y, light and background to start from: where the centroids of picture and model agree."""
         found = seen(point.picture, model.optics)
-        light, _ = self.light(values, 0.0, 0.0)
+        light = self.sum.light(self.phase + values @ self.pupil.terms)
         across, up = ((np.arange(n) - n // 2) * model.optics.pixel_um for n in light.shape[::-1])
         total = light.sum()
         x, y = found.x - light.sum(0) @ across / total, found.y - light.sum(1) @ up / total
@@ -151,15 +163,15 @@ def fit_frame(
 ) -> FrameFit:
     """Return the numbers of the model that explain all points together.
 
-    ``start``: of the unknowns; when not given, those of the lens as designed, or without a lens those that fits of
-    single points suggest. Raises RequestError for no points.
+    ``start``: of the unknowns; when not given, those of the lens as designed at the sensor's most likely place, or
+    without a lens those that fits of single points suggest. Raises RequestError for no points.
     """
     if not points:
         raise RequestError("there is no usable point in the frame; look at what its points are flagged for")
-    if start is None:
-        start = np.zeros(len(model.unknowns)) if model.lens is not None else _suggested(points, model)
-    values = np.array(start, float)
     sums = [PointSum(point, model) for point in points]
+    if start is None:
+        start = _focused(sums, points, model) if model.lens is not None else _suggested(points, model)
+    values = np.array(start, float)
     own = np.array([one.start(point, model, values) for one, point in zip(sums, points, strict=True)])
     parts = [one.residuals(values, mine) for one, mine in zip(sums, own, strict=True)]
     cost, damping = _cost(parts), FIRST_DAMPING
@@ -183,6 +195,27 @@ def fit_frame(
         if gain < RTOL * cost:
             break
     return _result(points, model, sums, values, own, parts)
+
+
+def _focused(sums: Sequence[PointSum], points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
+    """Return values of a model with a lens: 0, but for the sensor's shift that makes some points most alike.
+
+    From the lens as designed, the least sum of squares is a mere half wave of defocus away from another minimum.
+    """
+    values = np.zeros(len(model.unknowns))
+    if SHIFT not in model.unknowns:
+        return values
+    place, waves = model.unknowns.index(SHIFT), 1 / model.focus_waves_per_um
+    # Beyond, light of a point without aberrations lands outside its window, 2·Wd·λ/NA from the middle.
+    most = min(one.half_um for one in sums) * model.optics.cycles / 2
+    shifts = FOCUS_STEP * waves * np.arange(-ceil(most / FOCUS_STEP), ceil(most / FOCUS_STEP) + 1)
+    chosen = _far_apart(points)[:TRIED_POINTS]
+    some = [(one, point) for one, point in zip(sums, points, strict=True) if any(point is other for other in chosen)]
+    trials = np.repeat(values[None], shifts.size, 0)
+    trials[:, place] = shifts
+    left = [sum(one.unlikeness(point, model, trial) for one, point in some) for trial in trials]
+    best: np.ndarray = trials[int(np.argmin(left))]
+    return best
 
 
 def _suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:

@@ -18,7 +18,8 @@ from p2sf.threads import one_blas_thread
 
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
-TRIED = 6, 24  # starts; the second count where none of the first explains the pictures
+TRIED = 6, 15  # starts; the second count where none of the first explains the pictures,
+WIDER, TRIED_WIDER = 2.0, 9  # and then some whose mean square width is so many times that seen: noise hides faint light
 KEPT = 3  # coarse fits that are followed to their end
 COARSE_STEPS, FINE_STEPS = 12, 60
 COARSE_RTOL, FINE_RTOL = 1e-2, 1e-6  # of the sum of squares in one step
@@ -173,8 +174,11 @@ def _six(
         expected[5::PER_FRAME] += (near[1] - every[0].waves[1]) * np.cos(azimuth) / optics.cycles
         expected[4::PER_FRAME] += (near[1] - every[0].waves[1]) * np.sin(azimuth) / optics.cycles
         minima.append(_descended(fine, expected, loss))
-    for some in (slice(0, TRIED[0]), slice(*TRIED)):
-        rough = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
+    for first in (True, False):
+        some = every[: TRIED[0]]
+        if not first:
+            some = every[TRIED[0] :] + starts(pictures, optics, azimuth, TRIED_WIDER, WIDER)
+        rough = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in some]
         rough.sort(key=_cost)
         minima += [_descended(fine, minimum.unknowns, loss) for minimum in _distinct(rough, 4)[:KEPT]]
         minima.sort(key=_cost)

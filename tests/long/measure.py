@@ -7,15 +7,16 @@ the whole way from the picture: points are found, cut out and fitted. Every tabl
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import process_time
 
 import numpy as np
 
-from p2sf.image import plan_lattice
-from p2sf.image.blur_operator import BlurOperator
+from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
-from p2sf.image.deblur import psnr, wiener
-from p2sf.lens.lens import Lens, with_f_number, with_sensor
+from p2sf.image.deblur import psnr
+from p2sf.io.photo_files import write_photo
+from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.measure.frame import FrameGeometry
@@ -32,6 +33,10 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf.studies import validate
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.measuring.measurement import answer, dated, into_image, question
+from p2sf_explorer.results import image
+from p2sf_explorer.state.state import State, changed, new_state
 
 OPTICS = Optics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 PIXELS = 40
@@ -243,29 +248,40 @@ def frames(trials: int, columns: int = 9, rows: int = 7, size_mm: tuple[float, f
     )
 
 
-def deblurred(lens: Lens, taken: np.ndarray, noise: float, side: int) -> np.ndarray:
-    planned = plan(lens, Scene(Sensor(side, side, 12.0, (0.0, 4.0)), (Channel("green", (550.0,), (1.0,)),)))
-    return wiener(taken, plan_lattice(planned, planned.vergences[0]), noise)
-
-
 def deblur() -> None:
-    """Print what sharpening by the PSFs of the measured lens loses against those of the true one."""
-    lens, pitch, side, noise = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45, 256, 0.005
-    built = with_sensor(lens, lens.sensor_mm + 0.12)
-    optics = lens_optics(lens, np.inf, lens.reference_wavelength_um, pitch)
-    frame = simulated_frame(built, grid_of_points(5, 4, 6.0, 4.5), FrameGeometry(1500, 2000, pitch), Exposure())
-    found = measured([frame], optics, lens=lens, unknowns=("sensor_shift_um",), singly=False).whole
-    shift = float(found.values[0])
-    seen = with_sensor(lens, lens.sensor_mm + shift / 1000)
-    truth = draw_chart("landscape", side, side)[..., 1:2]
-    planned = plan(built, Scene(Sensor(side, side, 12.0, (0.0, 4.0)), (Channel("green", (550.0,), (1.0,)),)))
-    blurred = BlurOperator(plan_lattice(planned, planned.vergences[0]), (side, side)).forward(truth)
-    taken = blurred + np.random.default_rng(1).normal(0, noise, blurred.shape).astype(np.float32)
+    """Print what sharpening loses by the lens as measured: points photographed, measured, taken into Image, a photo."""
+    lens, pitch, shape, noise, shift = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45, (240, 360), 0.005, 60.0
+    frame = simulated_frame(
+        lens, grid_of_points(5, 4, 6.0, 4.5), FrameGeometry(1500, 2000, pitch), Exposure(sensor_shift_um=shift)
+    )
+    built = with_sensor(lens, lens.sensor_mm + shift / 1000)
+    truth = draw_chart("landscape", *shape)[..., 1:2]
+    scene = Scene(Sensor(*shape, pitch), (Channel("green", (550.0,), (1.0,)),))
+    blurred = form_image(plan(built, scene), truth, how=Forming(geometry=False))
+    with TemporaryDirectory() as folder:
+        points, photo = Path(folder) / "points.npy", Path(folder) / "photo.tif"
+        np.save(points, frame.values)
+        write_photo(photo, blurred + np.random.default_rng(1).normal(0, noise, blurred.shape), "linear")
+        entries = {"lens": "cooke_triplet", "f_number": 4.0, "wavelength_nm": 550.0, "field_deg": 2.0}
+        state = new_state(**entries, measured_picture=str(points), method="seidel")
+        found = answer(dated(question(live(state))), lambda: False, lambda share: None).whole
+        taken = changed(state, **into_image(found, pitch, state), photo_source=str(photo))
+        print(f"deblurring, sensor {shift:g} µm too far, measured {taken.optics.sensor_shift_um:.2f} µm")
+        for name, um in (("measured", taken.optics.sensor_shift_um), ("it is", shift), ("designed", 0.0)):
+            sharp, unsharp = levels(changed(taken, sensor_shift_um=um), truth)
+            print(f"  by PSFs of the lens as {name}: {sharp:.2f} dB, unsharpened {unsharp:.2f} dB")
+
+
+def levels(state: State, truth: np.ndarray) -> tuple[float, float]:
+    """Return the PSNR of a photo sharpened in the Image panel, and of the photo, without their borders."""
+    asked = image.question(live(state))
+    made = image.planned(asked)
+    top = round((truth.shape[0] - asked.shape[0]) / 2 - 1000 * asked.centre_mm / asked.pixel_um)
+    left = (truth.shape[1] - asked.shape[1]) // 2
+    wanted = truth[top : top + asked.shape[0], left : left + asked.shape[1]]
     inside = (slice(24, -24),) * 2
-    levels = [psnr(deblurred(one, taken, noise, side)[inside], truth[inside]) for one in (built, seen, lens)]
-    print(f"deblurring, sensor 120 µm too far, measured {shift:.2f} µm")
-    print(f"  as blurred {psnr(taken[inside], truth[inside]):.2f} dB")
-    print("  by PSFs of the lens as it is {:.2f} dB, as measured {:.2f} dB, as designed {:.2f} dB".format(*levels))
+    after, before = (psnr(values[inside][..., :1], wanted[inside]) for values in (made.after, made.before))
+    return after, before
 
 
 def main(arguments: list[str]) -> None:

@@ -147,6 +147,14 @@ def test_a_frame_gives_back_how_the_sensor_stands(triplet, frame):
     assert found.chi2 == pytest.approx(1.0, abs=0.15) and found.r2.min() > 0.95
 
 
+def test_a_sensor_far_from_where_the_design_has_it_is_found(triplet):
+    """0.9 waves of defocus: from the lens as designed, the nearest minimum is another one, of 4 times the noise."""
+    exposure = Exposure(sensor_shift_um=-60.0)
+    taken = simulated_frame(triplet, grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, PITCH), exposure)
+    whole = measured([taken], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).whole
+    assert abs(whole.values[0] + 60) < 4 * whole.errors[0] < 4 and whole.chi2 < 1.2
+
+
 def model_points(model, truth, noise, places, focus=(0.0,), pixels=25, seed=0):
     rng, points = np.random.default_rng(seed), []
     for x, y in places:

@@ -117,7 +117,7 @@ def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: C
     """Return the measurement of a picture. Raises P2SFError for one that cannot be read or holds no point."""
     if not Path(asked.picture).is_file():
         raise RequestError(
-            "{name} is not in {folder} any more; put it back there, or choose another picture",
+            "the picture {name} is not in {folder} any more; put it back there, or choose another",
             name=Path(asked.picture).name,
             folder=str(Path(asked.picture).parent),
         )

@@ -221,7 +221,8 @@ class MeasuredPanel:
             return
         self._paint_pictures(parts)
         fit = found.fits[number]
-        self.note.setText("\n".join(said(warning) for warning in fit.warnings) if fit else "")
+        warnings = dict.fromkeys((*(fit.warnings if fit else ()), *(found.whole.warnings if found.whole else ())))
+        self.note.setText("\n".join(said(warning) for warning in warnings))
 
     def _paint_pictures(self, parts: PointPictures) -> None:
         pictures = [

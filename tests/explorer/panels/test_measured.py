@@ -65,7 +65,7 @@ def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window,
 
 
 def sharpened_by_what_was_measured(panel, store, folder, shift):
-    """A noisy photo through the lens comes within 0.5 dB of what the true lens makes of it; the design loses more."""
+    """Check that a noisy photo comes within 0.5 dB of what the true lens makes of it, and the design loses more."""
     before = store.state
     panel.sharpen.click()
     taken = store.state

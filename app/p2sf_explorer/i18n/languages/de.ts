@@ -1817,6 +1817,7 @@
 <message><source>the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
+<message><source>the picture {name} is not in {folder} any more; put it back there, or choose another</source><translation>das Bild {name} ist nicht mehr in {folder}; dorthin zurücklegen oder ein anderes wählen</translation></message>
 <message><source>the pixel is {pixel:g} µm; give a pitch above 0</source><translation>das Pixel misst {pixel:g} µm; einen Abstand über 0 angeben</translation></message>
 <message><source>the point at {depth:g} mm, slope {slope:.4g}, {wave:g} nm: {error}</source><translation>der Punkt bei {depth:g} mm, Steigung {slope:.4g}, {wave:g} nm: {error}</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
@@ -2124,7 +2125,6 @@
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
 <message><source>{name} is no list of tables; head every one with [[{name}]]</source><translation>{name} ist keine Liste von Tabellen; jede mit [[{name}]] überschreiben</translation></message>
-<message><source>{name} is not in {folder} any more; put it back there, or choose another picture</source><translation>{name} ist nicht mehr in {folder}; dorthin zurücklegen oder ein anderes Bild wählen</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
 <message><source>{name} is {found}; write a list of tables, each with decentre or tilt_deg</source><translation>{name} ist {found}; eine Liste von Tabellen schreiben, jede mit decentre oder tilt_deg</translation></message>
 <message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
