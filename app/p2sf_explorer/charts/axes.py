@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Ticks = Sequence[tuple[float, str]]
 TickMaker = Callable[[float, float, float], Ticks]
 """From the ends of an axis and about how many there may be, ticks and their labels."""
-TICK_EVERY_PX = {"bottom": 66, "left": 34}
+TICK_EVERY_PX, MOST_TICKS = {"bottom": 66, "left": 34}, 10  # at least so far apart at scale 1, and about so many
 AXIS_PX = {"bottom": 20, "left": 44, "name": 16, "top": 5, "right": 9, "bare": 8}  # margins at scale 1
 LOCK_PX = 15
 
@@ -60,16 +60,21 @@ def paint_axes(painter: QPainter, chart: "Chart", labels: tuple[str, str]) -> No
 
 def left_ticks(chart: "Chart") -> Ticks:
     """Return the left axis's ticks and their labels."""
-    return (chart.left_tick_maker or ticks)(*chart.ranges()[1], chart.area.height() / chart.theme.px(34))
+    return (chart.left_tick_maker or ticks)(*chart.ranges()[1], _room_for(chart.area.height(), chart, "left"))
 
 
 def bottom_ticks(chart: "Chart") -> Ticks:
     """Return the bottom axis's ticks and their labels; where circles are round as close as those of the left axis."""
-    every: float = chart.theme.px(TICK_EVERY_PX["bottom"])
+    most = _room_for(chart.area.width(), chart, "bottom")
     if chart.round:
-        every = max((width_of(text, chart.theme.tick) for _, text in left_ticks(chart)), default=0.0) + 14
-    make = chart.bottom_tick_maker or ticks
-    return chart.bottom_ticks or make(*chart.ranges()[0], chart.area.width() / every)
+        widest = max((width_of(text, chart.theme.tick) for _, text in left_ticks(chart)), default=0.0)
+        most = min(MOST_TICKS, chart.area.width() / (widest + chart.theme.px(14)))
+    return chart.bottom_ticks or (chart.bottom_tick_maker or ticks)(*chart.ranges()[0], most)
+
+
+def _room_for(length: float, chart: "Chart", side: str) -> float:
+    """Return how many ticks there may be along an axis."""
+    return min(MOST_TICKS, length / chart.theme.px(TICK_EVERY_PX[side]))
 
 
 def _paint_left(painter: QPainter, chart: "Chart", label: str) -> None:

@@ -16,8 +16,6 @@ from PySide6.QtGui import QAccessible, QColor, QFocusEvent, QImage, QPainter, QP
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
-from p2sf_explorer.charts.axes import bottom_ticks as bottom_ticks
-from p2sf_explorer.charts.axes import left_ticks as left_ticks
 from p2sf_explorer.charts.crosshair import boxed, paint_box, paint_crosshair, paint_marks, paint_pin
 from p2sf_explorer.charts.hand import Hand
 from p2sf_explorer.charts.painting import MARKS, paint_line_marks, pen, polylines

@@ -179,6 +179,7 @@ class WorkspaceBar(QWidget):
         for button in self.buttons.values():
             button.setVisible(not narrow)
         self._name_menu()
+        self.updateGeometry()  # at once: the bar around it may go to and fro
 
     def mark(self, name: str) -> None:
         """Show which workspace is on."""

@@ -62,7 +62,6 @@ class TopBar(QFrame):
         self.method = described({name: METHOD_WORDS[name] for name in CHOICES["method"]}, METHOD_TIP, self)
         self.tolerance = ExactnessButton(store, self)
         self.method.setObjectName("")
-        self.method.setMinimumWidth(96)  # a narrow window cuts its words rather than grow
         self.named = QLabel(tr("Method"), self)
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
         self.undo = self._tool("↶", "Undo: take back one step (Ctrl+Z)", store.undo)
@@ -87,6 +86,7 @@ class TopBar(QFrame):
         """Take a scale of type, which margins and gaps follow."""
         self._row.setContentsMargins(*(round(scale * margin) for margin in (10, 6, 10, 6)))
         self._row.setSpacing(round(6 * scale))
+        self.method.setMinimumWidth(round(88 * scale))  # a narrow window cuts its words rather than grow
         self.fit()
 
     def minimumSizeHint(self) -> QSize:
@@ -106,9 +106,11 @@ class TopBar(QFrame):
                 self.workspaces.make_narrow(less > 1)
             for tool in (self.undo, self.redo, self.pin, self.snapshot, self.help):
                 tool.setVisible(less < 3)
-            parts = [item for k in range(self._row.count()) if (item := self._row.itemAt(k)) and not item.isEmpty()]
-            needed = sum(part.minimumSize().width() + self._row.spacing() for part in parts)
-            title = (self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()) // 5  # as much as can be read
+            parts = [part for k in range(self._row.count()) if (part := self._row.itemAt(k).widget())]
+            # Not from the layout, which learns of other sizes later.
+            least = [max(part.minimumWidth(), part.minimumSizeHint().width()) for part in parts if not part.isHidden()]
+            needed = sum(least) + self._row.spacing() * len(least)
+            title = (self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()) // 9  # as much as can be read
             if needed + (title if less < 2 else 0) <= room:
                 return
 

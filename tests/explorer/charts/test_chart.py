@@ -5,7 +5,8 @@ import pytest
 from PySide6.QtCore import QPointF, QRect
 from PySide6.QtGui import QColor, QImage
 
-from p2sf_explorer.charts.chart import Chart, bottom_ticks, strips
+from p2sf_explorer.charts.axes import bottom_ticks, left_ticks
+from p2sf_explorer.charts.chart import Chart, strips
 from p2sf_explorer.charts.painting import polylines, set_text
 from p2sf_explorer.charts.plots import EMPTY, as_indices
 from p2sf_explorer.charts.theme import LIGHT
@@ -77,6 +78,15 @@ def test_ticks_below_a_round_picture_are_at_least_three_and_do_not_touch(chart, 
         ]
         assert len(below) >= 3
         assert all(b - a > (one + other) / 2 for (a, one), (b, other) in pairwise(below))
+
+
+@pytest.mark.parametrize("half", [104.0, 190.0, 205.0, 4680.0])
+def test_a_large_chart_has_no_more_ticks_than_can_be_read_at_a_glance(chart, half):
+    """Round steps are 1, 2 or 5: no longer than what makes ten of them, so eleven ticks are the most."""
+    chart.set_range((-half, half), (-half, half))
+    chart.resize(3000, 1700)
+    chart.forget_background()
+    assert all(4 <= len(made(chart)) <= 11 for made in (left_ticks, bottom_ticks))
 
 
 def test_a_line_breaks_where_a_value_is_missing():

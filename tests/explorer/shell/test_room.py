@@ -6,12 +6,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 
 from p2sf.errors import P2SFError
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import lens_to_toml
 from p2sf.request import Request
 from p2sf_explorer.charts.painting import fitting, width_of
 from p2sf_explorer.charts.plots import ColourBar, HeatMap
 from p2sf_explorer.compute.glass_outlines import clear_rims, glass_of, still
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped
+from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped, with_lens
 from p2sf_explorer.docking.tabs import Tabs
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
@@ -189,6 +191,25 @@ def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(w
     finally:
         set_language("en")
         tabs.close()
+
+
+@pytest.mark.parametrize("percent", [100, 150])
+def test_the_top_bar_shows_workspaces_beside_an_edited_lens_and_the_method_whole(window, percent):
+    lens = lens_to_toml(find_lens("double_gauss_28"))
+    window.store.replace(with_lens(window.store.state, "double_gauss_28", lens))
+    window.store.update(scale_percent=percent, method="auto")
+    window.resize(1280 * percent // 100, 800)
+    QApplication.processEvents()
+    top = window.top
+    assert top.edited.isVisible() and top.workspaces.buttons["explore"].isVisible()
+    assert top.method.width() >= top.method.sizeHint().width()
+    window.resize(1000, 800)
+    QApplication.processEvents()
+    narrow = [part.geometry() for part in (top.lens, top.workspaces, top.more)]
+    assert not top.workspaces.buttons["explore"].isVisible()
+    top.fit()  # whose answer hangs on nothing but the room
+    QApplication.processEvents()
+    assert [part.geometry() for part in (top.lens, top.workspaces, top.more)] == narrow
 
 
 @pytest.mark.parametrize("wide", [1280, 1920])
