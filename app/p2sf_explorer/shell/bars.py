@@ -106,7 +106,8 @@ class TopBar(QFrame):
                 self.workspaces.make_narrow(less > 1)
             for tool in (self.undo, self.redo, self.pin, self.snapshot, self.help):
                 tool.setVisible(less < 3)
-            parts = [part for k in range(self._row.count()) if (part := self._row.itemAt(k).widget())]
+            items = [item for k in range(self._row.count()) if (item := self._row.itemAt(k))]
+            parts = [part for item in items if (part := item.widget())]
             # Not from the layout, which learns of other sizes later.
             least = [max(part.minimumWidth(), part.minimumSizeHint().width()) for part in parts if not part.isHidden()]
             needed = sum(least) + self._row.spacing() * len(least)
