@@ -13,7 +13,7 @@ def _built() -> str:
 
 
 __version__ = _built()
-STANDS_ON = ("numpy", "scipy", "PySide6_Essentials", "pyvista", "vtk")
+STANDS_ON = ("numpy", "scipy", "PySide6_Essentials", "pyqtgraph", "pyvista", "vtk")
 
 
 def versions() -> dict[str, str]:

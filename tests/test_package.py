@@ -39,7 +39,7 @@ LAYERS = (
     "p2sf.__main__ p2sf_explorer.site",
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
-QT = {"PySide6", "shiboken6", "pyvista"}
+QT = {"PySide6", "pyqtgraph", "pyvista"}
 WITHOUT_QT = (
     "p2sf",
     "p2sf_explorer.state",

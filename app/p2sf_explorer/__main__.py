@@ -4,12 +4,8 @@ The program of the bundle is this file too. In place of what to open it takes --
 for its entry in the menu of programs.
 """
 
-import builtins
-import gc
-import importlib
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 
 from p2sf.errors import P2SFError
 from p2sf.threads import one_blas_thread
@@ -43,8 +39,8 @@ def main(argv: list[str]) -> int:
         raise P2SFError(problem)
     state = starting_state(argv) if argv else None
     with one_blas_thread:  # for as long as the window is there, so that a drag's many calls need not set it
-        with fast_imports():
-            from p2sf_explorer.application import run_application
+        from p2sf_explorer.application import run_application
+
         return run_application(state)
 
 
@@ -65,24 +61,6 @@ def run(argv: list[str]) -> int:
     except P2SFError as error:
         print(f"Error: {error}", file=sys.stderr)
         return 2
-
-
-@contextmanager
-def fast_imports() -> Iterator[None]:
-    """Spare imports two things that none here has any use for: a sixth of the time from start to first picture.
-
-    These are searches for garbage, which modules are not, and PySide6's reading of the source of each module, for
-    whether it uses a ``__feature__`` of PySide6: its ``__import__`` is taken out again.
-    """
-    plain = builtins.__import__
-    gc.disable()
-    try:
-        importlib.import_module("PySide6.QtCore")
-        builtins.__import__ = plain
-        yield
-    finally:
-        gc.enable()
-        gc.freeze()  # no later search goes through what is loaded now
 
 
 if __name__ == "__main__":

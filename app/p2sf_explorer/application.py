@@ -5,6 +5,7 @@ import sys
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
+from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.crash.dialog import UnexpectedErrors
 from p2sf_explorer.crash.recovery import offer_rescued, session_to_open
 from p2sf_explorer.desktop.open_events import OpenEvents
@@ -50,4 +51,5 @@ def _qt_application() -> QApplication:
     QApplication.setDesktopFileName(NAME)
     QApplication.setWindowIcon(QIcon(str(ICON)))
     QApplication.setStyle("Fusion")
+    configure_plots()
     return application

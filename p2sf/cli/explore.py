@@ -13,7 +13,7 @@ What = Annotated[str | None, Parameter(help="A lens, or a STATE.json, a snapshot
 
 def explore(what: What = None, /) -> int:
     """Open the explorer on a lens, a saved state, a snapshot or a link, else as it was left; return its exit code."""
-    missing = [name for name in ("PySide6", "platformdirs") if find_spec(name) is None]
+    missing = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
     if missing:
         both = Message("{one} and {other}", one=missing[0], other=missing[-1])
         raise P2SFError(

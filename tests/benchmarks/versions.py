@@ -33,11 +33,11 @@ if sys.argv[1] == "0.1":
     from p2sf.psf import seidel_psf
     from p2sf.seidel import coefficients
     fresh = State
-    configure_plots()
 else:
     from p2sf.lensfile.library import find_lens
     from p2sf.paraxial.seidel import coefficients
     from p2sf.psf.seidel import seidel_psf
+    from p2sf_explorer.charts.theme import configure_plots
     from p2sf_explorer.shell.window import MainWindow as Window
     from p2sf_explorer.state.state import new_state as fresh
 lens = find_lens("double_gauss_28")
@@ -45,6 +45,7 @@ depths = 1 / np.linspace(1e-6, 1 / 5000, 20)
 six = coefficients(lens, depths[:, None, None], np.linspace(0, 0.1, 20)[:, None], np.linspace(0.4, 0.7, 31))
 app = QApplication([])
 app.setStyle("Fusion")
+configure_plots()
 steps = count()
 with threadpool_limits(1):
     window = Window(fresh(theme="light", method="seidel"), measured=False)

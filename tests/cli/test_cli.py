@@ -188,7 +188,7 @@ def test_info_loads_nothing_heavy():
     code = "from p2sf.cli import main; main(['info', 'double_gauss_28']); import sys; print(' '.join(sys.modules))"
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     loaded = {name.split(".")[0] for name in run.stdout.splitlines()[-1].split()}
-    assert not loaded & {"scipy", "matplotlib", "PySide6", "shiboken6", "pyvista", "tifffile", "PIL", "p2sf_explorer"}
+    assert not loaded & {"scipy", "matplotlib", "PySide6", "pyqtgraph", "pyvista", "tifffile", "PIL", "p2sf_explorer"}
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
+from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
 
@@ -26,6 +27,7 @@ FIRST = new_state(method="seidel", theme="light", rail=("layout", "pupil", "coef
 @pytest.fixture(scope="session")
 def only_window(qapp):
     qapp.setStyle("Fusion")
+    configure_plots()
     made = MainWindow(FIRST, measured=False)
     made.resize(1440, 900)
     made.show()

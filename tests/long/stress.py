@@ -27,6 +27,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog
 from threadpoolctl import threadpool_limits
 
+from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.shell.memory_trim import REST_MS
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
@@ -150,6 +151,7 @@ def resident_mb() -> float:
 def main(minutes: float = 60.0, events: int = 200_000, seed: int = 0) -> int:
     application = QApplication(sys.argv[:1])
     application.setStyle("Fusion")
+    configure_plots()
     with threadpool_limits(limits=1):
         found = stress(60 * minutes, events, seed, lambda line: print(line, flush=True))
     print(found.words())

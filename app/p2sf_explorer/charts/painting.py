@@ -5,13 +5,12 @@ Text is painted as it comes, already translated, its numbers as the window's lan
 
 import re
 from collections.abc import Iterator
-from ctypes import c_double
 from functools import lru_cache
 
 import numpy as np
+from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
-from shiboken6 import getCppPointer
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.i18n.tr import local
@@ -163,9 +162,7 @@ def polygon(x: np.ndarray, y: np.ndarray) -> QPolygonF:
     """Return points as a QPolygonF, copied in one block: point by point takes ten times as long."""
     if not len(x):  # of no points, the block is no memory to write to
         return QPolygonF()
-    copied = QPolygonF()
-    copied.resize(len(x))
-    memory = (c_double * 2 * len(x)).from_address(getCppPointer(copied.data())[0])  # qreal is a double
-    points = np.ctypeslib.as_array(memory)
+    copied: QPolygonF = create_qpolygonf(len(x))
+    points = ndarray_from_qpolygonf(copied)
     points[:, 0], points[:, 1] = x, y
     return copied

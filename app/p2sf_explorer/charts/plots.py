@@ -1,11 +1,11 @@
 """Plots in the look of the window: axes, heat maps, colour bars."""
 
 from dataclasses import replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from math import ceil
-from pathlib import Path
 
 import numpy as np
+import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHelpEvent, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolTip, QWidget
@@ -29,21 +29,10 @@ EMPTY = 255  # the index of a colour table that is kept for "no value"
 @lru_cache(maxsize=8)
 def lookup(name: str) -> np.ndarray:
     """Return a colour table (256,) of 0xffRRGGBB whose last entry is for samples without a value."""
-    places = np.linspace(0, 255, EMPTY)
-    shades = (np.interp(places, np.arange(256), shade) for shade in _published()[name].T)
-    red, green, blue = (shade.round().astype(np.uint32) for shade in shades)
+    red, green, blue = pg.colormap.get(name).getLookupTable(nPts=255)[:, :3].astype(np.uint32).T
     table = np.full(256, 0xFFFFFFFF, dtype=np.uint32)
     table[:EMPTY] = 0xFF000000 | red << 16 | green << 8 | blue
     return table
-
-
-@cache
-def _published() -> dict[str, np.ndarray]:
-    """Return the colours (256, 3) of every map by its name, 0 to 255."""
-    text = Path(__file__).with_name("colour_maps.csv").read_text(encoding="utf-8")
-    names, *rows = (line.split(",") for line in text.splitlines() if not line.startswith("#"))
-    coded = np.array([[list(bytes.fromhex(colour)) for colour in row] for row in rows])
-    return {name: coded[:, k] for k, name in enumerate(names)}
 
 
 def named(name: str, theme: Tokens) -> str:
@@ -72,7 +61,7 @@ class ColourBar(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        self._theme, self._name, self._unit = LIGHT, "viridis", ""
+        self._theme, self._name, self._unit = LIGHT, "CET-L4", ""
         self._labels: tuple[tuple[float, str], ...] = ()
         self._wide = self.WIDTH
         self._scale: ColourScale | None = None
@@ -196,7 +185,7 @@ class HeatMap(QWidget):
         self.chart.bar = self.bar
         self.indices = np.zeros((1, 1), np.uint8)
         self.values: np.ndarray | None = None
-        self.quantity, self._name = "", "viridis"
+        self.quantity, self._name = "", "CET-L4"
         self._rect: Rect | None = None
         self._shown: tuple[np.ndarray, Rect, ColourScale, np.ndarray | None] | None = None
         self._mapped: tuple[str, Tokens] | None = None

@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QEventLoop, QSize, QTimer
 from PySide6.QtWidgets import QApplication
 
-from p2sf_explorer.charts.theme import screen_scale
+from p2sf_explorer.charts.theme import configure_plots, screen_scale
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.panels import REGISTRY
@@ -107,6 +107,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
+    configure_plots()
     for name, state in states().items():
         for size, pixels in SIZES.items():
             if size in sizes_of(name):

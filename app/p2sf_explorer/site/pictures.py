@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 
 from PySide6.QtWidgets import QApplication
 
+from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
@@ -54,6 +55,7 @@ def window_pictures(states: dict[str, State]) -> Iterator[tuple[str, bytes]]:
     """Yield the name and PNG of the window in each state."""
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
+    configure_plots()
     set_language(ENGLISH)
     window = MainWindow(FIRST)
     window.resize(*SIZE)

@@ -88,10 +88,10 @@ def test_no_fact_is_cut_where_the_banner_takes_room(window, qtbot):
 def test_a_colour_bar_widens_for_its_longest_label_and_keeps_that_room(qapp):
     bar = ColourBar()
     usual = bar.sizeHint().width()
-    bar.show_scale("CET-L1", "of light", ((0.0, "0"), (1.0, "0.181 %")))
+    bar.show_scale("CET-L4", "of light", ((0.0, "0"), (1.0, "0.181 %")))
     wide = bar.sizeHint().width()
     assert wide > usual and wide >= ColourBar.TICK + width_of("0.181 %")
-    bar.show_scale("CET-L1", "of light", ((0.0, "0"), (1.0, "4 %")))
+    bar.show_scale("CET-L4", "of light", ((0.0, "0"), (1.0, "4 %")))
     assert bar.sizeHint().width() == wide
 
 

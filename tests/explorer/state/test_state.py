@@ -195,7 +195,7 @@ from p2sf_explorer.files import snapshot
 from p2sf_explorer.state import state
 from p2sf_explorer.results import profiles, seidel
 live.live(state.State(), views={"p": profiles.profiles, "s": seidel.per_surface})
-print([name for name in sys.modules if name.startswith(("PySide6", "shiboken6", "pyvista"))])
+print([name for name in sys.modules if name.startswith(("PySide6", "pyqtgraph", "pyvista"))])
 """
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"
