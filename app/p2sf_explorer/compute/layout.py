@@ -48,7 +48,7 @@ class Drawing:
     """The glass, which only another lens changes, and stop and sensor; mm.
 
     ``dark``: from which to which y the mask in the stop covers it, vanes left out. ``stop`` and ``sensor``: how these
-    stand in the drawing.
+    stand in the drawing, ``surfaces``: how every surface does.
     ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye. ``left`` and
     ``right``: the ends of glass, mirrors and the way to the sensor.
     """
@@ -64,6 +64,7 @@ class Drawing:
     dark: tuple[tuple[float, float], ...] = ()
     stop: Section = UPRIGHT
     sensor: Section = UPRIGHT
+    surfaces: tuple[Section, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,8 @@ class Layout:
     ``sensor_half``: half the height of the drawn sensor, mm; it holds the chief ray of every field of the lens file.
     ``groups`` are the fans of rays "by field" and "by wavelength", none for those of the present source by their kind.
     ``skew``: the lens is not symmetric, and what is drawn are its parts and rays seen along x; ``exaggerated``: by what
-    its tilts and decentres are enlarged, rays being those of the lens as it is.
+    its tilts and decentres are enlarged, rays being those of the lens as it is; ``file_tilted``: the lens file has
+    others, which are not enlarged.
     """
 
     drawing: Drawing
@@ -131,6 +133,7 @@ class Layout:
     groups: tuple[Fan, ...] = ()
     skew: bool = False
     exaggerated: int = 1
+    file_tilted: bool = False
 
 
 def layout_of(state: State, setup: ParaxialSetup) -> Layout:
@@ -140,7 +143,7 @@ def layout_of(state: State, setup: ParaxialSetup) -> Layout:
         _, factor = exaggerated(state.optics.errors, display.exaggerated)
     shown = shown_lens(state, setup) if factor > 1 else None
     made = layout(setup, state.optics.clip, display.rays_coloured, display.rays_count, shown)
-    return replace(made, exaggerated=factor) if factor > 1 else made
+    return replace(made, exaggerated=factor, file_tilted=prescription(state).misaligned) if factor > 1 else made
 
 
 def shown_lens(state: State, setup: ParaxialSetup) -> Lens:
@@ -215,6 +218,7 @@ def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
         dark=tuple((low * stop_rim, high * stop_rim) for low, high in dark_heights(lens.mask)),
         stop=places[int(stop_surface) - 1],
         sensor=places[-1],
+        surfaces=places[:-1],
     )
 
 

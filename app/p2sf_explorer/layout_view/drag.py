@@ -1,6 +1,7 @@
 """What a hand holds on the layout: it finds grips, moves them, and writes their value beside the pointer."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -8,8 +9,10 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from p2sf.errors import P2SFError
+from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import width_of, write
+from p2sf_explorer.compute.layout import nearly_straight
 from p2sf_explorer.layout_view.grips import (
     Grip,
     Span,
@@ -18,6 +21,7 @@ from p2sf_explorer.layout_view.grips import (
     glass_runs,
     group_of,
     sensor_grip,
+    skew_grips,
     stop_grips,
     surface_grips,
 )
@@ -30,6 +34,7 @@ NEAR_PX = 7.0
 WEDGE_PX = 14.0  # of the stop's bar beyond its rim, which moves the stop along the axis
 CLICK_PX = 4.0
 DOT_PX = 4.0
+FOLDED = Message("the axis is folded, and glass is not moved by hand here; use the sliders of Misalign")
 FINE = 0.1  # of the pointer's way, with Alt
 VALUE_PX = 13
 CURSORS = {
@@ -39,7 +44,7 @@ CURSORS = {
     "stop": Qt.CursorShape.SizeHorCursor,
     "edge": Qt.CursorShape.SizeHorCursor,
     "vertex": Qt.CursorShape.SizeHorCursor,
-    "glass": Qt.CursorShape.SizeHorCursor,
+    "glass": Qt.CursorShape.SizeAllCursor,
     "other": Qt.CursorShape.PointingHandCursor,
 }
 
@@ -73,8 +78,9 @@ class LayoutDrag:
         return best if distance < enough else self._glass(shown, point)
 
     def grips(self, shown: DrawnSetup) -> Iterator[Grip]:
-        """Yield everything to hold but the source and the glass; of a lens without an axis nothing."""
+        """Yield everything to hold but the source and the glass; behind a fold nothing."""
         if shown.layout.skew:
+            yield from skew_grips(shown.setup, shown.layout, self._store.selection)
             return
         yield from stop_grips(shown.setup, shown.layout)
         yield from surface_grips(shown.setup.lens, self._store.selection)
@@ -98,7 +104,7 @@ class LayoutDrag:
 
     def pixel(self, grip: Grip) -> QPointF:
         """Return the place of a grip in pixels."""
-        return QPointF(*(float(v) for v in self._chart.to_pixels(grip.z, grip.y)))
+        return QPointF(*(float(v) for v in self._chart.to_pixels(*grip.place)))
 
     def _glass(self, shown: DrawnSetup, point: QPointF) -> Grip | None:
         """Return the element under a pixel: the one selected, or another that a click selects."""
@@ -136,9 +142,7 @@ class LayoutDrag:
             self._hover_over(self.find(shown, point))
             return
         if not self._moved:
-            if self.grip.kind == "glass" and shown.layout.skew:
-                return
-            if self.grip.kind == "glass" and (point - self._press).manhattanLength() < CLICK_PX:
+            if self.grip.kind == "glass" and not self._take(self.grip, shown, point - self._press):
                 return
             self._moved = True
             self._store.begin()
@@ -151,6 +155,21 @@ class LayoutDrag:
             self._store.replace(dragged(self.grip, self._start, *self._chart.from_pixels(self._at)))
         except P2SFError as error:
             self._store.refused.emit(error)
+
+    def _take(self, grip: Grip, shown: DrawnSetup, way: QPointF) -> bool:
+        """Begin to move glass: across the axis it is decentred. Return whether it can be moved, and no click is meant.
+
+        Behind a fold it cannot, which is said once.
+        """
+        if way.manhattanLength() < CLICK_PX:
+            return False
+        if not nearly_straight(shown.setup.lens):
+            self.grip = None
+            self._store.refused.emit(FOLDED)
+            return False
+        if abs(way.y()) > abs(way.x()):
+            self.grip = replace(grip, kind="decentre")
+        return True
 
     def leave(self) -> None:
         """Mark nothing any more that could be held."""
@@ -209,7 +228,7 @@ class LayoutDrag:
         found = self.find(shown, point)
         if found is None:
             return ""
-        if found.kind == "glass" and shown.layout.skew:
+        if found.kind == "glass" and not nearly_straight(shown.setup.lens):
             return "held"
         bends = found.kind == "glass" and can_bend(shown.setup.prescription, found.surfaces)
         return "bend" if bends else found.kind

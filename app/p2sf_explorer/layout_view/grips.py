@@ -4,7 +4,7 @@ Every change is made of the state at the beginning of a drag and of the present 
 of its way.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import copysign, inf, isfinite
 
 import numpy as np
@@ -13,14 +13,18 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens, Surface
 from p2sf.paraxial.bending import bent, element_of, elements, shape_factor
 from p2sf_explorer.compute.editing import edited_state, radius_through, stop_gap, with_stop_shift, with_surface
-from p2sf_explorer.compute.glass_outlines import Outline, clear_rims, sag, still, vertices
-from p2sf_explorer.compute.layout import Layout
+from p2sf_explorer.compute.glass_outlines import Outline, Section, clear_rims, sag, still, vertices
+from p2sf_explorer.compute.layout import Layout, nearly_straight
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription, ranges
+from p2sf_explorer.state.build_errors import amount_of, with_error
+from p2sf_explorer.state.built import exaggerated
+from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State, changed
 
 Span = tuple[int, int]
 """First and last surface, from 1, of what is selected."""
 LEAST_MM = 1e-3  # between the last vertex and the sensor
+DECENTRE_DIGITS = 3  # of mm
 FLATTEST = 1e-9  # of the height: a smaller sag is a plane
 
 
@@ -29,13 +33,43 @@ class Grip:
     """Something to hold, at z and y in mm.
 
     ``kind``: "sensor", "rim" (of the stop), "stop" (along the axis), "edge" (of a surface, its radius), "vertex" (its
-    thickness), "glass" (the bending of an element, or the place of a group). ``surfaces`` are those it changes.
+    thickness), "glass" (the bending of an element, or the place of a group), "decentre" (of a piece). ``surfaces`` are
+    those it changes. ``drawn``: z and y where it is drawn, if parts that are tilted or decentred take it elsewhere.
     """
 
     kind: str
     z: float
     y: float
     surfaces: Span = (0, 0)
+    drawn: tuple[float, float] | None = None
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Return z and y where it is drawn."""
+        return self.drawn or (self.z, self.y)
+
+
+def skew_grips(setup: ParaxialSetup, layout: Layout, selected: Span | None) -> tuple[Grip, ...]:
+    """Return the grips of a lens with tilted or decentred parts, each where its part is drawn.
+
+    What they move are numbers of the lens set straight. Behind a fold a way along the drawing is none along the axis,
+    and there are no grips.
+    """
+    if not nearly_straight(setup.lens):
+        return ()
+    lens, drawing = setup.prescription, layout.drawing
+    z = vertices(lens)
+
+    def placed(grip: Grip, section: Section, from_z: float) -> Grip:
+        at_z, at_y = section.placed(grip.z - from_z, grip.y)
+        return replace(grip, drawn=(float(at_z), float(at_y)))
+
+    of_stop = (placed(grip, drawing.stop, drawing.stop_z) for grip in stop_grips(setup, layout))
+    of_surfaces = (
+        placed(grip, drawing.surfaces[grip.surfaces[0] - 1], z[grip.surfaces[0] - 1])
+        for grip in surface_grips(lens, selected)
+    )
+    return (*of_stop, *of_surfaces, placed(sensor_grip(layout), drawing.sensor, drawing.sensor_z))
 
 
 def sensor_grip(layout: Layout) -> Grip:
@@ -97,7 +131,8 @@ def dragged(grip: Grip, start: State, z: float, y: float) -> State:
 
     The grip comes as near to this place as the lens allows.
     """
-    return MOVES[grip.kind](grip, start, z, y)
+    drawn_z, drawn_y = grip.place
+    return MOVES[grip.kind](grip, start, grip.z + z - drawn_z, grip.y + y - drawn_y)
 
 
 def _sensor(grip: Grip, start: State, z: float, y: float) -> State:
@@ -147,6 +182,15 @@ def _glass(grip: Grip, start: State, z: float, y: float) -> State:
     return edited_state(start, with_group_shift(lens, first, last, z - grip.z))
 
 
+def _decentre(grip: Grip, start: State, z: float, y: float) -> State:
+    """Move a piece across the axis; where the drawing enlarges decentres, the hand's way is the enlarged one."""
+    errors = start.optics.errors
+    _, factor = exaggerated(errors, start.display.exaggerated)
+    amount = amount_of(errors, "decentre_y", grip.surfaces) + (y - grip.y) / factor
+    made = with_error(errors, "decentre_y", grip.surfaces, round(amount, DECENTRE_DIGITS))
+    return changed(start, **with_links(start, {"errors": made}))
+
+
 def _curvature_by(lens: Lens, number: int, by_mm: float) -> float:
     """Return the change of a surface's curvature that moves its edge so far along the axis."""
     rim, surface = clear_rims(still(lens))[number - 1], lens.surfaces[number - 1]
@@ -166,7 +210,15 @@ def with_group_shift(lens: Lens, first: int, last: int, by_mm: float) -> Lens:
     return moved if first == 1 else with_surface(moved, first - 1, thickness=before + by)
 
 
-MOVES = {"sensor": _sensor, "rim": _rim, "stop": _stop, "edge": _edge, "vertex": _vertex, "glass": _glass}
+MOVES = {
+    "sensor": _sensor,
+    "rim": _rim,
+    "stop": _stop,
+    "edge": _edge,
+    "vertex": _vertex,
+    "glass": _glass,
+    "decentre": _decentre,
+}
 
 
 def can_bend(lens: Lens, selected: Span) -> bool:

@@ -6,8 +6,9 @@ from p2sf.lens.lens import Lens
 from p2sf_explorer.compute.quantities import F_NUMBER, FIELD, SHIFT
 from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.i18n.tr import local, tr
-from p2sf_explorer.layout_view.grips import Grip, can_bend, shape_of
+from p2sf_explorer.layout_view.grips import DECENTRE_DIGITS, Grip, can_bend, shape_of
 from p2sf_explorer.layout_view.source_point import DrawnSetup
+from p2sf_explorer.state.build_errors import amount_of
 from p2sf_explorer.state.scales import signed, significant, written_distance
 
 DIGITS = 5
@@ -65,6 +66,11 @@ def _glass(grip: Grip, shown: DrawnSetup) -> str:
     return tr(words, before=before, first=first, behind=behind, last=last)
 
 
+def _decentre(grip: Grip, shown: DrawnSetup) -> str:
+    amount = amount_of(shown.state.optics.errors, "decentre_y", grip.surfaces)
+    return tr("decentre y {amount} mm", amount=signed(amount, DECENTRE_DIGITS))
+
+
 def _radius(lens: Lens, number: int) -> str:
     radius = lens.surfaces[number - 1].radius
     return _mm(radius) if isfinite(radius) else "∞"
@@ -82,4 +88,5 @@ WORDS = {
     "edge": _edge,
     "vertex": _vertex,
     "glass": _glass,
+    "decentre": _decentre,
 }

@@ -45,11 +45,16 @@ LEAN_PX = 0.5  # of a bar that is painted upright all the same
 END_BAR_PX = 11  # of the bar at the end of a clipped ray
 STEP = 0.02  # of the width, by which the picture moves
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
+SHORT = {"marginal": "marginal rays", "chief": "chief ray", "rim": "rim rays"}  # beside the note on the drawing
 WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": "rim rays of the field point"}
 OTHER_FIELDS = ("marginal", "third", "warning", "muted")  # colours of the fans whose source is not at the ring
 COLOURED = (("kind", "by kind"), ("field", "by field"), ("wavelength", "by wavelength"))
 COLOURED_TIP = "Rays coloured by their kind, or from every field or at every wavelength that the lens states"
 LARGER = (10, 30, 100)
+LARGER_WORDS = {
+    False: "tilts and decentres ×{factor}, rays as they are",
+    True: "tilts and decentres of Misalign ×{factor}, rays and those of the file as they are",
+}
 LARGER_TIP = "By what tilts and decentres of the Misalign panel are enlarged in the drawing"
 COUNTS = (3, 5, 7, 11, 21)
 COUNT_TIP = "How many rays come from each point"
@@ -60,8 +65,10 @@ TIPS = {
     "stop": "The stop: drag it along the axis within its air gap; the f-number stays.",
     "edge": "The surface's edge: drag it sideways to change the radius.",
     "vertex": "The vertex: drag it along the axis to change the thickness before it; what follows moves with it.",
-    "bend": "The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.",
-    "glass": "What is selected: drag it along the axis. A click selects no glass any more.",
+    "bend": "The selected element: drag it sideways to bend it, its thin-lens power stays; up or down to decentre it. "
+    "A click selects its group.",
+    "glass": "What is selected: drag it along the axis, or up or down to decentre it. "
+    "A click selects no glass any more.",
     "held": "What is selected. A click selects its group; its sliders stand in the Misalign panel.",
     "other": "Click to select this element, then drag it, its edges and its vertices.",
 }
@@ -400,18 +407,20 @@ def fan_name(groups: tuple[Fan, ...], number: int) -> str:
 
 def drawing_note(layout: Layout) -> str:
     """Return that the drawing is no section of symmetry, and by what it exaggerates; "" where neither is so."""
-    notes = [tr("not symmetric: seen along x")] if layout.skew else []
+    notes = [tr("not symmetric: sections seen along x")] if layout.skew else []
     if layout.exaggerated > 1:
-        notes.append(tr("tilts and decentres ×{factor}, rays as they are", factor=layout.exaggerated))
+        notes.append(tr(LARGER_WORDS[layout.file_tilted], factor=layout.exaggerated))
     return ", ".join(notes)
 
 
 def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) -> str:
     """Return the lines' names in their colours."""
+    note = drawing_note(layout) if layout else ""
+    words = SHORT if note else WORDS
     names = [
-        (theme.marginal, "━", tr(WORDS["marginal"])),
-        (theme.chief, "━", tr(WORDS["chief"])),
-        (theme.chief, "─", tr(WORDS["rim"])),
+        (theme.marginal, "━", tr(words["marginal"])),
+        (theme.chief, "━", tr(words["chief"])),
+        (theme.chief, "─", tr(words["rim"])),
     ]
     if layout and layout.groups:
         colours = fan_colours(layout.groups, field_deg)
@@ -420,6 +429,6 @@ def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) 
             for number, colour in enumerate(colours)
         ]
     names.append((theme.text, "▮", tr("stop, sensor")))
-    if layout and (note := drawing_note(layout)):
-        names.insert(0, (theme.warning, "▲", note))
+    if note:
+        names = [(theme.warning, "▲", note), *names[:-1]]
     return " &nbsp; ".join(f'<span style="color:{colour}">{sign}</span> {name}' for colour, sign, name in names)

@@ -1,5 +1,6 @@
 """The layout under a hand: source, sensor, stop and glass stay under the pointer, undo as one step, Escape gives up."""
 
+from dataclasses import replace
 from math import inf, isinf
 
 import numpy as np
@@ -8,6 +9,10 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 
+from p2sf.glass.media import MIRROR
+from p2sf.lens.lens import Surface, with_sensor
+from p2sf.lens.misalignment import folding
+from p2sf.lens.placement import Placement
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.paraxial.bending import shape_factor, thin_power
 from p2sf.paraxial.pupils import f_number
@@ -218,6 +223,92 @@ def test_a_selected_element_is_bent_at_constant_power_under_the_hand(window, cha
     after = prescription(window.store.state)
     assert shape_factor(after, 1, 2) != pytest.approx(shape_factor(before, 1, 2), rel=0.05)
     assert float(thin_power(after, 1, 2)) == pytest.approx(float(thin_power(before, 1, 2)), rel=1e-12)
+
+
+def test_glass_is_decentred_up_and_down_under_the_hand(window, chart):
+    first, point = window.store.state, middle(chart, 7)
+    click(chart, point)
+    outline = next(o for o in chart.live.layout.drawing.outlines if o.surfaces[0] == 7)
+    pull(chart, point, point + QPointF(1, -10), release=False)
+    by = 10 * chart.per_pixel()
+    ((kind, first_surface, last, amount),) = window.store.state.optics.errors
+    assert (kind, first_surface, last) == ("decentre_y", 7, 9) and amount == pytest.approx(by, abs=5e-4)
+    assert window.live.quality == "preview" and window.live.setup.lens.misaligned
+    moved = next(o for o in chart.live.layout.drawing.outlines if o.surfaces[0] == 7)
+    assert moved.y == pytest.approx(outline.y + by, abs=1e-3), "mm: what is drawn follows the hand"
+    send(chart, RELEASE, point + QPointF(1, -10))
+    window.store.undo()
+    assert window.store.state == first
+
+
+def test_where_decentres_are_enlarged_the_hand_moves_the_enlarged_glass(window, chart):
+    window.store.update(exaggerated=10, errors=(("decentre_y", 7, 9, 0.1),))
+    point = middle(chart, 7)
+    click(chart, point)
+    outline = next(o for o in chart.live.layout.drawing.outlines if o.surfaces[0] == 7)
+    pull(chart, point, point + QPointF(0, -10), release=False)
+    by = 10 * chart.per_pixel()
+    assert window.store.state.optics.errors[0][3] == pytest.approx(0.1 + by / 10, abs=5e-4)
+    moved = next(o for o in chart.live.layout.drawing.outlines if o.surfaces[0] == 7)
+    assert moved.y == pytest.approx(outline.y + by, abs=6e-3)
+    send(chart, RELEASE, point + QPointF(0, -10))
+
+
+OFF = (("tilt_x", 3, 5, 1.0), ("decentre_y", 3, 5, 0.5), ("decentre_y", 7, 11, -0.8))
+
+
+@pytest.mark.parametrize(
+    ("kind", "by"), [("sensor", (14, 0)), ("rim", (0, 4)), ("stop", (-6, 0)), ("edge", (-4, 0)), ("vertex", (6, 0))]
+)
+def test_parts_that_stand_askew_are_held_where_they_are_drawn(window, chart, kind, by):
+    """A tilt of 1° turns the hand's way by as much: 2 % of the pixels."""
+    window.store.update(errors=OFF, exaggerated=3)
+    window.store.select((3, 5))
+    first, by = window.store.state, QPointF(*by)
+
+    def held():
+        return next(grip for grip in chart.drag.grips(chart.live) if grip.kind == kind)
+
+    at = hold(chart, held())
+    assert chart.drag.find(chart.live, at).kind == kind
+    pull(chart, at, at + by, release=False)
+    assert apart(hold(chart, held()), at + by) < 1.5
+    send(chart, RELEASE, at + by)
+    assert window.store.state.optics.errors == OFF
+    window.store.undo()
+    assert window.store.state == first
+
+
+def test_an_edge_that_stands_askew_lies_on_its_outline(window, chart):
+    window.store.update(errors=OFF, exaggerated=5)
+    window.store.select((3, 5))
+    outline = next(o for o in chart.live.layout.drawing.outlines if o.surfaces[0] == 3)
+    edges = [grip for grip in chart.drag.grips(chart.live) if grip.kind == "edge" and grip.surfaces == (3, 3)]
+    assert len(edges) == 2
+    for grip in edges:
+        z, y = grip.place
+        assert np.hypot(outline.z - z, outline.y - y).min() < 1e-6, "mm"
+        assert abs(y - grip.y) > 1.0
+
+
+def test_behind_a_fold_glass_is_not_moved_and_that_is_said(window, chart):
+    window.store.update(lens_text=lens_to_toml(folded_behind_glass()), field_deg=0.0)
+    assert not list(chart.drag.grips(chart.live))
+    outline = chart.live.layout.drawing.glass.outlines[0]
+    point = QPointF(*map(float, chart.to_pixels(outline.z.mean(), outline.y.mean())))
+    click(chart, point)
+    state = window.store.state
+    pull(chart, point, point + QPointF(0, -20))
+    assert window.store.state == state and "Misalign" in window.banner.text.text()
+    window.banner.hide()
+
+
+def folded_behind_glass():
+    """Return a lens whose axis is folded by 90° half-way between its last surface and the sensor."""
+    lens = load("plano_convex")
+    half, last = lens.sensor_mm / 2, lens.surfaces[-1]
+    mirror = Surface(inf, -half, MIRROR, **folding(Placement(tilt_x_deg=45.0)))
+    return with_sensor(replace(lens, surfaces=(*lens.surfaces[:-1], replace(last, thickness=half), mirror)), -half)
 
 
 def test_glass_that_is_not_selected_is_not_bent_by_a_stray_drag(window, chart):

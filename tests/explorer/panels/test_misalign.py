@@ -5,6 +5,10 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml import lens_to_toml
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
@@ -124,8 +128,12 @@ def test_a_point_of_the_field_map_is_dragged_to_any_field(window, panel, qtbot):
 def test_the_layout_says_that_it_is_seen_along_x_and_by_what_it_exaggerates(window, panel):
     window.store.update(errors=(("tilt_y", 3, 5, 0.1),), exaggerated=30)
     legend = window.panels["layout"].widget.readout
-    assert "not symmetric: seen along x" in legend.text() and "×30" in legend.text()
-    window.store.update(errors=())
+    assert "not symmetric: sections seen along x" in legend.text() and "×30" in legend.text()
+    assert "of Misalign ×30" not in legend.text(), "the file has no tilts that stay as they are"
+    tilted = displaced(find_lens("double_gauss_28"), 7, 9, Placement(tilt_x_deg=0.2))
+    window.store.update(lens_text=lens_to_toml(tilted))
+    assert "of Misalign ×30, rays and those of the file" in legend.text()
+    window.store.update(errors=(), lens_text=None)
     assert "×30" not in legend.text() and "seen along x" not in legend.text()
 
 

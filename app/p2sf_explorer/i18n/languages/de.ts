@@ -696,7 +696,7 @@
 <message><source>The piece that the sliders move: an element, a group, the whole lens or the sensor</source><translation>Das Teil, das die Regler bewegen: eine Linse, eine Gruppe, das ganze Objektiv oder der Sensor</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
 <message><source>The rear-stop landscape lens turned around: its stop stands before the meniscus</source><translation>Die Landschaftslinse mit hinterer Blende, umgedreht: ihre Blende steht vor dem Meniskus</translation></message>
-<message><source>The selected element: drag it sideways to bend it, its thin-lens power stays. A click selects its group.</source><translation>Das gewählte Element: seitlich ziehen biegt es durch, seine Brechkraft als dünne Linse bleibt. Ein Klick wählt seine Gruppe.</translation></message>
+<message><source>The selected element: drag it sideways to bend it, its thin-lens power stays; up or down to decentre it. A click selects its group.</source><translation>Die gewählte Linse: seitwärts ziehen, um sie durchzubiegen, ihre Brechkraft als dünne Linse bleibt; auf oder ab, um sie zu dezentrieren. Ein Klick wählt ihre Gruppe.</translation></message>
 <message><source>The sensitivities are computed from exact rays.</source><translation>Die Empfindlichkeiten werden aus exakten Strahlen berechnet.</translation></message>
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its sides are cut off, {percent:.0f} % of its width.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist seitlich abgeschnitten, {percent:.0f} % seiner Breite.</translation></message>
 <message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its top and bottom are cut off, {percent:.0f} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {percent:.0f} % seiner Höhe.</translation></message>
@@ -837,7 +837,7 @@
 <message><source>What every field of a good lens keeps; at first, what four lenses of five keep.</source><translation>Was jedes Feld eines guten Objektivs einhält; anfangs, was vier von fünf Objektiven einhalten.</translation></message>
 <message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
 <message><source>What is selected. A click selects its group; its sliders stand in the Misalign panel.</source><translation>Das Gewählte. Ein Klick wählt seine Gruppe; seine Regler stehen im Feld Dejustieren.</translation></message>
-<message><source>What is selected: drag it along the axis. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen. Ein Klick hebt die Auswahl auf.</translation></message>
+<message><source>What is selected: drag it along the axis, or up or down to decentre it. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen, oder auf oder ab, um es zu dezentrieren. Ein Klick wählt kein Glas mehr.</translation></message>
 <message><source>What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
@@ -1101,6 +1101,7 @@
 <message><source>daylight D65</source><translation>Tageslicht D65</translation></message>
 <message><source>decentre</source><translation>Dezentrierung</translation></message>
 <message><source>decentre x, surface {where}</source><translation>Dezentrierung x, Fläche {where}</translation></message>
+<message><source>decentre y {amount} mm</source><translation>Dezentrierung y {amount} mm</translation></message>
 <message><source>decentre y, surface {where}</source><translation>Dezentrierung y, Fläche {where}</translation></message>
 <message><source>decimal separator</source><translation>,</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
@@ -1317,6 +1318,7 @@
 <message><source>macOS learns what a program opens from its bundle; put P2SF Explorer.app into Applications</source><translation>macOS erfährt aus dem Programmpaket, was ein Programm öffnet; P2SF Explorer.app in den Ordner Programme legen</translation></message>
 <message><source>make the folder first or choose another</source><translation>den Ordner zuerst anlegen oder einen anderen wählen</translation></message>
 <message><source>marginal ray y, mm</source><translation>Randstrahl y, mm</translation></message>
+<message><source>marginal rays</source><translation>Randstrahlen</translation></message>
 <message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
 <message><source>marker</source><translation>Marke</translation></message>
 <message><source>max {value} µm</source><translation>max. {value} µm</translation></message>
@@ -1376,7 +1378,7 @@
 <message><source>none</source><translation>keine</translation></message>
 <message><source>normalisation radius</source><translation>Normierungsradius</translation></message>
 <message><source>not converged: agrees to {reached:.1e} only</source><translation>nicht konvergiert: stimmt nur auf {reached:.1e} überein</translation></message>
-<message><source>not symmetric: seen along x</source><translation>nicht symmetrisch: entlang x gesehen</translation></message>
+<message><source>not symmetric: sections seen along x</source><translation>unsymmetrisch: Schnitte längs x gesehen</translation></message>
 <message><source>not used because</source><translation>nicht verwendet, weil</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
 <message><source>nothing is off</source><translation>alles stimmt</translation></message>
@@ -1515,6 +1517,7 @@
 <message><source>relative illumination, %</source><translation>relative Beleuchtungsstärke, %</translation></message>
 <message><source>rim</source><translation>Rand</translation></message>
 <message><source>rim offset</source><translation>Versatz des Rands</translation></message>
+<message><source>rim rays</source><translation>Randstrahlen, Feld</translation></message>
 <message><source>rim rays of the field point</source><translation>Randstrahlen des Feldpunkts</translation></message>
 <message><source>rims and holes of mirrors hide {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
@@ -1702,6 +1705,7 @@
 <message><source>the archive cannot be unpacked ({reason}); unpack it yourself</source><translation>das Archiv lässt sich nicht auspacken ({reason}); von Hand auspacken</translation></message>
 <message><source>the archive holds no .zmx or .seq file; unpack the lens yourself</source><translation>das Archiv enthält keine .zmx- oder .seq-Datei; das Objektiv von Hand auspacken</translation></message>
 <message><source>the aspheres have odd powers (AsphericalOddCount); only even ones are read</source><translation>die Asphären haben ungerade Potenzen (AsphericalOddCount); nur gerade werden gelesen</translation></message>
+<message><source>the axis is folded, and glass is not moved by hand here; use the sliders of Misalign</source><translation>die Achse ist gefaltet, und Glas lässt sich hier nicht mit der Hand bewegen; die Regler von Dejustieren nehmen</translation></message>
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
 <message><source>the builds were stopped before they were done</source><translation>die Exemplare wurden angehalten, bevor sie fertig waren</translation></message>
@@ -1926,7 +1930,8 @@
 <message><source>tilt y of the sensor</source><translation>Kippung y des Sensors</translation></message>
 <message><source>tilt y, surface {where}</source><translation>Verkippung y, Fläche {where}</translation></message>
 <message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
-<message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
+<message><source>tilts and decentres of Misalign ×{factor}, rays and those of the file as they are</source><translation>die von Dejustieren ×{factor}, Strahlen und Datei wie sie sind</translation></message>
+<message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen usw. ×{factor}, Strahlen wie sie sind</translation></message>
 <message><source>tilts as they are</source><translation>Kippungen wie sie sind</translation></message>
 <message><source>tilts ×{factor}</source><translation>Kippungen ×{factor}</translation></message>
 <message><source>time</source><translation>Zeit</translation></message>
