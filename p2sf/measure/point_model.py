@@ -12,9 +12,11 @@ from math import ceil, pi
 import numpy as np
 
 from p2sf.measure.pupil_nodes import PupilNodes
+from p2sf.measure.scattered_sum import ScatteredNodes, grid_rows
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.quadrature import gauss_legendre
 
+SCATTERED = 2  # times the rows of a grid: from so many scattered nodes on, the grid is faster
 DTYPE = np.complex64  # errors of 1e-6 of the peak, where noise is hardly below 1e-3
 
 
@@ -65,6 +67,26 @@ def wave(cycles: np.ndarray) -> np.ndarray:
     return out
 
 
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Nodes in rows of equal fy, or scattered ones on a grid, with the waves of rows and columns."""
+
+    some: slice
+    size: tuple[int, int]
+    up: np.ndarray
+    across: np.ndarray
+    scattered: ScatteredNodes | None = None
+
+    def summed(self, values: np.ndarray) -> np.ndarray:
+        """Return the sums of plane waves with these values, (terms, nodes), as (y points, terms · x points)."""
+        if self.scattered is not None:
+            laid = self.scattered.on_grid(values)
+        else:
+            laid = values.reshape(-1, *self.size).transpose(1, 0, 2)
+        field: np.ndarray = self.up @ (laid @ self.across).reshape(len(laid), -1)
+        return field
+
+
 class PixelSum:
     """Sums over the nodes of one pupil on one window of (y, x) pixels; the kernels are computed once."""
 
@@ -72,33 +94,32 @@ class PixelSum:
         self.nodes, self.shape, self.optics = nodes, shape, optics
         (self.y, share), (self.x, _) = (pixel_points(count, optics, parts or optics.parts) for count in shape)
         self.share = share.astype(np.float32)
-        self.kernels = [
-            (
-                wave(np.multiply.outer(self.y, nodes.fy[some].reshape(size)[:, 0])),
-                wave(np.multiply.outer(nodes.fx[some].reshape(size), self.x)),
-            )
-            for size, some in self._blocks()
-        ]
+        self.blocks = [self._block(size, some) for size, some in self._sizes()]
         # Of all the light, a pixel's part: ∫|E|²dx = ⟨A²⟩/⟨A⟩²/(π·cycles²) for weights of unit sum (Parseval).
         self.scale = pi * (optics.cycles * optics.pixel_um) ** 2 / nodes.spreading
 
-    def _blocks(self) -> Iterator[tuple[tuple[int, int], slice]]:
+    def _sizes(self) -> Iterator[tuple[tuple[int, int], slice]]:
         """Yield rows and columns of each group of nodes in rows, and where they lie."""
         start = 0
         for rows, columns in self.nodes.blocks:
             yield (rows, columns), slice(start, start + rows * columns)
             start += rows * columns
 
+    def _block(self, size: tuple[int, int], some: slice) -> "Block":
+        fx, fy = self.nodes.fx[some], self.nodes.fy[some]
+        if size[1] == 1 and size[0] > SCATTERED * grid_rows(fy, self.y):
+            scattered = ScatteredNodes(fx, fy, self.x, self.y)
+            return Block(some, size, scattered.up, scattered.across, scattered)
+        up, across = np.multiply.outer(self.y, fy.reshape(size)[:, 0]), np.multiply.outer(fx.reshape(size), self.x)
+        return Block(some, size, wave(up), wave(across))
+
     def fields(self, phase: np.ndarray, terms: np.ndarray) -> np.ndarray:
         """Return Σ w·exp(i2π·phase)·(1, terms…)·wave, (y points, 1 + terms, x points); ``terms`` (terms, nodes)."""
         amplitude = wave(phase) * self.nodes.weight.astype(np.float32)
         total: np.ndarray | None = None
-        for ((rows, columns), some), (up, across) in zip(self._blocks(), self.kernels, strict=True):
-            every = np.empty((rows, 1 + len(terms), columns), DTYPE)
-            every[:, 0] = here = amplitude[some].reshape(rows, columns)
-            parts = terms[:, some].reshape(-1, rows, columns)
-            np.multiply(here[:, None], parts.transpose(1, 0, 2), out=every[:, 1:])
-            field = up @ (every @ across).reshape(rows, -1)
+        for block in self.blocks:
+            here, parts = amplitude[block.some], terms[:, block.some]
+            field = block.summed(np.concatenate([here[None], here * parts]))
             total = field if total is None else total + field
         assert total is not None
         return total.reshape(self.y.size, len(terms) + 1, self.x.size)
@@ -107,9 +128,8 @@ class PixelSum:
         """Return the light of many fields exp(i2π·phase), (pupils, nodes), as (pupils, y, x)."""
         weighted = pupils * self.nodes.weight.astype(np.float32)
         field: np.ndarray | float = 0.0
-        for ((rows, columns), some), (up, across) in zip(self._blocks(), self.kernels, strict=True):
-            along = weighted[:, some].reshape(-1, rows, columns).transpose(1, 0, 2) @ across
-            field = field + up @ along.reshape(rows, -1)
+        for block in self.blocks:
+            field = field + block.summed(weighted[:, block.some])
         field = np.asarray(field).reshape(self.y.size, len(pupils), self.x.size)
         light: np.ndarray = self.scale * self.binned(field.real**2 + field.imag**2)
         return light

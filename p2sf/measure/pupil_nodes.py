@@ -1,7 +1,7 @@
 """Nodes over the open part of a pupil, in rows of equal spatial frequency fy (handbook 11.1).
 
 A mask takes parts of the disc away: an obscuration is a disc of its own with negative weights, and what vanes and
-blades cover is summed node by node. Amplitude and phase of a filter are factors at the nodes.
+blades cover lies in no rows. Amplitude and phase of a filter are factors at the nodes.
 """
 
 from collections.abc import Callable, Sequence

@@ -6,9 +6,11 @@ the whole way from the picture: points are found, cut out and fitted. Every tabl
 
 import sys
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
+from unittest.mock import patch
 
 import numpy as np
 
@@ -16,19 +18,21 @@ from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import psnr
 from p2sf.io.photo_files import write_photo
-from p2sf.lens.lens import with_f_number, with_sensor
+from p2sf.lens.lens import with_f_number, with_mask, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
+from p2sf.measure import point_model
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
+from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, lens_optics
 from p2sf.measure.listings import read_listing
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import PointFit, fit_point
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import PupilModel, pupil_model
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.scene import Channel, Scene, Sensor, plan
@@ -47,6 +51,7 @@ NODES = 48, 144
 LISTED = Path(__file__).parents[1] / "data" / "opticstudio"
 CELLS = 15  # of a listed wavefront, from the middle to the rim
 PARTS = 6  # points across a pixel
+TIMED = 5
 # RDMPy's calibration of its own simulated lens, as published: spherical, coma, astigmatism, field curvature, waves.
 RDMPY_GIVEN, RDMPY_FOUND = np.array([1.58, -1.12, -2.1, 1.6]), np.array([0.72, 0.11, 1.78, 1.60])
 
@@ -248,6 +253,29 @@ def frames(trials: int, columns: int = 9, rows: int = 7, size_mm: tuple[float, f
     )
 
 
+def masked() -> None:
+    """Print what a point's light and its derivatives take behind masks and rims, with a grid and node by node."""
+    clear = with_f_number(find_lens("cooke_triplet"), 4.0)
+    spider = PupilMask(obscuration=0.3, vanes=3, vane_width=0.05)
+    iris = with_mask(clear, PupilMask(blades=7))
+    cases = {"clear": clear, "blades": iris, "vanes": with_mask(clear, spider), "rims": clear}
+    for name, lens in cases.items():
+        optics = lens_optics(lens, np.inf, 0.55, 3.45)
+        pupil = FrameModel(optics, 6.0, lens=lens, clip=name == "rims").pupil(3.0, 5.0, 70.0)
+        columns = np.concatenate([pupil.terms, -pupil.nodes.fx[None], -pupil.nodes.fy[None]]).astype(np.float32)
+        took = []
+        for scattered in (point_model.SCATTERED, inf):
+            with patch.object(point_model, "SCATTERED", scattered):
+                made = PixelSum(pupil.nodes, (41, 41), optics)
+            began = process_time()
+            for _ in range(TIMED):
+                made.light_and_slopes(pupil.phase, columns)
+            took.append((process_time() - began) / TIMED)
+        print(
+            f"{name}: {pupil.nodes.xi.size} nodes, {1000 * took[0]:.0f} ms, node by node {1000 * took[1]:.0f} ms of CPU"
+        )
+
+
 def deblur() -> None:
     """Print what sharpening loses by the lens as measured: points photographed, measured, taken into Image, a photo."""
     lens, pitch, shape, noise, shift = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45, (240, 360), 0.005, 60.0
@@ -294,6 +322,7 @@ def main(arguments: list[str]) -> None:
         "listing": listing,
         "frames": lambda: frames(count),
         "coverage": lambda: frames(count, 3, 3, (6.0, 4.5)),
+        "masked": masked,
         "deblur": deblur,
     }
     for name in arguments[:1] or trials:
