@@ -52,8 +52,8 @@ def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
 
 @lru_cache(maxsize=16)
 def straightened(lens: Lens) -> Lens:
-    """Return the lens without its tilts and decentres, as first order and the Seidel sums take it; rims stay."""
-    surfaces = tuple(replace(s, before=(), after=()) if s.before or s.after else s for s in lens.surfaces)
+    """Return the lens without tilts, decentres and irregularities, as the Seidel sums take it; its rims stay."""
+    surfaces = tuple(replace(s, before=(), after=(), irregularity=None) for s in lens.surfaces)
     return replace(lens, surfaces=surfaces, sensor_before=())
 
 

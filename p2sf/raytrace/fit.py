@@ -37,6 +37,8 @@ JUDGES = 6, 20  # radii and directions of the rays by which a fit is judged wher
 CENTRE_POWER, RIM_POWER = -0.75, -0.5
 RING_POWER = 1.3  # of a ring's radius: with 60 rays the terms of degree 8 have a condition number of 3
 
+SLOPE_WEIGHT = 0.1  # of a slope beside the phase: of 1/40, 1/20, 1/10 and 1/5 the best for the worst misaligned lenses
+
 Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
 
 
@@ -46,7 +48,8 @@ class Level:
 
     ``weighted``: the rays have weights, a polynomial of the maps' order. ``skew``: for a lens without symmetry, the
     orders, of phase and of maps and weight, up to which the fit also has the terms that symmetry about η forbids. The
-    rays are then over the whole disc, as many on average on a ring as there are directions.
+    rays are then over the whole disc, as many on average on a ring as there are directions. ``by_slopes``: the phase
+    is fitted to its slopes too, which are known from where the rays land, so that as many rays tell more terms.
     """
 
     wave_order: int
@@ -55,6 +58,7 @@ class Level:
     directions: int
     weighted: bool = False
     skew: tuple[int, int] | None = None
+    by_slopes: bool = False
 
     @property
     def numbers(self) -> int:
@@ -98,7 +102,7 @@ LEVELS = (
 WEIGHTED = tuple(replace(level, weighted=True) for level in LEVELS)
 SKEW = (
     Level(6, 3, 6, 10, True, (6, 3)),
-    Level(8, 5, 6, 10, True, (8, 5)),
+    Level(10, 6, 6, 10, True, (10, 6), True),
     Level(10, 7, 7, 18, True, (10, 7)),
     Level(14, 9, 9, 26, True, (14, 9)),
     Level(18, 13, 12, 36, True, (18, 13)),
@@ -351,12 +355,16 @@ def ring_counts(rho: np.ndarray, total: int) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Projection:
-    """The terms of phase, fx and fy of a level on its rays, and the least-squares inverses for them."""
+    """The terms of phase, fx and fy of a level on its rays, and the least-squares inverses for them.
+
+    ``slopes``: the inverses for ∂phase/∂ξ and ∂phase/∂η, whose parts add to that of the phase; none if not `by_slopes`.
+    """
 
     rows: tuple[np.ndarray, np.ndarray, np.ndarray]
     phase: np.ndarray
     fx: np.ndarray
     fy: np.ndarray
+    slopes: tuple[np.ndarray, ...] = ()
 
 
 def rows_of(level: Level, even: np.ndarray, odd: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -376,8 +384,32 @@ def _projection(level: Level) -> Projection:
     rows = rows_of(level, basis(even, xi, eta), basis(odd, xi, eta, odd=True))
     square = (xi * xi + eta * eta)[: weight.size]
     root = np.sqrt(weight * square**CENTRE_POWER * (1 - square) ** RIM_POWER)
-    phase, fx, fy = (np.linalg.pinv((part[:, : weight.size] * root).T) * root for part in rows)
-    return Projection(rows, phase, fx, fy)
+    own = [part[:, : weight.size] * root for part in rows]
+    fx, fy = (np.linalg.pinv(part.T) * root for part in own[1:])
+    if not level.by_slopes:
+        return Projection(rows, np.linalg.pinv(own[0].T) * root, fx, fy)
+    roots = np.concatenate([root, SLOPE_WEIGHT * root, SLOPE_WEIGHT * root])
+    every = np.concatenate([rows[0][:, : weight.size], *_phase_slopes(level)], axis=1)
+    phase, *slopes = np.split(np.linalg.pinv((every * roots).T) * roots, 3, axis=1)
+    return Projection(rows, phase, fx, fy, tuple(slopes))
+
+
+def _phase_slopes(level: Level) -> Gradient:
+    """Return (∂/∂ξ, ∂/∂η) of the terms of the phase of a level without symmetry at its own rays."""
+    xi, eta, weight = level_rays(level)
+    (own, other), (order, skew) = level.counts[0], (level.wave_order, (level.skew or (0, 0))[0])
+    even = gradient(order, xi[: weight.size], eta[: weight.size])
+    odd = gradient(skew, xi[: weight.size], eta[: weight.size], odd=True)
+    across, along = (np.concatenate([a[:own], b[:other]]) for a, b in zip(even, odd, strict=True))
+    return across, along
+
+
+def _slopes_of_phase(rays: RayData, level: Level, fx: np.ndarray, fy: np.ndarray) -> Gradient:
+    """Return ∂phase/∂ξ and ∂phase/∂η at a level's own rays, (…, ray), by dw = −x·df (Hamilton) and a fitted map."""
+    used = slice(level_rays(level)[2].size)
+    (fx_xi, fx_eta), (fy_xi, fy_eta) = _slope_basis(level)
+    x, y = rays.x_um[..., used], rays.y_um[..., used]
+    return -(x * (fx @ fx_xi) + y * (fy @ fy_xi)), -(x * (fx @ fx_eta) + y * (fy @ fy_eta))
 
 
 @dataclass(frozen=True)
@@ -401,6 +433,9 @@ def pencil_forms(rays: RayData, level: Level) -> PencilForms:
         column[..., :used] @ inverse.T
         for inverse, column in ((project.phase, rays.phase), (project.fx, rays.fx), (project.fy, rays.fy))
     )
+    if level.by_slopes:
+        slopes = zip(project.slopes, _slopes_of_phase(rays, level, fx, fy), strict=True)
+        phase = phase + sum(column @ inverse.T for inverse, column in slopes)
     phase_rows, fx_rows, fy_rows = project.rows
     light, light_residual = UNIFORM, np.zeros(phase.shape[:-1])
     if level.weighted:
@@ -410,7 +445,8 @@ def pencil_forms(rays: RayData, level: Level) -> PencilForms:
     miss_x, miss_y = fx @ fx_rows - rays.fx, fy @ fy_rows - rays.fy
     # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
     error = phase @ phase_rows - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
-    residual = _residual(error, area, phase.shape[-1])
+    known = 3 if level.by_slopes else 1  # of each ray
+    residual = _residual(error, area, phase.shape[-1] / known)
     map_residual = np.hypot(_residual(miss_x, area, fx.shape[-1]), _residual(miss_y, area, fy.shape[-1]))
     return PencilForms(phase, fx, fy, light, residual, map_residual, light_residual)
 
@@ -428,7 +464,7 @@ def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None =
     return FittedPencil(*made, float(found.map_residual), found.weight, float(found.weight_residual))
 
 
-def _residual(error: np.ndarray, weight: np.ndarray, unknowns: int) -> np.ndarray:
+def _residual(error: np.ndarray, weight: np.ndarray, unknowns: float) -> np.ndarray:
     """Return the larger RMS error: of the fit's own rays, corrected for its degrees of freedom, or of those held out.
 
     At the rim the error of a polynomial fit is four times its RMS; the held-out rays lie there and count half.

@@ -122,7 +122,8 @@ def main() -> int:
     methods = {name: sum(one.method == name for one in found) for name in ("seidel", "fitted", "traced", "huygens")}
     print(f"{len(found)} points, chosen {methods}, {sum(one.broken for one in found)} broken promises")
     print(f"traced: least R² {min(one.traced for one in found):.6f}")
-    print(f"fit to 64 rays: {np.mean([one.fitted >= ASKED_OF_FITTED for one in found]):.1%} hold {ASKED_OF_FITTED}")
+    hold, least = np.mean([one.fitted >= ASKED_OF_FITTED for one in found]), min(one.fitted for one in found)
+    print(f"fit to 64 rays: {hold:.1%} hold {ASKED_OF_FITTED}, least R² {least:.6f}")
     print(f"where predicted to ({len(fits)}): least R² {min(one.fitted for one in fits):.6f}")
     return int(any(one.broken or one.traced < ASKED_OF_TRACED for one in found))
 

@@ -20,8 +20,9 @@ from p2sf.psf.skew_rows import skew_rows_for
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.aiming import pupil_rays
-from p2sf.raytrace.fit import SKEW, fit, level_rays
+from p2sf.raytrace.fit import SKEW, SLOPE_WEIGHT, fit, fit_rays, level_rays
 from p2sf.raytrace.pencil import diffraction_phase, hexapolar, pencil
+from p2sf.raytrace.ray_field import RayData
 from p2sf.raytrace.vignetting import clear_nodes
 from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
 from tests.support.space_rays import fly, poses
@@ -117,7 +118,7 @@ def test_rims_end_a_pupil_that_is_not_even(gauss):
 def test_seidel_is_the_lens_set_straight_and_says_so(gauss, bad):
     straight, tilted = (render(lens, Source(field_deg=5), "seidel") for lens in (gauss, bad))
     assert tilted.values == pytest.approx(straight.values, abs=1e-15)
-    assert "set straight, without its tilts and decentres" in str(tilted.sampling)
+    assert "set straight, without its tilts, decentres and irregularities" in str(tilted.sampling)
 
 
 def test_methods_keep_their_promises_on_random_misalignments():
@@ -182,9 +183,45 @@ def test_the_rays_of_every_fit_without_symmetry_tell_all_its_terms_apart():
         rows = [
             basis(level.wave_order, xi[used], eta[used], flag)[:count] for flag, count in ((False, even), (True, odd))
         ]
-        assert np.linalg.cond(np.concatenate(rows) * np.sqrt(weight)) < 4
+        stacked = np.concatenate(rows)
+        if level.by_slopes:  # by central differences, weighted as in the fit; they grow with the degree
+            stacked = np.concatenate([stacked, *(SLOPE_WEIGHT * part for part in slopes_of_all_terms(level))], axis=1)
+        counted = np.tile(weight, stacked.shape[1] // weight.size)
+        assert np.linalg.cond(stacked * np.sqrt(counted)) < (12 if level.by_slopes else 4)
         assert weight.size == level.radii * level.directions
         assert weight.sum() == pytest.approx(1.0) and weight @ (xi[used] ** 2 + eta[used] ** 2) == pytest.approx(0.5)
+
+
+def slopes_of_all_terms(level, step=1e-5):
+    """Return ∂/∂ξ and ∂/∂η of all terms of a level's phase at its rays, (2, terms, rays)."""
+    xi, eta, weight = level_rays(level)
+    at = np.stack([xi, eta])[:, : weight.size]
+
+    def terms(points):
+        return np.concatenate([basis(level.wave_order, *points, odd) for odd in (False, True)])
+
+    return [(terms(at + move) - terms(at - move)) / (2 * step) for move in step * np.eye(2)[..., None]]
+
+
+def test_64_rays_tell_a_phase_of_order_ten_by_where_they_land():
+    """Rays of a made-up pupil, phase and map polynomials in plain powers: dw = −x·df gives the places."""
+    level, rng = SKEW[1], np.random.default_rng(4)
+    powers = [(a, b) for a in range(11) for b in range(11 - a)]
+    share = rng.normal(size=len(powers)) / [1 + a + b for a, b in powers]
+
+    def phase(xi, eta):
+        return sum(c * xi**a * eta**b for c, (a, b) in zip(share, powers, strict=True))
+
+    xi, eta, _ = level_rays(level)
+    across = sum(c * a * xi ** max(a - 1, 0) * eta**b for c, (a, b) in zip(share, powers, strict=True))
+    along = sum(c * b * xi**a * eta ** max(b - 1, 0) for c, (a, b) in zip(share, powers, strict=True))
+    fx, fy = 0.2 * xi + 0.01 * eta + 0.03 * xi * eta**2, 0.19 * eta - 0.02 * xi**2
+    turn = np.array([[0.2 + 0.03 * eta**2, -0.04 * xi], [0.01 + 0.06 * xi * eta, np.full_like(xi, 0.19)]])
+    x, y = np.linalg.solve(np.moveaxis(turn, -1, 0), -np.stack([across, along], -1)[..., None])[..., 0].T
+    found = fit_rays(RayData(phase(xi, eta), fx, fy, x, y, np.ones_like(xi)), level, 64)
+    at = hexapolar(6)
+    assert xi.size == 64 and found.at(*at)[0] == pytest.approx(phase(*at), abs=1e-9)
+    assert found.error_waves < 1e-9
 
 
 def test_64_rays_describe_a_wide_field_of_a_misaligned_lens():
