@@ -3,7 +3,7 @@
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QPainter, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
@@ -27,6 +27,7 @@ from p2sf_explorer.state.scales import nice, significant, written_r_squared
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
+from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.readout import Readout
 
 TIP = "Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens)."
@@ -80,16 +81,13 @@ class AccuracyPanel:
         self._state: State | None = None
         self._legend = ""
         self.message = Readout(self.widget, pill=True, colour="text")
-        self.body = QWidget(self.widget)
+        charts = self.reference, self.difference, self.methods, self.trade
+        self.body = TurningRow(charts, (4, 4, 6, 6), self.widget)
         self.body.setVisible(False)
         self.empty = QLabel(tr(EMPTY), self.widget)
         self.empty.setObjectName("muted")
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.empty.setWordWrap(True)
-        row = QHBoxLayout(self.body)
-        row.setContentsMargins(0, 0, 0, 0)
-        for part, share in ((self.reference, 4), (self.difference, 4), (self.methods, 6), (self.trade, 6)):
-            row.addWidget(part, share)
         self.widget.set_body(self.body)
         self.widget.set_body(self.empty)
         self.widget.add_footer(self.message)

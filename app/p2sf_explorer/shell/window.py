@@ -45,7 +45,7 @@ from p2sf_explorer.shell.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.shell.controls import WIDTH, Controls
 from p2sf_explorer.shell.memory_trim import MemoryTrim
 from p2sf_explorer.shell.no_answer import NO_ANSWER, drawn
-from p2sf_explorer.shell.presentation import LARGER, Presentation
+from p2sf_explorer.shell.presentation import LARGER, LARGER_LESSON, Presentation
 from p2sf_explorer.shell.sharing import Sharing
 from p2sf_explorer.shell.view import View, next_stop
 from p2sf_explorer.state.limits import ADDED
@@ -377,6 +377,7 @@ class MainWindow(QMainWindow):
             self._place_panels(self.display)
         self.controls.setVisible(state.display.show_controls)
         self.left.setVisible(state.display.show_controls or self.teaching.active)
+        self._style_left()
         for name in self._visible():
             self._style(name)
 
@@ -444,14 +445,13 @@ class MainWindow(QMainWindow):
     def _apply_theme(self) -> None:
         QApplication.setPalette(palette(self._theme))
         self.setStyleSheet(stylesheet(self._theme))
-        self.left.setFixedWidth(self._theme.px(WIDTH))
+        self._style_left()
         self.column.setContentsMargins(*(self._theme.px(side) for side in (SPACE, SPACE, SPACE, SPACE // 2)))
         for layout in (self.column, self._middle, self._right):
             layout.setSpacing(self._theme.px(SPACE))
-        for parts in (self.room, self.room.parts, self.left_parts):
+        for parts in (self.room, self.room.parts):
             parts.rescale(self._theme.scale)
         self.top.rescale(self._theme.scale)
-        self.controls.restyle(self._theme)
         self.top.tolerance.restyle(self._theme)
         self.status.restyle(self._theme)
 
@@ -464,6 +464,21 @@ class MainWindow(QMainWindow):
             self._styled[key] = theme
             self.panels[key].restyle(theme)
             self.panels[key].widget.rescale(theme.scale)
+
+    def _style_left(self) -> None:
+        """Give the column at the left the present theme: larger while a lesson in it is presented."""
+        theme, larger = self._theme, self.presentation.on and self.teaching.active
+        if larger:
+            theme = replace(theme, scale=LARGER_LESSON * theme.scale)
+        if self._styled.get("left") == theme:
+            return
+        self._styled["left"] = theme
+        own = stylesheet(theme) if larger else ""
+        if self.left.styleSheet() != own:
+            self.left.setStyleSheet(own)
+        self.left.setFixedWidth(theme.px(WIDTH))
+        self.left_parts.rescale(theme.scale)
+        self.controls.restyle(theme)
 
     def showEvent(self, event: QShowEvent) -> None:
         """Follow the window to another screen, whose type may be of another size."""

@@ -120,6 +120,12 @@ class Sentence(QLabel):
         """Show nothing."""
         self.setText("")
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Ask for other room where the new width makes another number of lines."""
+        super().resizeEvent(event)
+        if self.heightForWidth(event.size().width()) != self.heightForWidth(event.oldSize().width()):
+            self.updateGeometry()
+
     def heightForWidth(self, width: int) -> int:
         """Return the height of the lines that the text takes, at least of one."""
         metrics = self.fontMetrics()

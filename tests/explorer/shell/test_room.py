@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QToolButton, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.library import find_lens
@@ -20,7 +20,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.lens_table import LensTablePanel
 from p2sf_explorer.widgets.card import Card, chooser
-from p2sf_explorer.widgets.readout import BAR_AIR, Readout
+from p2sf_explorer.widgets.readout import BAR_AIR, Readout, Sentence
 
 
 @pytest.mark.parametrize("wrong", [{"depth_mm": -1.0}, {"f_number": 0.0}, {"focus_mm": 0.0}, {"stop": "x"}])
@@ -191,6 +191,24 @@ def test_every_groups_tabs_fit_a_small_window_and_no_column_of_the_lens_is_cut(w
     finally:
         set_language("en")
         tabs.close()
+
+
+def test_a_sentence_has_room_for_all_its_lines_when_it_becomes_narrower(qtbot):
+    column = QWidget()
+    qtbot.addWidget(column)
+    words, rest = Sentence(column), QWidget(column)
+    layout = QVBoxLayout(column)
+    layout.addWidget(words)
+    layout.addWidget(rest, 1)
+    words.setText("mostly defocus: 94 % of the wavefront variance")
+    column.show()
+    heights = []
+    for wide in (900, 160):
+        column.resize(wide, 300)
+        QApplication.processEvents()
+        heights.append(words.height())
+        assert words.height() >= words.heightForWidth(words.width())
+    assert heights[1] > heights[0]
 
 
 @pytest.mark.parametrize("percent", [100, 150])

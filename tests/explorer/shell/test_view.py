@@ -132,6 +132,22 @@ def test_strokes_margins_and_the_column_follow_the_type(large, qtbot, percent):
     assert window.controls.facts.height() == round(17 * part * len(window.controls.facts.rows))
 
 
+def test_a_lesson_is_presented_in_larger_type(window):
+    window.teaching.toggle()
+    QApplication.processEvents()
+    words, before = window.teaching.panel, window.left.width()
+    small = words.fontMetrics().height()
+    window.presentation.start()
+    try:
+        QApplication.processEvents()
+        assert words.fontMetrics().height() > 1.4 * small and window.left.width() == round(1.5 * before)
+    finally:
+        window.presentation.stop()
+        QApplication.processEvents()
+    assert words.fontMetrics().height() == small and window.left.width() == before
+    window.teaching.leave()
+
+
 def test_presenting_shows_the_stage_alone_with_larger_type_and_ends_as_it_was(large, qtbot):
     window = large
     before, type_px = where(window), window.panels["psf"].widget.title.fontInfo().pixelSize()
