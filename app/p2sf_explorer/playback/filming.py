@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QRect, Qt, QTimer, Signal
+from PySide6.QtCore import QObject, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QImage, QPainter, QPalette
 from PySide6.QtWidgets import QWidget
 
@@ -51,6 +51,7 @@ class Filming(QObject):
         self._queue, self._number, self._shown = FrameQueue(), 0, False
         self._moments: tuple[Moment, ...] = ()
         self._subject: QWidget | None = None
+        self._size: QSize | None = None
         store.changed.connect(self._disturb)
 
     @property
@@ -68,7 +69,7 @@ class Filming(QObject):
             self._store.refused.emit(error)
             return False
         self._moments, self._subject, self._queue = moments, subject, FrameQueue()
-        self._number, self._shown = 0, False
+        self._number, self._shown, self._size = 0, False, None
         self._pause_accuracy(True)
         queue, frame_ms = self._queue, round(1000 / frames_per_s)
         self._worker.submit(path, lambda cancelled, _: write_film(queue.frames(cancelled), path, frame_ms))
@@ -103,7 +104,11 @@ class Filming(QObject):
             self._show(moment.state)
         if not self._shown or self._busy_panels():
             return
-        self._queue.put(frame_of(self._subject, said(moment.caption) if moment.caption else ""))
+        picture = picture_of(self._subject, said(moment.caption) if moment.caption else "")
+        self._size = self._size or picture.size()
+        if picture.size() != self._size:  # the window was resized meanwhile, and a film has one size
+            picture = picture.scaled(self._size, mode=Qt.TransformationMode.SmoothTransformation)
+        self._queue.put(frame_of(picture))
         self._number, self._shown = self._number + 1, False
         self.progressed.emit(self._number / len(self._moments))
 
@@ -129,11 +134,14 @@ def moments_of_sweep(state: State) -> tuple[Moment, ...]:
     return tuple(Moment(changed(state, **with_links(state, each))) for each in moved)
 
 
-def frame_of(widget: QWidget, caption: str = "") -> FilmFrame:
+def picture_of(widget: QWidget, caption: str = "") -> QImage:
     """Return a widget's picture, with a caption in a strip below it."""
     image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
-    if caption:
-        image = _with_caption(image, widget, caption)
+    return _with_caption(image, widget, caption) if caption else image
+
+
+def frame_of(image: QImage) -> FilmFrame:
+    """Return a picture, of 8 bits red, green and blue, as a frame."""
     rows = bytes(image.constBits())
     line, width = image.bytesPerLine(), 3 * image.width()
     packed = rows if line == width else b"".join(rows[k * line : k * line + width] for k in range(image.height()))

@@ -12,7 +12,7 @@ from pytest import approx
 
 from p2sf.errors import ExportError, P2SFError
 from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write_film
-from p2sf_explorer.playback.filming import frame_of
+from p2sf_explorer.playback.filming import frame_of, picture_of
 from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
@@ -257,7 +257,7 @@ def test_a_film_waits_for_the_panels_that_fill_in_the_background(window, qtbot, 
 
 
 def frame_pixels(widget) -> np.ndarray:
-    found = frame_of(widget)
+    found = frame_of(picture_of(widget))
     return np.frombuffer(found.rgb, np.uint8).reshape(found.height, found.width, 3)
 
 
@@ -271,3 +271,14 @@ def test_a_film_can_be_cancelled(window, qtbot, tmp_path):
     assert "cancelled" in str(told.args[0])
     assert list(tmp_path.iterdir()) == []
     assert window.live.state == window.store.state
+
+
+@pytest.mark.parametrize("ending", [".png", ".gif"])
+def test_a_film_keeps_its_size_while_the_window_is_resized(window, qtbot, tmp_path, ending):
+    window.store.update(playback_slider="field_deg", playback_seconds=0.4)
+    filmed(window, qtbot, tmp_path / f"way{ending}", "stack", lambda: window.resize(1300, 820))
+    sizes = set()
+    for path in tmp_path.iterdir():
+        with Image.open(path) as picture:
+            sizes.add(picture.size)
+    assert len(sizes) == 1 and len(list(tmp_path.iterdir())) == (1 if ending == ".gif" else 5)
