@@ -291,7 +291,7 @@ class MeasuredPanel:
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        for part in (self.chart, self.table):
+        for part in (self.chart, self.list, self.table):
             part.restyle(theme)
 
     def stop(self) -> None:
@@ -342,10 +342,16 @@ class PointList(QTableWidget):
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setTabKeyNavigation(False)
-        self.verticalHeader().setDefaultSectionSize(20)
+        self.setShowGrid(False)
+        self.verticalHeader().hide()
         self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self.horizontalHeader().setStretchLastSection(True)
         self.setAccessibleName(tr("Points"))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the scale of a theme."""
+        self.verticalHeader().setDefaultSectionSize(theme.px(22))
+        self.viewport().update()
 
     def show_lines(self, lines: tuple[PointLine, ...]) -> None:
         """Show a row for each point, and choose the first."""
@@ -353,7 +359,7 @@ class PointList(QTableWidget):
         self.setRowCount(len(lines))
         for row, (figures, why) in enumerate(lines):
             for column, text in enumerate(figures):
-                item = QTableWidgetItem(local(text))
+                item = QTableWidgetItem(f"  {local(text)}")  # columns are as wide as their texts
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
                 self.setItem(row, column, item)
             self.setItem(row, len(figures), QTableWidgetItem(said(why) if why else ""))
