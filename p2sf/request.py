@@ -285,7 +285,7 @@ def _focused(lens: Lens, focus_mm: float | None) -> float:
         finite = Message("{place:g} mm from the last vertex", place=place)
         raise RequestError(
             "{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind "
-            "the lens; give a distance whose image is real, as a rule a longer one",
+            "the lens; give a distance whose image is real, usually a longer one",
             parameter="focus_mm",
             value=focus_mm,
             where=finite if isfinite(place) else Message("at infinity"),

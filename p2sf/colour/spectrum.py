@@ -51,7 +51,7 @@ def spectrum_of(text: str) -> Spectrum:
         raise
     except ValueError:
         raise RequestError(
-            'the spectrum "{text}" holds "{rest}", which is no list of numbers; write {examples}',
+            'the spectrum "{text}" holds "{rest}", which is not a list of numbers; write {examples}',
             text=str(text),
             rest=rest,
             examples=EXAMPLES,

@@ -44,9 +44,7 @@ def build_database(
             interpolant=interpolant,
             interpolants=Alternatives(INTERPOLANTS),
         )
-    check_aligned(
-        lens, Message("a database of the six coefficients"), Message("build a fitted one, or set it straight")
-    )
+    check_aligned(lens, Message("a database of the six coefficients"), Message("build a fitted one, or align it"))
     stop = stop or find_stop(lens)
     return build_exact(lens, space, stop) if interpolant == "exact" else _grid(lens, space, interpolant, stop)
 

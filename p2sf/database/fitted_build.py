@@ -29,7 +29,7 @@ TOLERANCE_WAVES = 1e-3  # RMS phase where the rays land; the fit itself is allow
 HELD_OUT = {3: 12, 4: 24}  # points between the nodes, by the number of axes
 
 
-ACROSS = Message("give fields along x as well, or set it straight")
+ACROSS = Message("give fields along x as well, or align it")
 
 
 @one_blas_thread
@@ -63,8 +63,8 @@ def build_fitted(
             return replace(database, errors={"phase": worst})
         counts[_least_settled(series, level)] += 2
     raise DatabaseError(
-        "the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the "
-        "depths, the fields or the wavelengths, or use the seidel method",
+        "between {depths} × {fields} × {wavelengths} nodes the fits are still wrong by {error:.2g} waves; narrow "
+        "the depths, the fields or the wavelengths, or use the seidel method",
         error=worst,
         depths=counts[0],
         fields=" × ".join(map(str, counts[1:-1])),

@@ -111,7 +111,7 @@ def checked(scene: Scene, values: np.ndarray) -> np.ndarray:
     values = np.asarray(values, np.float32)
     if values.shape != (sensor.rows, sensor.columns, channels):
         raise RequestError(
-            "the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and "
+            "the picture has the shape ({shape}), but the scene's sensor needs {rows} rows, {columns} columns and "
             "{channels} channels; resize it or change the scene",
             shape=values.shape,
             rows=sensor.rows,

@@ -117,8 +117,8 @@ def field_map(lens: Lens, depth_mm: float, wavelength_um: float, sensor: Sensor)
     miss = np.abs(columns @ solved - slopes).max() * abs(scale) / sensor.pixel_mm
     if not miss < MOST_MISS_PX:
         raise GeometryError(
-            "chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or set the "
-            "lens straighter",
+            "chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or align "
+            "the lens better",
             miss=float(miss),
         )
     tables = np.zeros((2, ORDER + 1, ORDER + 1))

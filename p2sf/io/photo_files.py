@@ -175,7 +175,7 @@ def _by_pillow(data: bytes, path: Path, formats: tuple[str]) -> np.ndarray:
             return np.asarray(ImageOps.exif_transpose(picture).convert("L" if grey else "RGB"))
     except UnidentifiedImageError as error:
         raise RequestError(
-            "{path} is no PNG, TIFF, JPEG or HEIF that can be read; convert it to one", path=str(path)
+            "{path} is not a PNG, TIFF, JPEG or HEIF that can be read; convert it to one", path=str(path)
         ) from error
     except (OversizedError, Image.DecompressionBombError) as error:
         raise RequestError(

@@ -314,7 +314,7 @@ def check_unmasked(lens: Lens, what: Message) -> None:
     """Raise GeometryError for ``what`` knows the clear disc of the stop only, where the lens has a mask in it."""
     if not lens.mask.clear:
         raise GeometryError(
-            "a mask stands in the stop, and {what} knows a clear round stop only; take the mask away", what=what
+            "a mask stands in the stop, and {what} supports only a clear round stop; remove the mask", what=what
         )
 
 
@@ -346,14 +346,15 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     return replace(lens, surfaces=surfaces, sensor_before=turned(lens.sensor_before))
 
 
-SET_STRAIGHT = Message("set it straight")
+SET_STRAIGHT = Message("align it")
 
 
 def check_aligned(lens: Lens, what: Message, remedy: Message = SET_STRAIGHT) -> None:
     """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are not symmetric."""
     if lens.misaligned:
         raise GeometryError(
-            "surface {surface} is tilted, decentred or irregular, and {what} knows rotational symmetry only; {remedy}",
+            "surface {surface} is tilted, decentred or irregular, and {what} supports only rotational symmetry; "
+            "{remedy}",
             surface=_first_misaligned(lens),
             what=what,
             remedy=remedy,

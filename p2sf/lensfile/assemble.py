@@ -33,7 +33,7 @@ HEIGHTS = {
 def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
     """Return the lens of a file; LensFileError with its line where it is not a lens that P2SF traces."""
     if not raw.surfaces:
-        raise source.error("the file holds no lens surface between object and image", len(source.lines))
+        raise source.error("the file contains no lens surface between object and image", len(source.lines))
     if len(raw.surfaces) > MOST_SURFACES:
         where = raw.surfaces[MOST_SURFACES].line or len(source.lines)
         raise source.error(

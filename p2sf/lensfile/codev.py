@@ -38,7 +38,7 @@ REFUSED = {
     **dict.fromkeys("NSS NSE ENT EXI".split(), Message("begins a non-sequential part")),
     **dict.fromkeys("CUF FRE".split(), Message("is a Fresnel surface")),
     **dict.fromkeys("MOD LMO".split(), Message("is a lens module that hides its surfaces")),
-    **dict.fromkeys("INS".split(), Message("reads another file, which is not at hand")),
+    **dict.fromkeys("INS".split(), Message("reads another file, which was not found")),
 }
 
 HARMLESS = (
@@ -259,7 +259,7 @@ def _wavelengths(reading: CodeVReading, command: CodeVCommand) -> None:
     before = [wavelength * NM_PER_UM for wavelength in reading.raw.wavelengths_um]
     values = _listed(reading, command, "W", before, Message("wavelength"))
     if not all(50 <= value <= 50_000 for value in values):
-        raise reading.source.error("a wavelength is not light; give nanometres", command.line)
+        raise reading.source.error("a wavelength is not that of light; give nanometres", command.line)
     reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
 
 
@@ -573,7 +573,7 @@ def _surface(reading: CodeVReading, command: CodeVCommand) -> None:
     else:
         if name.isdigit() and int(name[:6]) != len(reading.surfaces):
             raise reading.source.error(
-                "surface {number} stands where {due} is due",
+                "surface {number} is where {due} is expected",
                 command.line,
                 number=int(name[:6]),
                 due=len(reading.surfaces),
@@ -598,7 +598,9 @@ def _finish(reading: CodeVReading) -> None:
     if first.line is None:
         raw.object_distance = inf
     if not raw.surfaces:
-        raise reading.source.error("the file holds no surface (S) between object and image", len(reading.source.lines))
+        raise reading.source.error(
+            ("the file contains no surface (S) between object and image"), len(reading.source.lines)
+        )
     if reading.image is not None:
         raw.surfaces[-1].thickness += reading.image.thickness  # defocus
         if reading.image.curvature:

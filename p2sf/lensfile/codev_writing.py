@@ -102,7 +102,7 @@ def _surface(lens: Lens, row: Row, stop: int, private: dict[Medium, str]) -> lis
     surface, number = row.surface, abs(row.number)
     if surface.ideal:
         raise LensFileError(
-            "surface {surface} is an ideal lens, which a CODE V file cannot say; save as TOML", surface=number
+            "surface {surface} is an ideal lens, which a CODE V file cannot express; save as TOML", surface=number
         )
     radius = surface.radius if isfinite(surface.radius) else 0.0
     thickness = surface.thickness if row.number >= 0 else 0.0
@@ -126,8 +126,8 @@ def _shape(surface: Surface, number: int) -> list[str]:
     """Return K and A to J, or the polynomial SPS ODD; LensFileError for what neither holds."""
     if isinstance(surface.shape, Qbfs):
         raise LensFileError(
-            "surface {surface} is a Qbfs asphere, which a CODE V file cannot say here; save as TOML, or convert it to "
-            "even terms",
+            "surface {surface} is a Qbfs asphere, which a CODE V file cannot express here; save as TOML, or convert "
+            "it to even terms",
             surface=number,
         )
     radius, terms = power_terms(surface)

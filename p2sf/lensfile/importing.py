@@ -81,7 +81,7 @@ def import_text(source: LensText, sources: GlassSources) -> Import:
     for catalogue in sources.catalogues:
         notes.add(
             "read",
-            "glass catalogue {path} with {count} glasses is at hand",
+            "glass catalogue {path} with {count} glasses was found",
             path=catalogue.path,
             count=len(catalogue.glasses),
         )

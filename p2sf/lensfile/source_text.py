@@ -69,7 +69,7 @@ def _check_lines(source: LensText) -> None:
         )
     long = next((n for n, line in enumerate(source.lines, 1) if len(line) > LONGEST_LINE), None)
     if long:
-        raise source.error("the line has over {count} characters; this is no lens file", long, count=LONGEST_LINE)
+        raise source.error("the line has over {count} characters; this is not a lens file", long, count=LONGEST_LINE)
 
 
 def read_bytes(path: str | os.PathLike) -> bytes:
@@ -123,7 +123,7 @@ def _zip_member(data: bytes, path: str) -> tuple[str, bytes]:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             names = [name for name in archive.namelist() if name.lower().endswith(IN_ARCHIVES)]
             if not names:
-                raise LensFileError("the archive holds no .zmx or .seq file; unpack the lens yourself", path)
+                raise LensFileError("the archive contains no .zmx or .seq file; unpack the lens yourself", path)
             first = sorted(names, key=lambda name: not name.lower().endswith(".zmx"))[0]
             with archive.open(first) as stream:
                 member = stream.read(LARGEST_BYTES + 1)
@@ -192,7 +192,7 @@ def _bytes(path: Path) -> bytes:
 
 def _decoded(data: bytes, path: str | os.PathLike) -> str:
     if len(data) > LARGEST_FILE:
-        raise LensFileError("the file is larger than {size} bytes; this is no lens file", path, size=LARGEST_FILE)
+        raise LensFileError("the file is larger than {size} bytes; this is not a lens file", path, size=LARGEST_FILE)
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -286,7 +286,9 @@ def _values(text: str, path: str) -> dict[str, Any]:
             "this is not TOML ({reason}); {remedy}", path, line, reason=problem, remedy=_remedy(text, line)
         ) from None
     except (ValueError, RecursionError):
-        raise LensFileError("a number is too long or lists are nested too deep; this is no lens file", path) from None
+        raise LensFileError(
+            ("a number is too long or lists are nested too deep; this is not a lens file"), path
+        ) from None
 
 
 def _remedy(text: str, line: int) -> Message:

@@ -53,14 +53,14 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
         )
     if ending != ".toml" and not lens.mask.clear:
         raise LensFileError(
-            "a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML",
+            "a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML",
             path,
             ending=ending,
         )
     irregular = [number for number, surface in enumerate(lens.surfaces, 1) if surface.irregularity]
     if ending != ".toml" and irregular:
         raise LensFileError(
-            "surface {surface} is irregular, which a file that ends in {ending} cannot say; save as TOML",
+            "surface {surface} is irregular, which a file that ends in {ending} cannot express; save as TOML",
             path,
             surface=irregular[0],
             ending=ending,
@@ -78,8 +78,8 @@ def _check_aligned(lens: Lens, what: Message) -> None:
     """Raise LensFileError for a lens with tilts or decentres, which ``what`` cannot hold."""
     if lens.misaligned:
         raise LensFileError(
-            "parts of the lens are tilted or decentred, which {what} cannot say; save as TOML, or for Zemax at one "
-            "position",
+            "parts of the lens are tilted or decentred, which {what} cannot express; save as TOML, or for Zemax at "
+            "one position",
             what=what,
         )
 
@@ -347,16 +347,16 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     Raises LensFileError where the object is not in air, and for mirrors.
     """
     if lens.object_medium != AIR:
-        raise LensFileError("the object stands in a medium, which an ISET file cannot say; save as TOML")
+        raise LensFileError("the object stands in a medium, which an ISET file cannot express; save as TOML")
     if any(surface.reflects for surface in lens.surfaces):
-        raise LensFileError("the lens has mirrors, which an ISET file cannot say; save as TOML")
+        raise LensFileError("the lens has mirrors, which an ISET file cannot express; save as TOML")
     wave = lens.reference_wavelength_um
     stop = lens.stop_surface or limiting_rim(lens, wave)[0]
     rows = []
     for number, surface in enumerate(lens.surfaces, 1):
         if surface.inner_radius:
             raise LensFileError(
-                "surface {surface} has a hole or an obscuration, which an ISET file cannot say; save as TOML",
+                "surface {surface} has a hole or an obscuration, which an ISET file cannot express; save as TOML",
                 surface=number,
             )
         row = _iset_row(_iset_surface(surface, number), _iset_index(surface.medium, wave, spectral))
@@ -389,7 +389,8 @@ def _iset_surface(surface: Surface, number: int) -> Surface:
     if made is not None and exact and surface.diffraction is None and not surface.ideal:
         return made.surface
     raise LensFileError(
-        "surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML",
+        "surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot express; save "
+        "as TOML",
         surface=number,
         program="ISET",
     )

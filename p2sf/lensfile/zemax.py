@@ -79,7 +79,7 @@ def note(notes: Notebook, raw: RawLens, words: list[str], surface: int | None, l
     elif keyword in RIMS:
         notes.add(
             "caution",
-            "its rim ({keyword}) is not round; the round semi-diameter stands in",
+            "its rim ({keyword}) is not round; the round semi-diameter is used instead",
             surface,
             line,
             keyword=keyword,
@@ -259,7 +259,7 @@ def begin_surface(reading: ZemaxReading, words: list[str]) -> None:
     count = whole(words[1] if len(words) > 1 else "", Message("surface number"), reading.source, reading.line)
     if count != len(reading.surfaces):
         raise reading.source.error(
-            "surface {number} stands where {due} is due; sort them",
+            "surface {number} is where {due} is expected; sort them",
             reading.line,
             number=count,
             due=len(reading.surfaces),
@@ -598,7 +598,7 @@ def _finish(reading: ZemaxReading) -> None:
     """Complete the raw lens once all lines are read."""
     raw = reading.raw
     if len(reading.surfaces) < 3:
-        raise reading.source.error("the file holds no surface between object and image", len(reading.source.lines))
+        raise reading.source.error("the file contains no surface between object and image", len(reading.source.lines))
     for surface in reading.surfaces:
         if surface.glass and surface.glass.name:
             surface.glass = RawGlass(

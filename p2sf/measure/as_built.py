@@ -31,7 +31,7 @@ def lens_as_built(whole: FrameFit, tilted: bool = True) -> Lens:
     """
     lens = whole.model.lens
     if lens is None:
-        raise RequestError("the lens as built is the lens as designed and what differs: measure beside the lens")
+        raise RequestError("the lens as built is the designed lens with its departures; measure relative to the lens")
     told = dict(zip(whole.model.unknowns, whole.values.tolist(), strict=True))
     surfaces = list(lens.surfaces)
     for name, value in told.items():

@@ -89,7 +89,7 @@ class FrameFit:
         )
         if alike:
             told = Message(
-                "{names}: the picture tells a combination of these only, and hardly each of them; leave one out",
+                "{names}: the picture determines only a combination of these, hardly each of them; leave one out",
                 names=alike,
             )
             out = (*out, told)

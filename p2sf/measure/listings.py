@@ -144,6 +144,6 @@ def _chief(head: str) -> tuple[float, float] | None:
 
 def _damaged(path: str) -> RequestError:
     return RequestError(
-        "{path} is no listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio",
+        "{path} is not a listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio",
         path=path,
     )

@@ -328,8 +328,8 @@ def chi2_warning(chi2: float, freedom: int) -> tuple[Message, ...]:
         return ()
     return (
         Message(
-            "the model leaves {ratio:.2g} times the noise, and errors are enlarged by that; try more numbers, and "
-            "check the numerical aperture, the pixel and the noise",
+            "what the model does not explain is {ratio:.2g} times the noise, and the errors are enlarged by that; "
+            "try more numbers, and check the numerical aperture, the pixel and the noise",
             ratio=chi2**0.5,
         ),
     )
@@ -340,7 +340,11 @@ def _warnings(fit: PointFit, problem: Problem) -> tuple[Message, ...]:
     out = list(chi2_warning(fit.chi2, problem.freedom))
     one_sign = _open_sign(problem)
     if one_sign:
-        out.append(Message("one focus leaves the common sign of all even terms open; a second, known focus decides"))
+        out.append(
+            Message(
+                "one focus does not determine the common sign of all even terms; add a second focus at a known distance"
+            )
+        )
     further = len(fit.others) - one_sign
     if further:
         out.append(Message("other wavefronts explain the pictures as well: {count}; add a focus", count=further))

@@ -78,7 +78,7 @@ def find_points(frame: Frame) -> list[FoundPoint]:
     points = [point for point in measured if point is not None]
     if not points:
         raise RequestError(
-            "no point stands out of the noise of {noise:.3g} counts; expose longer, or check the dark field",
+            "no point rises above the noise of {noise:.3g} counts; expose longer, or check the dark field",
             noise=frame.read_noise,
         )
     points.sort(key=lambda point: -point.flux)

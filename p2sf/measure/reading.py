@@ -57,7 +57,7 @@ def read_frame(
     pitch = pixel_um or found.pixel_um
     if pitch is None:
         raise RequestError(
-            "{path} does not say how large its pixels are; give {parameter}", path=str(path), parameter="pixel_um"
+            "{path} does not state the size of its pixels; give {parameter}", path=str(path), parameter="pixel_um"
         )
     check_positive("pixel_um", pitch)
     saturated = found.values >= min(found.full, noise.full_scale if noise else np.inf)

@@ -66,7 +66,7 @@ def seen(picture: PointPicture, optics: Optics) -> Seen:
     flux = light.sum()
     if not flux > SIGNIFICANT * np.sqrt(np.sum(noise[light != 0] ** 2)):
         raise RequestError(
-            "no point stands out of the noise in a window of {shape} pixels; expose longer, or choose another point",
+            "no point rises above the noise in a window of {shape} pixels; expose longer, or choose another point",
             shape=" × ".join(map(str, values.shape[::-1])),
         )
     y, x = ((np.arange(count) - count // 2) * optics.pixel_um for count in values.shape)

@@ -171,7 +171,7 @@ def _row(words: Sequence[str], path: str, line: int, unit: str) -> tuple[int, fl
     except ValueError:
         pass
     raise RequestError(
-        '{path}, line {line}: "{text}" is no point of a target; give a whole number, x and y',
+        '{path}, line {line}: "{text}" is not a point of a target; give a whole number, x and y',
         path=path,
         line=line,
         text=" ".join(words)[:60],

@@ -44,7 +44,7 @@ OUTLINE = 2048  # intervals of the outline: chords between them depart from it b
 CENTROID_CELLS = 256  # along each side, for the centroid of the light that a mask lets through: 1e-3 of its radius
 PROBE = 33  # points along each axis where slopes are looked for
 
-UNFOLLOWED = "no polynomial follows the rays of this pupil; stop the lens down or reduce the field"
+UNFOLLOWED = "no polynomial fits the rays of this pupil; stop the lens down or reduce the field"
 
 
 @dataclass(frozen=True)
@@ -375,8 +375,8 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
         return pupil
     if not pupil.even:
         raise GeometryError(
-            "a mask stands in the stop, and the transfer function of a pupil without symmetry knows a clear round stop "
-            "only; take the mask away or set the lens straight"
+            "a mask stands in the stop, and the transfer function of a pupil without symmetry supports only a clear "
+            "round stop; remove the mask or align the lens"
         )
     pupil = replace(pupil, mask=mask, wavelength_um=wavelength_um)
     axis = (np.arange(CENTROID_CELLS) + 0.5) * (2 / CENTROID_CELLS) - 1

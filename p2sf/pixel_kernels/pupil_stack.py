@@ -140,8 +140,8 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     worst = float(share[np.abs(share - 1).argmax()])
     if abs(worst - 1) > FOLDED:
         raise GeometryError(
-            "the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its "
-            "light; stop the lens down or reduce the field",
+            "the pupil is too distorted for polynomials over its spatial frequencies, which give {share:.3g} times "
+            "its light; stop the lens down or reduce the field",
             share=worst,
         )
     distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]

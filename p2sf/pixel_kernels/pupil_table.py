@@ -82,7 +82,7 @@ def pupil_table(
 def _weights(nodes: tuple[float, ...], place: float) -> np.ndarray:
     if not _within(place, nodes):
         raise GeometryError(
-            "{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene anew",
+            "{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again",
             place=place,
             low=nodes[0],
             high=nodes[-1],

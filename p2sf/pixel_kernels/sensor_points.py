@@ -92,7 +92,7 @@ def sensor_maps(
     depths = np.array(depths_mm, float)
     scale = np.broadcast_to(coefficients(lens, depths, 1.0, wavelength_um).image_height, depths.shape)
     if not (np.isfinite(scale) & (scale != 0)).all():
-        raise GeometryError("every chief ray meets the sensor on the axis, so it holds no picture; move the stop")
+        raise GeometryError("every chief ray meets the sensor on the axis, so it contains no picture; move the stop")
     for reach in REACHES:
         slopes = np.linspace(0, reach * height_mm / scale, rays, axis=-1)
         try:

@@ -251,7 +251,7 @@ def _by_method(
         psf = seidel_psf(c, *window, quality, mask=mask_seen(lens, source))
         psf = replace(psf, predicted_error=seidel_error(lens, source, c))
         straight = Message(
-            "{sampling}; the lens set straight, without its tilts, decentres and irregularities", sampling=psf.sampling
+            "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
         )
         return replace(psf, sampling=straight) if lens.misaligned else psf
     if method == "fitted":

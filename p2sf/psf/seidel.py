@@ -192,7 +192,8 @@ def check_focus(coefficients: Coefficients) -> None:
     """Raise GeometryError where there is no image at a finite distance."""
     if anywhere(np.equal(coefficients.reduced_slope, 0)):
         raise GeometryError(
-            "the image of this object lies at infinity (NA 0), so the sensor holds no PSF; move the object or refocus"
+            "the image of this object lies at infinity (NA 0), so the sensor contains no PSF; move the object or "
+            "refocus"
         )
 
 

@@ -301,8 +301,8 @@ def _check_open(
     for number in shadows:
         if _inside(replace(region, within=(number,)), xi, eta).any():
             raise GeometryError(
-                "a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or take the "
-                "vanes away",
+                "a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or remove the "
+                "vanes",
                 parameter="clip",
                 surface=number,
             )

@@ -74,8 +74,8 @@ def pupil_opd(
     if not pencil(lens, source, *tried, clip).passed.all():
         if not lens.mask.clear:
             raise GeometryError(
-                "rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a whole "
-                "ring; leave {parameter} off, stop the lens down, or take the obscuration away",
+                "rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a "
+                "whole ring; leave {parameter} off, stop the lens down, or remove the obscuration",
                 parameter="clip",
             )
         nodes = clear_nodes(lens, source, counts, clip)
@@ -87,8 +87,8 @@ def open_nodes(lens: Lens, source: Source, counts: tuple[int, int]) -> ClearNode
     mask = lens.mask
     if not (mask.clear or mask.annular):
         raise GeometryError(
-            "Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; take vanes, "
-            "blades, filters and phases away"
+            "Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; remove vanes, "
+            "blades, filters and phases"
         )
     radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as else in the disc
     return pupil_nodes(lens, source, (radial, counts[1]))

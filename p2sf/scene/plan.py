@@ -311,7 +311,7 @@ def _pupils(study: Study) -> Decision:
     what = Message("pupils")
     if study.table is None:
         return Decision(
-            what, Message("all"), Message("no polynomials through a few of them give the others"), 0.0, "pupils"
+            what, Message("all"), Message("interpolation between a few of them does not give the others"), 0.0, "pupils"
         )
     why = Message(
         "heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them",

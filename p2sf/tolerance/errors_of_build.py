@@ -163,7 +163,9 @@ def _altered(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -
         before = surface.irregularity or Irregularity(0.0, 0.0, radius)
         return replace(surface, irregularity=before.added(upright, turned, radius))
     if surface.reflects:
-        raise GeometryError("surface {surface} is a mirror, which has no index to be off", surface=tolerance.first)
+        raise GeometryError(
+            ("surface {surface} is a mirror, which has no index that could be wrong"), surface=tolerance.first
+        )
     return replace(surface, medium=ShiftedIndex(surface.medium, error))
 
 

@@ -73,7 +73,7 @@ def read_tolerances(
 def _tables(top: Table, key: str) -> list[Table]:
     rows = top.values.get(key, [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-        top.fail("{name} is no list of tables; head every one with [[{name}]]", key, name=key)
+        top.fail("{name} is not a list of tables; head every one with [[{name}]]", key, name=key)
     return [Table(top.path, top.text, row, key) for row in rows]
 
 

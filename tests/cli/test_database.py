@@ -202,7 +202,7 @@ def test_a_misaligned_lens_has_fields_along_x_and_y(said, refused, tmp_path):
     lens, path = tmp_path / "bad.toml", tmp_path / "bad.npz"
     lens.write_text(lens_to_toml(bad), encoding="utf-8")
     grid = ("--depths-mm", "inf", "--wavelengths-nm", "540,560", "-o", path)
-    assert "the six coefficients knows rotational symmetry only; build a fitted one" in refused(
+    assert "the six coefficients supports only rotational symmetry; build a fitted one" in refused(
         "database", "build", lens, *grid
     )
     said("database", "build", lens, "--method", "fitted", *grid)

@@ -73,6 +73,6 @@ def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
         assert error.startswith("p2sf: ") and words in error, error
     np.save(tmp_path / "noise.npy", np.random.default_rng(0).normal(50, 5, (40, 40)))
     assert main(["measure", str(tmp_path / "noise.npy"), *SCALE, "--wavelength-nm", "550"]) == 2
-    assert "no point stands out" in capsys.readouterr().err
+    assert "no point rises above" in capsys.readouterr().err
     assert main(["compare", str(picture), str(picture)]) == 2
     assert "not a measurement" in capsys.readouterr().err

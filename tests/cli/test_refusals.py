@@ -190,7 +190,7 @@ FIRST, SURFACE = "SO    0.0 0.1e14", "S     -128.2051282051282 95.5"
 CODEV_REFUSED = {
     "an aperture angle beyond a right one": ((("EPD   20.0", "NA 1.5"),), "1.5 is impossible in index 1"),
     "an object in the first vertex": ((("EPD   20.0", "NAO 0.1"), (FIRST, "SO 0.0 0.0")), "lies in the first vertex"),
-    "a surface out of its turn": (((SURFACE, "S7 -128.2 95.5"),), "surface 7 stands where 3 is due"),
+    "a surface out of its turn": (((SURFACE, "S7 -128.2 95.5"),), "surface 7 is where 3 is expected"),
     "a tilted image": ((("SI    0.0 0.5", "SI 0.0 0.5\n  XOD 3.0"),), "the image surface .*XOD"),
 }
 
@@ -239,4 +239,4 @@ def test_a_misaligned_lens_is_told_to_be_set_straight_by_paraxial_figures(tmp_pa
     (tmp_path / "bad.toml").write_text(text, encoding="utf-8")
     for command in ("info", "coefficients"):
         main([command, str(tmp_path / "bad.toml")])
-        assert "those of the lens set straight" in capsys.readouterr().err
+        assert "those of the aligned lens" in capsys.readouterr().err

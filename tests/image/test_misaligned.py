@@ -64,7 +64,7 @@ def test_the_picture_of_a_point_is_the_psf_there(gauss, bad, seen):
     near = found[row - 4 : row + 5, column - 4 : column + 5]
     assert np.linalg.norm(near - expected) < 0.01 * np.linalg.norm(expected)
     assert found.sum() == pytest.approx(1.0, abs=1e-3)
-    # Of the lens set straight it is another.
+    # Of the aligned lens it is another.
     straight = render_integrated(gauss, source, "huygens", 9, SENSOR.pixel_um)
     assert np.linalg.norm(near - straight.values[::-1]) > 0.02 * np.linalg.norm(expected)
 

@@ -35,7 +35,7 @@ REFUSED = {
 }
 TABLE_REFUSED = {
     "an unknown unit": (("# f_number: 8", "# f_number: 8\n# unit: furlong"), 'unit "furlong" is none of'),
-    "X-rays": (("486.1327,", "4.9,"), "a wavelength is not light"),
+    "X-rays": (("486.1327,", "4.9,"), "a wavelength is not that of light"),
     "two stops": (("air,10,,,", "air,10,,,x"), "both are the stop"),
 }
 ONE_INDEX = {
@@ -124,12 +124,12 @@ def test_a_table_in_inches_is_in_millimetres_afterwards():
 @pytest.mark.parametrize(
     ("ending", "change", "words"),
     [
-        ("json", {"object_medium": ConstantIndex(1.33)}, "which an ISET file cannot say; save as TOML"),
+        ("json", {"object_medium": ConstantIndex(1.33)}, "which an ISET file cannot express; save as TOML"),
         ("zmx", {"aspheric": (1e-6,), "shape": Qbfs((1e-3,), 5.0)}, "is a Qbfs asphere with .* save as TOML"),
         ("zmx", {"shape": RadialPolynomial((1e-3,)), "diffraction": PHASE}, "surface 1 diffracts and .* save as TOML"),
-        ("json", {"shape": RadialPolynomial((1e-3,))}, "which a file for ISET cannot say; save as TOML"),
-        ("json", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "which a file for ISET cannot say; save as TOML"),
-        ("json", {"diffraction": PHASE}, "which a file for ISET cannot say; save as TOML"),
+        ("json", {"shape": RadialPolynomial((1e-3,))}, "which a file for ISET cannot express; save as TOML"),
+        ("json", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "which a file for ISET cannot express; save as TOML"),
+        ("json", {"diffraction": PHASE}, "which a file for ISET cannot express; save as TOML"),
     ],
 )
 def test_what_a_format_cannot_say_is_refused_and_not_left_out(tmp_path, ending, change, words):
@@ -197,7 +197,7 @@ def test_a_rim_that_is_not_round_and_a_word_nobody_knows_are_told():
 def test_an_archive_without_a_lens_and_a_folder_are_refused(tmp_path):
     with zipfile.ZipFile(tmp_path / "none.zip", "w") as archive:
         archive.writestr("readme.md", "nothing")
-    with pytest.raises(LensFileError, match=r"the archive holds no \.zmx or \.seq file"):
+    with pytest.raises(LensFileError, match=r"the archive contains no \.zmx or \.seq file"):
         load_lens(tmp_path / "none.zip")
     (tmp_path / "lens.zmx").mkdir()
     with pytest.raises(LensFileError, match="this is a folder"):

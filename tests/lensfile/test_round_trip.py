@@ -138,7 +138,7 @@ def test_own_glasses_travel_in_a_catalogue_beside_the_lens(tmp_path):
 
 
 def made_of(number, bare: bool) -> Lens:
-    """Return a lens all of whose numbers were made by ``number``; ``bare`` leaves out what ISET cannot say."""
+    """Return a lens all of whose numbers were made by ``number``; ``bare`` leaves out what ISET cannot express."""
     x = [number(value) for value in (20.0, 3.5, 0.2, -0.5, 1e-6, 45.0, 1.5, 64.0)]
     radius, gap, small, conic, term, back, index, abbe = x
     before = () if bare else (Placement(small, conic, term, small, conic, gap),)

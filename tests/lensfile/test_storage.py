@@ -19,7 +19,7 @@ GOOD = "[aperture]\nf_number = 8\n\n[[surface]]\nradius = 50.0\nthickness = 90.0
         (b"", "the file is empty; write a lens into it"),
         (b" \n\t\n", "the file is empty"),
         (b'title = "a"\nsource = "\xff\xfe"\n', "line 2: the file is not UTF-8 text; save it as UTF-8"),
-        (b"#" * (LARGEST_FILE + 1), f"larger than {LARGEST_FILE} bytes; this is no lens file"),
+        (b"#" * (LARGEST_FILE + 1), f"larger than {LARGEST_FILE} bytes; this is not a lens file"),
         (bytes(range(256)), "not UTF-8"),
     ],
 )

@@ -198,7 +198,7 @@ def test_a_sharp_point_in_the_middle_of_a_pixel_is_no_hot_pixel():
 def test_what_cannot_be_fitted_is_refused():
     rng = np.random.default_rng(0)
     empty = PointPicture(100 + rng.normal(0, 10, (24, 24)), 100.0)
-    with pytest.raises(RequestError, match="no point stands out"):
+    with pytest.raises(RequestError, match="no point rises above"):
         fit_point([empty], OPTICS)
     with pytest.raises(RequestError, match="there is no picture"):
         fit_point([], OPTICS)

@@ -83,11 +83,11 @@ def test_a_target_is_read_and_what_is_wrong_is_said(tmp_path):
     assert target.places.tolist() == [[-1.5, 2.0], [0.0, 0.0], [1.5, -2.0]]
     for text, words in (
         ("1, 2, 3\n", "line 1: name the columns"),
-        (HEAD + "1, 2\n", '2: "1 2" is no point'),
-        (HEAD + "1, 2, x\n", "is no point"),
-        (HEAD + "1, 2, nan\n", "is no point"),
-        (HEAD + "1.5, 2, 3\n", "is no point"),
-        (HEAD.replace("mm", "deg") + "1, 2, 95\n", "is no point"),
+        (HEAD + "1, 2\n", '2: "1 2" is not a point'),
+        (HEAD + "1, 2, x\n", "is not a point"),
+        (HEAD + "1, 2, nan\n", "is not a point"),
+        (HEAD + "1.5, 2, 3\n", "is not a point"),
+        (HEAD.replace("mm", "deg") + "1, 2, 95\n", "is not a point"),
         (HEAD + "1, 2, 3\n1, 4, 5\n", "line 3: 1 4 5 is number 1 once more"),
         (HEAD + "1, 2, 3\n2, 2, 3\n", "line 3: 2 2 3 is number 1 once more"),
         (HEAD + "1, 2, 3\n", "holds 1 points"),

@@ -108,5 +108,7 @@ def test_a_lens_file_keeps_an_irregular_surface_and_other_formats_refuse_it(tmp_
 def test_what_cannot_be_is_refused():
     with pytest.raises(GeometryError, match="surface 1: irregularity of inf and 0 fringes over a radius of 5 mm"):
         in_the_stop(ConstantIndex(1.5), Irregularity(inf, 0.0, 5.0))
-    with pytest.raises(GeometryError, match="surface 1 is tilted, decentred or irregular, and this knows rotational"):
+    with pytest.raises(
+        GeometryError, match="surface 1 is tilted, decentred or irregular, and this supports only rotational"
+    ):
         check_aligned(in_the_stop(ConstantIndex(1.5), Irregularity(1.0, 0.0, 5.0)), Message("this"))

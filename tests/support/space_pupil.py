@@ -27,7 +27,7 @@ class SpacePupil:
     """Values at rays, and ``stop`` (2, ray): where in the stop these were, 1 at its rim.
 
     ``waves``: the path on the sphere about the chief ray's point on the sensor, through its point in the exit pupil of
-    the lens set straight. ``place_um``: (2, ray) on the sensor from there, along its axes. ``slope``: (2, ray) its
+    the aligned lens. ``place_um``: (2, ray) on the sensor from there, along its axes. ``slope``: (2, ray) its
     cosines along them. ``entered``: (2, ray) mm.
     """
 

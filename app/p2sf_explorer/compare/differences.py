@@ -21,24 +21,22 @@ from p2sf_explorer.state.scales import signed
 
 FROM_ANSWERS = ("psf", "pupil", "coefficients")  # what `p2sf_explorer.compare.comparison.difference` holds
 WHY = {
-    "layout": Message("This is A: two lenses drawn to scale have no difference that could be drawn."),
-    "field_map": Message(
-        "This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B."
-    ),
+    "layout": Message("This is A: two drawings of lenses have no difference to draw."),
+    "field_map": Message("This is A: the pictures of A and of B have different windows; PSF shows A − B."),
     "matrix": Message("This is A: fields × A | B shows the pictures of both side by side."),
-    "curves": Message("This is A: curves of several fields or colours are many already; MTF and Field show A − B."),
+    "curves": Message("This is A: there are many curves already; MTF and Field show A − B."),
     "beside": Message("This is A: here it is compared with a perfect lens."),
-    "colour": Message("This is A: one colour less another is no colour."),
-    "spot": Message("This is A: a spot is places of rays, not amounts; the fans show A − B."),
+    "colour": Message("This is A: one colour minus another is not a colour."),
+    "spot": Message("This is A: a spot diagram has positions, not amounts, to subtract; the fans show A − B."),
     "lens": Message("This is A: it is the lens that is edited here; the strip above names what differs."),
     "misalign": Message("This is A: it is the lens whose build is set here; the strip above names what differs."),
-    "ybar": Message("This is A: the diagram's points are surfaces, and those of B are others."),
-    "depth_of_field": Message("This is A: how far it is sharp is where it begins and ends, which B does not move."),
-    "solid": Message("This is A: bodies in space have no difference that could be shown."),
+    "ybar": Message("This is A: the points of the diagram are surfaces, and B has different ones."),
+    "depth_of_field": Message("This is A: the limits of sharpness are positions, not amounts, to subtract."),
+    "solid": Message("This is A: solid bodies have no difference to show."),
     "import": Message("This is A: it is what was read from its file."),
-    "image": Message("This is A: light that A has less of than B cannot be shown as a photograph."),
+    "image": Message("This is A: a photograph cannot show negative light."),
     "measured": Message("This is A: a picture is measured beside one lens."),
-    "tolerances": Message("This is A: a build is opened as A beside the lens as designed, and both have one yield."),
+    "tolerances": Message("This is A: a build is shown as A and the designed lens as B, and both have the same yield."),
     "database": Message("This is A: a database belongs to one lens."),
     "accuracy": Message("This is A: each lens is measured against its own rays."),
 }
@@ -61,7 +59,7 @@ def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | Message:
     """Return what A's surfaces add to each coefficient more than B's, waves; a message if their numbers differ."""
     counts = {name: len(view.waves["w40"]) for name, view in (("a", a), ("b", b))}
     if counts["a"] != counts["b"]:
-        return Message("This is A: it has {a} surfaces and B has {b}, so that none stands for another.", **counts)
+        return Message("This is A: it has {a} surfaces and B has {b}, so they do not correspond.", **counts)
     return PerSurface({name: waves - b.waves[name] for name, waves in a.waves.items()}, a.stop_surface, a.colours_nm)
 
 

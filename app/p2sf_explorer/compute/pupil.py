@@ -461,4 +461,4 @@ def dominant(pupil: PupilMap) -> Message:
     percent, term = 100 * pupil.parts[name] / total, Message(name)
     if percent > 50:
         return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
-    return Message("Most of all {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
+    return Message("Mainly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)

@@ -112,8 +112,10 @@ F_STOPS = tuple((stop, f"{stop:g}") for stop in (2.0, 4.0, 8.0, 16.0, 32.0, 1.4,
 DEPTH = Quantity(
     key="depth_mm",
     title="Depth",
-    tip="Depth: distance from the source to the first vertex. Half of the slider is from ten focal lengths to ∞; far "
-    "away it is even in dioptres, 1/depth. ▾ is where the lens is focused.",
+    tip=(
+        "Depth: distance from the source to the first vertex. Half of the slider goes from ten focal lengths to ∞; "
+        "far away its steps are equal in dioptres, 1/depth. ▾ marks where the lens is focused."
+    ),
     scale=_distances,
     write=written_distance,
     read=read_distance,
@@ -126,8 +128,10 @@ FINE_DEG = 0.1  # below it a field, such as a telescope's, is written to 1e-4°
 FIELD = Quantity(
     key="field_deg",
     title="Field",
-    tip="Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields "
-    "that the lens file states.",
+    tip=(
+        "Field: angle of the chief ray at the entrance pupil; the image height is about f′·tan(field). ▾ marks the "
+        "fields of the lens file."
+    ),
     scale=lambda ranges: Linear(-ranges.field_deg if ranges.both_sides else 0.0, ranges.field_deg),
     write=lambda value: f"{signed(value, 2 if not value or abs(value) >= FINE_DEG else 4)}°",
     read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
@@ -138,8 +142,10 @@ FIELD = Quantity(
 FIELD_X = Quantity(
     key="field_x_deg",
     title="Field in x",
-    tip="Field in x: the field's angle along x, where the lens is not symmetric. The PSF is then drawn with +y away "
-    "from the axis: turned as its field is.",
+    tip=(
+        "Field in x: the field angle along x, for a lens that is not symmetric. The PSF is then drawn with +y "
+        "pointing away from the axis, turned with its field."
+    ),
     scale=lambda ranges: Linear(-ranges.field_deg, ranges.field_deg),
     write=FIELD.write,
     read=_reader("field angle along x", **{"°": 1.0, "deg": 1.0}),
@@ -159,20 +165,22 @@ WAVELENGTH = Quantity(
 FOCUS = Quantity(
     key="focus_mm",
     title="Focus distance",
-    tip="Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. "
-    "beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.",
+    tip=(
+        "Focus distance: the sensor is at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. Beyond ∞ it is "
+        "nearer to the lens than the image of infinity. ▾ marks where the source is."
+    ),
     scale=_distances,
     write=lambda value: BEYOND if value < 0 else written_distance(value),
     read=read_distance,
     shown=_focused,
-    buttons=(("∞", inf, "Focus at infinity"), ("file", None, "Put the sensor where the lens file has it")),
+    buttons=(("∞", inf, "Focus at infinity"), ("file", None, "Return the sensor to where the lens file has it")),
     ticks=lambda ranges: distance_ticks(ranges.closest_mm),
     marks=lambda state, ranges: (state.optics.depth_mm,),
 )
 SHIFT = Quantity(
     key="sensor_shift_um",
     title="Sensor shift",
-    tip="Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).",
+    tip="Sensor shift Δz away from the lens, in addition to focus; it adds the defocus Wd = NA²Δz/(2n′λ).",
     scale=lambda ranges: Linear(-ranges.shift_um, ranges.shift_um),
     write=lambda value: f"{signed(value, 1)} µm",
     read=_reader("sensor shift", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
@@ -246,8 +254,8 @@ COMMON_BLADES, WIDE_VANE, NARROW_APODISATION, LARGE_CUBIC_UM = 16, 0.2, 0.3, 10.
 OBSCURATION = _in_the_stop(
     "obscuration",
     "Obscuration",
-    "Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, "
-    "narrows the core and feeds the rings.",
+    "Obscuration ε: radius of the dark disc in the middle of the stop, as a share of the rim's. It blocks ε² of the "
+    "light, narrows the core and brightens the rings.",
     Linear(0.0, LARGEST_OBSCURATION),
     lambda value: f"{value:.2f}",
     _ratio("obscuration"),
@@ -256,8 +264,8 @@ OBSCURATION = _in_the_stop(
 BLADES = _in_the_stop(
     "blades",
     "Blades",
-    "Blades of the iris, their corners on the rim's circle; 0: round. The PSF has as many spikes where their number "
-    "is even, twice as many where it is odd.",
+    "Blades of the iris, their corners on the rim's circle; 0: round. An even number of blades gives as many spikes "
+    "in the PSF, an odd number twice as many.",
     Stepped((0, *range(FEWEST_BLADES, COMMON_BLADES + 1))),
     lambda value: f"{value:.0f}",
     _whole("number of blades"),
@@ -284,8 +292,8 @@ BLADE_ANGLE = _in_the_stop(
 VANES = _in_the_stop(
     "vanes",
     "Vanes",
-    "Vanes of the spider that holds what obscures, from the middle to the rim and evenly around; 0: none. Each throws "
-    "a spike across itself.",
+    "Vanes of the spider that holds the obscuration, from the middle to the rim, evenly spaced; 0: none. Each makes "
+    "a spike at right angles to itself.",
     Stepped(tuple(range(MOST_VANES + 1))),
     lambda value: f"{value:.0f}",
     _whole("number of vanes"),
@@ -294,7 +302,7 @@ VANES = _in_the_stop(
 VANE_WIDTH = _in_the_stop(
     "vane_width",
     "Vane width",
-    "Vane width over the rim's diameter.",
+    "Vane width, as a share of the rim's diameter.",
     Linear(0.0, WIDE_VANE),
     lambda value: f"{value:.3f}",
     _ratio("vane width"),
@@ -312,8 +320,8 @@ VANE_ANGLE = _in_the_stop(
 APODISATION = _in_the_stop(
     "apodisation",
     "Apodisation",
-    "Apodisation: where the amplitude has fallen to 1/e and the intensity to 1/e², over the rim's radius; "
-    "∞: even light. It dims the rings and widens the core.",
+    "Apodisation: the radius, as a share of the rim's, where the amplitude has fallen to 1/e and the intensity to "
+    "1/e²; ∞: uniform light. It dims the rings and widens the core.",
     Vergence(NARROW_APODISATION, 1.0),
     lambda value: "∞" if value == inf else significant(value, 3),
     _width,
@@ -323,7 +331,7 @@ APODISATION = _in_the_stop(
 APODISATION_POWER = _in_the_stop(
     "apodisation_power",
     "Apodisation power",
-    "Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 a Gaussian, larger even numbers a super-Gaussian.",
+    "Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 is a Gaussian, a larger even number a super-Gaussian.",
     Stepped(tuple(range(2, MOST_POWER + 1, 2))),
     lambda value: f"{value:.0f}",
     _whole("apodisation power"),
@@ -332,8 +340,8 @@ APODISATION_POWER = _in_the_stop(
 CUBIC = _in_the_stop(
     "cubic_um",
     "Cubic phase",
-    "Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, which one "
-    "deconvolution takes away.",
+    "Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, so one "
+    "deconvolution can remove the blur.",
     Linear(-LARGE_CUBIC_UM, LARGE_CUBIC_UM),
     lambda value: f"{signed(value, 2)} µm",
     _reader("cubic phase", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
@@ -371,7 +379,7 @@ ZOOM = _ring(
     "zoom",
     "zoom",
     "Zoom",
-    "Zoom: where the ring of the lens stands, on its own scale. ▾ are the columns of the lens file, between which the "
+    "Zoom: position of the ring, on the lens's own scale. ▾ marks the columns of the lens file, between which the "
     "lens is interpolated.",
     zoom_place,
 )
@@ -379,8 +387,8 @@ FOCUS_RING = _ring(
     "focus",
     "focus_position",
     "Focus",
-    "Focus: where the ring stands that moves groups inside the lens; a focus distance turns it, too. ▾ are the columns "
-    "of the lens file.",
+    "Focus: position of the ring that moves groups inside the lens; a focus distance turns it too. ▾ marks the "
+    "columns of the lens file.",
     focus_place,
 )
 OF_THE_LENS = (ZOOM, FOCUS_RING)

@@ -17,20 +17,18 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 
 SET_STRAIGHT: dict[str, Message] = {
-    "seidel": Message("Of the lens set straight: its tilts, decentres and irregularities have no part in these sums."),
-    "coefficients": Message("Of the lens set straight: six coefficients know no tilts, decentres and irregularities."),
-    "first_order": Message("Of the lens set straight: paraxial rays know no tilts, decentres and irregularities."),
-    "ybar": Message("Of the lens set straight: paraxial rays know no tilts, decentres and irregularities."),
-    "depth_of_field": Message(
-        "The paraxial curve and its limits are of the lens set straight; the exact rays are not."
-    ),
+    "seidel": Message("Of the aligned lens: its tilts, decentres and irregularities have no part in these sums."),
+    "coefficients": Message("Of the aligned lens: six coefficients know no tilts, decentres and irregularities."),
+    "first_order": Message("Of the aligned lens: paraxial rays know no tilts, decentres and irregularities."),
+    "ybar": Message("Of the aligned lens: paraxial rays know no tilts, decentres and irregularities."),
+    "depth_of_field": Message("The paraxial curve and its limits are of the aligned lens; the exact rays are not."),
     "accuracy": Message(
-        "Seidel is of the lens set straight; the other methods know its tilts, decentres and irregularities."
+        "Seidel is of the aligned lens; the other methods know its tilts, decentres and irregularities."
     ),
 }
 """What panels leave out of a misaligned lens."""
 CLEAR_STOP: dict[str, Message] = {
-    "tolerances": Message("Of the clear stop: builds have no part of the mask in it."),
+    "tolerances": Message("For the clear stop: builds leave out the mask in it."),
 }
 """What panels leave out of a lens with a mask in its stop."""
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
@@ -87,8 +85,8 @@ def _by_hand(setup: ParaxialSetup) -> Message | None:
     if not setup.altered:
         return None
     return Message(
-        "What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, "
-        "rays, spots, fans and sums per surface stay the lens's own."
+        "What-if: coefficients altered by hand. Image, database, field curves, chromatic shift, depth of field, "
+        "rays, spots, fans and sums per surface remain those of the lens."
     )
 
 
@@ -96,7 +94,7 @@ def _set_straight(setup: ParaxialSetup) -> Message | None:
     if not setup.lens.misaligned or setup.altered:
         return None
     return Message(
-        "Six coefficients are those of the lens set straight, without its tilts, decentres and irregularities; choose "
+        "Six coefficients are those of the aligned lens, without its tilts, decentres and irregularities; choose "
         "auto, fitted or traced to see what these do."
     )
 
@@ -131,12 +129,12 @@ def _lost(count: int) -> Message | None:
         return None
     if count == 1:
         return Message(
-            "One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the "
-            "picture assumes."
+            "One of the drawn rays does not pass (it misses a surface, or is totally reflected); less light arrives "
+            "than the picture assumes."
         )
     return Message(
-        "{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the "
-        "picture assumes.",
+        "{count} of the drawn rays do not pass (they miss a surface, or are totally reflected); less light arrives "
+        "than the picture assumes.",
         count=count,
     )
 

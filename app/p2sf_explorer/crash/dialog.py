@@ -16,13 +16,13 @@ from p2sf_explorer.state.state import State
 
 WHAT = "The explorer has made a mistake."
 KEPT = "Nothing is lost: the window is saved as it is now, and the next start shows it again."
-NOT_KEPT = "The window could not be saved, since its folder cannot be written; save what you need with Ctrl+E."
+NOT_KEPT = "The window could not be saved because its folder is not writable; save what you need with Ctrl+E."
 WHAT_NOW = (
     "You can go on. If something looks wrong, undo the last step (Ctrl+Z), or close the explorer and start it again."
 )
 HOW_TO_REPORT = (
-    "To report it, copy the text below and send it to the authors: it names versions and places in the program, no "
-    "folder or file of yours."
+    "To report it, copy the text below and send it to the authors. It names versions and places in the program, but "
+    "none of your folders or files."
 )
 COPY, COPIED = "Copy the report", "Copied"
 WIDE, TALL = 640, 460

@@ -9,8 +9,8 @@ from p2sf_explorer.lessons.offer import Offer
 from p2sf_explorer.state.state import State, changed, entry
 from p2sf_explorer.store.store import Store
 
-OFFER = "The explorer did not end as it should. What was on screen has been kept."
-TAKE_UP, TAKE_UP_TIP = "Take it up again", "Show the window as it was; Ctrl+Z comes back to this one"
+OFFER = "The explorer did not close properly. What was on screen has been kept."
+TAKE_UP, TAKE_UP_TIP = "Take it up again", "Show the window as it was; Ctrl+Z returns to this one"
 GIVE_UP, GIVE_UP_TIP = "No, thanks", "Forget what was on screen when the explorer ended"
 
 

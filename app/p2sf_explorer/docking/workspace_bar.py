@@ -21,7 +21,7 @@ TIPS = {
     "inspect": "PSFs over the field on the stage",
     "lens": "The layout on the stage; lens table and PSF below",
     "image": "A photograph through the lens on the stage",
-    TEACH: "A lesson, and what it is about on the stage (F3)",
+    TEACH: "A lesson, with its subject on the stage (F3)",
 }
 TOO_MANY = Message("there are {count} workspaces already; delete one that is no longer needed", count=MOST)
 
@@ -169,7 +169,7 @@ class WorkspaceBar(QWidget):
         button = QPushButton(words(name), self)
         button.setObjectName("segment")
         button.setCheckable(True)
-        button.setToolTip(tr(TIPS.get(name, "A workspace of your own; it is kept as you leave it")))
+        button.setToolTip(tr(TIPS.get(name, "A workspace of your own; it stays as you leave it")))
         self._group.addButton(button)
         return button
 

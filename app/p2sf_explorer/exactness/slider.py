@@ -27,7 +27,7 @@ from p2sf_explorer.widgets.card import chooser, paint_chevron
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.workers.worker import LatestWins
 
-TIP = "From fast to exact: which error auto may make, or how long a picture may take. Now: {asked}"
+TIP = "From fast to exact: how large an error auto may make, or how long a picture may take. Now: {asked}"
 MEASURES = {"r2": "by R²", "mtf": "by the MTF", "r80": "by the radius R80", "time": "by time"}
 QUICKEST_MS, SLOWEST_MS = 1.0, 1000.0
 SERIES = (1.0, 2.0, 5.0)
@@ -89,7 +89,7 @@ class ExactnessPanel(QFrame):
         self._costs: tuple[Cost, ...] = ()
         self._curves: tuple[Curve, ...] = ()  # of the complete trade, none of a lens that it does not have
         self.chart = TradeChart("time of one PSF, ms", "error")
-        self.measure = chooser(tuple(MEASURES.items()), "What the slider is about: an error, or the time of a picture")
+        self.measure = chooser(tuple(MEASURES.items()), "What the slider sets: an error, or the time of a picture")
         self.slider = Slider(self)
         self.slider.setAccessibleName(tr("From fast to exact"))
         self.asked, self.costing, self.given, self.typical = (QLabel(self) for _ in range(4))
@@ -208,7 +208,7 @@ class ExactnessPanel(QFrame):
         if same:
             errors = same[0].errors(measure)
             known = {"half": f"{errors.median:.1g}", "most": f"{errors.most:.1g}", "what": tr(TRADED[measure])}
-            words = "{method} over this whole lens, measured: {what} {half} at half of all points, {most} at 95 %"
+            words = "{method} over this whole lens, measured: {what} {half} at 50 % of all points, {most} at 95 %"
             self.typical.setText(tr(words, method=same[0].family, **known))
 
     def _values(self) -> dict[str, str]:

@@ -31,17 +31,17 @@ FILES = (
     "NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)"
 )
 ABOUT = (
-    "Each PSF is what the pixels of a sensor receive of one point's light, the chief ray on the middle pixel. With "
-    "each go the place of its chief ray on the sensor and the light that is captured. Coefficients altered by hand "
-    "are left out."
+    "Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file "
+    "also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by "
+    "hand are ignored."
 )
 LABELS = {  # of the fields, in their order, and their tips
-    "depths": ("Depths", "Distances with their units, ∞ among them, with semicolons between: 2 m; 500 mm; ∞"),
-    "fields": ("Fields", "Field angles in degrees, with semicolons between: 0; 7; 14"),
-    "wavelengths": ("Wavelengths", "Wavelengths in nm, with semicolons between: 486.1; 587.6; 656.3"),
+    "depths": ("Depths", "Distances with units, ∞ included, separated by semicolons: 2 m; 500 mm; ∞"),
+    "fields": ("Fields", "Field angles in degrees, separated by semicolons: 0; 7; 14"),
+    "wavelengths": ("Wavelengths", "Wavelengths in nm, separated by semicolons: 486.1; 587.6; 656.3"),
     "pixel": ("Pixel pitch", "The distance between pixels, µm"),
-    "fill": ("Fill factor", "How much of a pixel's area is sensitive: a square in its middle"),
-    "pixels": ("Pixels a side", "Pixels along each side of every PSF; auto holds the widest one"),
+    "fill": ("Fill factor", "Share of a pixel's area that is sensitive: a square in its middle"),
+    "pixels": ("Pixels a side", "Pixels along each side of every PSF; auto fits the widest one"),
 }
 
 

@@ -42,7 +42,7 @@ def parse_claim(text: str, changes: Callable[[str], Changes]) -> Claim:
 
     found = FORM.fullmatch(text.strip())
     if not found:
-        raise P2SFError('"{text}" is no claim; write one such as {example}', text=text, example=EXAMPLE)
+        raise P2SFError('"{text}" is not a claim; write one such as {example}', text=text, example=EXAMPLE)
     if found["measure"] not in MEASURES:
         raise P2SFError(
             'measure "{measure}" is unknown; choose one of {choices}', measure=found["measure"], choices=tuple(MEASURES)
@@ -59,7 +59,7 @@ def _number(text: str) -> float:
     try:
         return float(text.replace("−", "-"))
     except ValueError:
-        raise P2SFError('"{text}" in a claim is no number; write one such as 0.25 or 1e-3', text=text) from None
+        raise P2SFError('"{text}" in a claim is not a number; write one such as 0.25 or 1e-3', text=text) from None
 
 
 def measured(claim: Claim, state: State) -> float:

@@ -23,11 +23,11 @@ from p2sf_explorer.widgets.command import Command
 
 SLIDER_SHARE = 0.38  # of the column's height for the sliders below the page of a lesson, at least
 PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to all that they need
-OFFER = "New here? The first lesson takes three minutes and shows what the window is for."
+OFFER = "New here? The first lesson takes three minutes and shows what this window does."
 
 
-NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to put back: its lens stays")
-UNTRANSLATED = Message("This lesson has not been translated and stands here as it was written")
+NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
+UNTRANSLATED = Message("This lesson has not been translated; here is the original")
 
 
 class SliderColumn(Protocol):

@@ -183,7 +183,7 @@ def _entries(lines: Lines, where: str, allowed: tuple[str, ...]) -> dict[str, tu
         entry = ENTRY.fullmatch(line.strip())
         if line.strip() and (not entry or entry[1] not in allowed):
             raise fault(
-                where, number, '"{line}" is no entry of the header; give {names}', line=line.strip(), names=allowed
+                where, number, '"{line}" is not an entry of the header; give {names}', line=line.strip(), names=allowed
             )
         if entry:
             found[entry[1]] = number, entry[2]
@@ -223,7 +223,7 @@ def _step(lines: Lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
         entry = ENTRY.fullmatch(line)
         if entry and entry[1] not in allowed:
             raise fault(
-                where, number, '"{name}:" is no entry of a step here; give {names}', name=entry[1], names=allowed
+                where, number, '"{name}:" is not an entry of a step here; give {names}', name=entry[1], names=allowed
             )
         if entry:
             last = found[entry[1]]
@@ -254,7 +254,7 @@ def _step(lines: Lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
 def _move(found: Sequence[tuple[int, str]], where: str) -> str:
     for number, value in found:
         if value not in SLIDERS:
-            raise fault(where, number, '"{name}" is no slider; move one of {names}', name=value, names=SLIDERS)
+            raise fault(where, number, '"{name}" is not a slider; move one of {names}', name=value, names=SLIDERS)
     return found[-1][1] if found else ""
 
 

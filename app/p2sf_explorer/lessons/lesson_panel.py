@@ -29,7 +29,7 @@ class LessonPanel(QFrame):
         numbered = tuple((lesson.name, f"{k}  {lesson.title}") for k, lesson in enumerate(lessons, 1))
         self.choice = chooser(numbered, "Choose a lesson", self)
         self.choice.setSizeAdjustPolicy(self.choice.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.exit = tool("Exit", "End the lesson and put everything back as it was before (F3)")
+        self.exit = tool("Exit", "End the lesson and restore everything as it was before (F3)")
         self.title, self.count = wrapped("title"), wrapped("muted")
         self.about, self.text, self.attempt = (
             wrapped("muted"),

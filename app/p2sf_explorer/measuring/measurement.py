@@ -43,9 +43,9 @@ NAMES = {
     "w20": "W20 of the frame",
 }
 DEFINITIONS = {
-    "sensor_shift_um": "How much farther from the lens the sensor stood than in the window.",
-    "tilt_x_deg": "By which the sensor recedes from the lens towards +x.",
-    "tilt_y_deg": "By which the sensor recedes from the lens towards +y.",
+    "sensor_shift_um": "How much farther from the lens the sensor was than in the window.",
+    "tilt_x_deg": "Tilt by which the sensor recedes from the lens towards +x.",
+    "tilt_y_deg": "Tilt by which the sensor recedes from the lens towards +y.",
     "w40": "Of the whole field, the same at every point.",
     "w31": "Of the whole field: at the farthest point, growing with the distance from the axis.",
     "w22": "Of the whole field: at the farthest point, growing with the square of the distance from the axis.",
@@ -167,7 +167,7 @@ def point_rows(found: Measurement, number: int, own: tuple[float, ...] | None) -
     beside = own if own is not None else (None,) * len(fit.numbers)
     columns = zip(fit.names, fit.numbers.tolist(), fit.errors.tolist(), beside, strict=False)
     return tuple(
-        (name, _value(value, error, lens), "Peak waves ± one standard deviation; in brackets the lens's own.")
+        (name, _value(value, error, lens), "Peak waves ± one standard deviation; in brackets the values of the lens.")
         for name, value, error, lens in columns
     )
 

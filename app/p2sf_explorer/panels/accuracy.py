@@ -39,7 +39,7 @@ EMPTY = (
 SMALLEST_ERROR = 1e-9
 SHOWN = {"here": "methods here", "bytes": "all PSFs, by bytes", "time": "all PSFs, by time"}
 SHOWN_TIP = (
-    "What the plot at the right shows: every method at this point, or every representation of all the lens's PSFs"
+    "Whether the plot at the right shows every method at this point, or every representation of all PSFs of the lens"
 )
 COSTS = {"bytes": ("bytes of all PSFs of the lens", nbytes), "time": ("time of a PSF among many, µs", batch_us)}
 GROUP_COLOURS = {
@@ -53,7 +53,7 @@ GROUP_COLOURS = {
     "traced": "text",
     "huygens": "#d64545",
 }
-NOT_TRADED = "The complete trade is measured of shipped lenses; of others by p2sf tradeoff LENS --complete"
+NOT_TRADED = "The complete trade has been measured for shipped lenses; for others, run p2sf tradeoff LENS --complete"
 Anchor = tuple[float, float]
 MARGIN_PX = 14  # between the outer dots and the edge of their plot
 DOT_PX = 4.5  # radius

@@ -13,8 +13,8 @@ from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart, legend, reach
 
 TIP = (
-    "Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and "
-    "exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it."
+    "Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis: paraxial rays, and "
+    "exact rays from 0.7 and from the rim of the pupil. Within the band, ±n′λ/(2NA²), diffraction hides it."
 )
 LOOKS = {"paraxial": "text", "0.7 of the pupil": "marginal", "rim": "chief"}
 LINES = ((F_NM, "F"), (D_NM, "d"), (C_NM, "C"))

@@ -20,7 +20,7 @@ from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.coefficient_mixer import Mixer
 
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
-FREE_TIP = "Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients."
+FREE_TIP = "Free pupil: only the six sliders make the wavefront, without the lens's own coefficients."
 PRESETS_TIP = "Textbook wavefronts, in a free pupil"
 SMALLEST = 250, 186  # pixels: names, numbers and buttons, some forty for the bars, and three buttons below
 NOTE_PX = 12  # size of the card's readout

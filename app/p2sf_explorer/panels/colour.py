@@ -22,8 +22,8 @@ from p2sf_explorer.widgets.value_edit import ValueEdit
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 "
-    "observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief "
+    "Colour PSF: one PSF for each wavelength, where its own chief ray lands, weighted by the spectrum and the CIE "
+    "1931 observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief "
     "ray lands."
 )
 SPECTRUM_TIP = "The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)"

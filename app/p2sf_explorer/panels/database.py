@@ -22,8 +22,8 @@ from p2sf_explorer.widgets.depth_field_chart import PER_METRE, AtlasView, DepthF
 from p2sf_explorer.workers.worker import LatestWins
 
 TIP = (
-    "Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; "
-    "drag on a map or the atlas, or use the arrow keys and Enter, to set the source."
+    "Database: every coefficient over depth and field at this wavelength, as polynomials that are exact to "
+    "round-off. Drag on a map or the atlas, or use the arrow keys and Enter, to choose the source."
 )
 VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
 RULES = {"table1": "table 1 of the paper", "linear": "linear"}
@@ -39,7 +39,7 @@ class DatabasePanel:
         names = tuple((k, "Wd defocus" if k == "wd" else f"W{k[1:]} {WORDS[k]}") for k in KINDS)
         self.term = chooser(names, "Which coefficient", self.widget)
         self.term.setCurrentIndex(KINDS.index("w22"))
-        self.rule = chooser(tuple((r, RULES[r]) for r in LOSSY), "Which interpolation the error is of", self.widget)
+        self.rule = chooser(tuple((r, RULES[r]) for r in LOSSY), "The interpolation whose error is shown", self.widget)
         self.bars = ColourBar(), ColourBar()
         self.map, self.error, self.atlas = DepthFieldMap(self.bars[0]), DepthFieldMap(self.bars[1]), AtlasView()
         self.note = QLabel()

@@ -16,8 +16,9 @@ from p2sf_explorer.widgets.chart_card import NotedChart, legend
 from p2sf_explorer.widgets.value_edit import MicronEdit
 
 TIP = (
-    "Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's "
-    "cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field."
+    "Depth of field: the depths whose blur is no wider than the tolerated one. Paraxial: diameter of the cone from "
+    "the axial point on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the "
+    "present field."
 )
 BLUR_TIP = "Largest blur diameter on the sensor that is still called sharp."
 LOOKS = {"paraxial, axis": "marginal", "exact rays, this field": "chief"}

@@ -11,7 +11,7 @@ from p2sf_explorer.widgets.curves import CurvesPanel
 LOOKS = {"sagittal, along ξ": ("marginal", 2), "tangential, along η": ("chief", 2)}
 SMALLEST = 1e-3  # µm or waves at the end of the axis
 RAY_TIP = "Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil."
-OPD_TIP = "OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included."
+OPD_TIP = "OPD fan: (optical path of the chief ray − that of the ray)/λ for exact rays, including tilt."
 
 
 class FanPanel(CurvesPanel):

@@ -12,8 +12,8 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import ChartsCard, NotedChart, legend, reach
 
 TIP = (
-    "Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image "
-    "height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11)."
+    "Field curvature: where sagittal (S) and tangential (T) rays focus. Distortion: (real − paraxial image "
+    "height)/paraxial. Thick: exact rays; fine: third order (W22, W20, W11)."
 )
 NAMES = {
     "S": "sagittal S",

@@ -17,9 +17,10 @@ from p2sf_explorer.widgets.tiles import TilesChart, tile
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as "
-    "its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the "
-    "present one. Where the lens is not symmetric every picture has its own field, and the ring can be dragged to any."
+    "Field map: PSFs all over a 3:2 picture whose corner is the edge of the field, each relative to its own peak and "
+    "turned with its field. Click a picture, or choose it with the arrow keys and Enter, to go to its field; a frame "
+    "marks the present one. If the lens is not symmetric, every picture has a field of its own, and you can drag the "
+    "ring to any field."
 )
 RING_PX = 7  # radius of the ring at the present field, at scale 1
 

@@ -10,7 +10,7 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import Columns, FactTable
 
-TIP = "First-order data: everything that follows from paraxial rays alone; hover over a row for its definition."
+TIP = "First-order data: everything that follows from paraxial rays alone. Hover over a row for its definition."
 
 
 class FirstOrderPanel:

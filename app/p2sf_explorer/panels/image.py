@@ -67,7 +67,7 @@ class ImagePanel:
         self.photo = chooser(tuple(CHART_WORDS.items()), "What stands before the lens", self.widget)
         sizes = (*PIXELS.items(), (FULL, "every pixel of the photo"))
         self.pixel = chooser(sizes, "Pixels at the field point, or the field", self.widget)
-        self.look = chooser(tuple(LOOKS.items()), "How the two pictures are put beside each other", self.widget)
+        self.look = chooser(tuple(LOOKS.items()), "How the two pictures are compared", self.widget)
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
         self.open = small_button(
             "Photo…", "Choose a PNG, TIFF, JPEG or HEIF to photograph, up to 12 megapixels", self._ask_photo

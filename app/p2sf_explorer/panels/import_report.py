@@ -15,7 +15,7 @@ from p2sf_explorer.results.import_report import REFUSED, Report, refused
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 
-TIP = "Import report: everything the reader of the lens file took, replaced, passed over or refused, and why."
+TIP = "Import report: what the reader of the lens file took, replaced, ignored or refused, and why."
 
 
 class ImportReportPanel:

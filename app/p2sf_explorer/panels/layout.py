@@ -36,9 +36,9 @@ from p2sf_explorer.widgets.card import Card, chooser, select, select_or_add
 from p2sf_explorer.widgets.thumbnail import glass
 
 TIP = (
-    "The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With "
-    "Clip at rims a ray ends, with a bar, at the rim that stops it. Drag source, sensor or stop; click glass, then "
-    "drag it, its edges or its vertices."
+    "The lens to scale. The stop limits the cone of light; the lens images it into the pupils EnP and ExP. With Clip "
+    "at rims, a ray ends with a bar at the rim that stops it. Drag the source, the sensor or the stop; click glass, "
+    "then drag it, its edges or its vertices."
 )
 WIDTHS = (1, 1.1, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9)  # times 10ᵏ mm
 LEAN_PX = 0.5  # of a bar that is painted upright all the same
@@ -49,13 +49,13 @@ SHORT = {"marginal": "marginal rays", "chief": "chief ray", "rim": "rim rays"}  
 WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": "rim rays of the field point"}
 OTHER_FIELDS = ("marginal", "third", "warning", "muted")  # colours of the fans whose source is not at the ring
 COLOURED = (("kind", "by kind"), ("field", "by field"), ("wavelength", "by wavelength"))
-COLOURED_TIP = "Rays coloured by their kind, or from every field or at every wavelength that the lens states"
+COLOURED_TIP = "Rays coloured by kind, or from every field or at every wavelength of the lens"
 LARGER = (10, 30, 100)
 LARGER_WORDS = {
     False: "tilts and decentres ×{factor}, rays as they are",
     True: "tilts and decentres of Misalign ×{factor}, rays and those of the file as they are",
 }
-LARGER_TIP = "By what tilts and decentres of the Misalign panel are enlarged in the drawing"
+LARGER_TIP = "Factor by which the drawing enlarges the tilts and decentres of the Misalign panel"
 COUNTS = (3, 5, 7, 11, 21)
 COUNT_TIP = "How many rays come from each point"
 TIPS = {
@@ -69,7 +69,7 @@ TIPS = {
     "A click selects its group.",
     "glass": "What is selected: drag it along the axis, or up or down to decentre it. "
     "A click selects no glass any more.",
-    "held": "What is selected. A click selects its group; its sliders stand in the Misalign panel.",
+    "held": "The selected piece. A click selects its group; its sliders are in the Misalign panel.",
     "other": "Click to select this element, then drag it, its edges and its vertices.",
 }
 

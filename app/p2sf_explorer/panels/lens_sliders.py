@@ -19,10 +19,12 @@ from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.value_edit import ValueEdit
 
 BENDING_TIP = (
-    "Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power stays. 0 is "
-    "equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table."
+    "Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power does not change. "
+    "0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table."
 )
-STOP_TIP = "Stop shift: the stop's distance behind the surface before it, within its air gap; the f-number stays."
+STOP_TIP = (
+    "Stop shift: distance of the stop behind the surface before it, within its air gap; the f-number does not change."
+)
 WIDEST = 6.0  # shape factor at the slider's end, unless the element has more
 UNITS = {" mm": {"": 1.0, "mm": 1.0, "µm": 1e-3, "um": 1e-3}, "°": {"": 1.0, "°": 1.0, "deg": 1.0, "'": 1 / 60}}
 PLAIN = {"": 1.0}

@@ -35,22 +35,22 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel, SurfaceView
 
-TIP = "Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back."
+TIP = "Lens: one row per surface, in the order in which light meets them. Type into a cell; Ctrl+Z undoes it."
 FOCUS = (("off", "sensor stays"), ("paraxial", "keep paraxial focus"), ("rms", "keep best focus"))
 FOCUS_TIP = (
-    "Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of "
-    "the present point, so that the aberrations are seen and not the defocus."
+    "Keep in focus: while you edit the lens, the sensor follows its paraxial image, or goes to the smallest RMS of "
+    "the present point, so that you see the aberrations and not the defocus."
 )
 ROW, TYPE = 22, 13  # pixels at scale 1
 WIDTHS = {"radius": 108, "thickness": 108, "medium": 170, "semi_diameter": 140, "conic": 80, "stop": 52}
 TOOLS = (
     (
         "Insert after",
-        "Split what follows this surface by a plane; nothing changes until it is edited (Insert)",
+        "Insert a plane behind this surface; nothing changes until you edit it (Insert)",
         "_insert",
     ),
-    ("Delete", "Take this surface out; the others stay where they are (Delete)", "_delete"),
-    ("Back to file", "Drop every edit and take the lens as its file has it", "_revert"),
+    ("Delete", "Remove this surface; the others stay where they are (Delete)", "_delete"),
+    ("Back to file", "Discard all edits and return to the lens in the file", "_revert"),
     ("Save lens as…", "Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)", "_save"),
 )
 

@@ -35,11 +35,12 @@ from p2sf_explorer.widgets.value_edit import ValueList
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or of A and B. "
-    "A click on a picture, or Enter, makes its point the present one, which a frame marks; dashed: the nearest to it."
+    "Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or for A and "
+    "B. Click a picture, or press Enter, to go to its point. A frame marks the present point; a dashed one the "
+    "nearest to it."
 )
-SHARED_TIP = "All pictures have one scale; otherwise each has its own"
-UNITS_TIP = "Brightness: each picture over its own peak, or with One scale all over the brightest"
+SHARED_TIP = "All pictures share one scale; otherwise each has its own"
+UNITS_TIP = "Brightness: each picture relative to its own peak, or with One scale all relative to the brightest"
 WHATS = (
     ("psf", "PSF"),
     ("spot", "Spot"),

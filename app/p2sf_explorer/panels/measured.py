@@ -54,8 +54,9 @@ from p2sf_explorer.widgets.tiles import TilesChart, tile
 from p2sf_explorer.workers.worker import LatestWins
 
 TIP = (
-    "Measured: the points of a photograph, the wavefront that explains each with its errors, and what all of them tell "
-    "of the lens and of how the sensor stands. Pictures are √ of brightness over the picture's peak, all on one scale."
+    "Measured: the points of a photograph, the wavefront that explains each of them, with errors, and what all "
+    "together say about the lens and the position of its sensor. Pictures show the root of brightness relative to "
+    "the picture's peak, all on one scale."
 )
 PICTURES = "Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)"
 BUILT = "P2SF lens (*.toml);;PSF database (*.npz)"
@@ -77,11 +78,11 @@ class MeasuredPanel:
         self.save = small_button("Save…", "Save the numbers and their errors as .npz", self._ask_save)
         self.take = small_button(
             "To pupil",
-            "Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back",
+            "Show the fitted pupil of this point in the window, as a free pupil; undo returns to the lens",
         )
         self.built = small_button(
             "As built…",
-            "Save this lens with the sensor where the picture tells it is, or its PSF database",
+            "Save this lens with the sensor where the picture shows it to be, or its PSF database",
             self._ask_built,
         )
         self.sharpen = small_button(
@@ -110,9 +111,9 @@ class MeasuredPanel:
         self.pixel.setDecimals(3)
         self.pixel.setSuffix(" µm")
         self.pixel.setKeyboardTracking(False)
-        self.pixel.setToolTip(tr("Pixel pitch of the picture; listings and this program's PSFs state their own"))
+        self.pixel.setToolTip(tr("Pixel pitch of the picture; listings and PSFs of this program state theirs"))
         self.pixel.setAccessibleName(tr("Pixel pitch"))
-        self.beside.setToolTip(tr("Fit departures from the lens on screen; without it, the lens gives the scale only"))
+        self.beside.setToolTip(tr("Fit departures from the lens on screen; otherwise the lens only sets the scale"))
         self.body = MeasuredBody(self.chart, self.list, self.table)
         whole = QWidget()
         column = QVBoxLayout(whole)

@@ -20,13 +20,13 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, Chooser
 
 TIP = (
-    "Misalign: what may be off in a built lens, on top of what its file has; the sensor stays where it is. Choose a "
-    "piece here, or click it in the layout or the lens table. Decentres are mm, tilts degrees about the piece's first "
-    "vertex, right-handed. A double click sets one back."
+    "Misalign: what may be wrong with a built lens, in addition to what its file has. The sensor stays where it is. "
+    "Choose a piece here, or click it in the layout or the lens table. Decentres are in mm; tilts in degrees, about "
+    "the piece's first vertex, right-handed. A double-click resets a value."
 )
 PIECE_TIP = "The piece that the sliders move: an element, a group, the whole lens or the sensor"
-FIELD_X_TIP = "A slider for the field along x also where the lens is symmetric"
-RESET_TIP = "Set this number right again"
+FIELD_X_TIP = "Show a slider for the field along x even if the lens is symmetric"
+RESET_TIP = "Reset this error"
 WORDS: dict[Kind, str] = {
     "decentre_x": "Decentre x",
     "decentre_y": "Decentre y",
@@ -141,8 +141,8 @@ class MisalignPanel:
         self.piece.setToolTip(tr(PIECE_TIP))
         self.piece.setAccessibleName(tr(PIECE_TIP))
         self.piece.activated.connect(lambda: store.select(self.piece.currentData()))
-        self.reset_piece = self._button("Reset piece", "Set every number of this piece right again", self._reset_piece)
-        self.reset_all = self._button("Reset all", "Set every number of the lens right again", self._reset_all)
+        self.reset_piece = self._button("Reset piece", "Reset all errors of this piece", self._reset_piece)
+        self.reset_all = self._button("Reset all", "Reset all errors of the lens", self._reset_all)
         self.field_x = QCheckBox(tr("Field along x"), self.widget)
         self.field_x.setToolTip(tr(FIELD_X_TIP))
         self.field_x.clicked.connect(lambda on: store.update(show_field_x=bool(on)))

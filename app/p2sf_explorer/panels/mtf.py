@@ -18,8 +18,9 @@ from p2sf_explorer.widgets.value_edit import MicronEdit
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same "
-    "pupil without aberration; thin beside it, where something stands in the stop: the clear pupil without aberration."
+    "MTF: the contrast that remains of a sine pattern, computed by autocorrelation of the pupil, from all light. "
+    "Grey: the same pupil without aberration. Thin, if something stands in the stop: the clear pupil without "
+    "aberration."
 )
 PIXEL_TIP = "Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch)."
 LOOKS = {

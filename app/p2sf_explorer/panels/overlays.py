@@ -22,8 +22,8 @@ from p2sf_explorer.widgets.value_edit import ValueList
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal "
-    "(fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place."
+    "Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and "
+    "sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present point."
 )
 OF = (
     ("fields", "MTF of all fields"),

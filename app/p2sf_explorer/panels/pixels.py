@@ -14,8 +14,8 @@ from p2sf_explorer.widgets.chart_card import ChartsCard
 from p2sf_explorer.widgets.value_edit import MicronEdit
 
 TIP = (
-    "The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated "
-    "over square pixels, the middle one centred on the chief ray."
+    "The PSF, the Airy pattern of a perfect lens of this aperture (each relative to its own peak), and the PSF "
+    "integrated over square pixels, the middle one centred on the chief ray."
 )
 NAMES = ("this lens, µm", "perfect lens, µm", "on the pixels, µm")
 MEANINGS = (("PSF, peak = 1", "peak"), ("PSF, peak = 1", "peak"), ("share of the light in a pixel", "of light"))

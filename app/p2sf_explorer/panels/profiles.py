@@ -16,10 +16,10 @@ from p2sf_explorer.widgets.differences import signed_range
 from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
-    "Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or "
-    "below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens, where "
-    "something stands in the stop of the same pupil, and thin of the clear one. The RMS radius is that of the rays: "
-    "the light behind a hard edge has none."
+    "Sections of the PSF through the chief ray, relative to its peak; grey: the Airy pattern (2J₁(v)/v)². Beside or "
+    "below: encircled energy, the share of all light within a radius of the centroid; grey: a perfect lens. If "
+    "something stands in the stop, the perfect lens has the same pupil, and a thin curve is for the clear one. The "
+    "RMS radius is that of the rays, since that of diffracted light is infinite."
 )
 LOOKS = {"Airy": ("muted", 1), "along x": ("marginal", 2), "along y": ("chief", 2)}
 

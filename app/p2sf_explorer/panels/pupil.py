@@ -28,8 +28,8 @@ AXES = {
     "stop": ("ξ, stop radii", "η, stop radii (towards the field)"),
 }
 TIP = (
-    "Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's. What stands "
-    "in the stop is left out, and a filter's shade lies over the picture."
+    "Wavefront W over the pupil: by how many waves the optical path of a ray is shorter than that of the chief ray. "
+    "What the stop hides is left out, and a filter shades the picture."
 )
 
 

@@ -17,10 +17,9 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 
 TIP = (
-    "Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign "
-    "cancel. "
-    "C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. "
-    "Point at a bar: its surface is lit in the layout, and the other way round."
+    "Seidel and chromatic sums: what each surface adds, in waves at the rim of the pupil; large ones of opposite "
+    "sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength minus those of its longest. Point "
+    "at a bar to highlight its surface in the layout, or at a surface to highlight its bar."
 )
 TERMS = ("w40", "w31", "w22", "petzval", "w11", "c1", "c2")  # side by side
 NAMES = {

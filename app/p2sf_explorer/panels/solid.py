@@ -22,9 +22,9 @@ from p2sf_explorer.widgets.readout import Readout
 if TYPE_CHECKING:
     from p2sf_explorer.scene3d.renderer import Renderer
 
-TIP = "3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point."
+TIP = "3D: the elements up to their clear rims; the wavefront is drawn W·λ ahead of the sphere about the image point."
 FILES = "Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)"
-PREPARING = "Preparing the 3D view: loading it takes some seconds, once."
+PREPARING = "Preparing the 3D view; this takes some seconds, once."
 FACTORS = "W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm"
 SCALES = {"linear": "brightness", "sqrt": "root of brightness", "log": "logarithm of brightness"}
 

@@ -50,15 +50,17 @@ from p2sf_explorer.workers.worker import LatestWins
 SENSOR_TILTS: tuple[Kind, ...] = ("tilt_x", "tilt_y")
 TIP = (
     "Tolerances: every radius, thickness, glass, tilt, decentre and irregularity is off by what a workshop leaves, "
-    "anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each "
-    "is focused anew."
+    "anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; "
+    "each is focused again."
 )
-GRADE_TIP = "What workshops offer under this name; ± values below are typed over."
-CRITERION_TIP = "What a lens is judged by, in the worst of three fields: axis, seven tenths and edge."
-LIMIT_TIP = "What every field of a good lens keeps; at first, what four lenses of five keep."
+GRADE_TIP = "The tolerances that workshops offer under this name; you can change the ± values below."
+CRITERION_TIP = "How a lens is judged, in the worst of three fields: axis, seven tenths and edge."
+LIMIT_TIP = "The limit that a good lens meets in every field; at first, the one that four lenses of five meet."
 WORDS_SHARE = 0.3  # of a chart's width, that a line's name takes
 FILM_TIP = "Save a film of the first forty of these builds: layout, PSF, and where each stands in the yield"
-COMPENSATOR_TIP = "What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least."
+COMPENSATOR_TIP = (
+    "What is adjusted in every lens at assembly so that the mean square of the wavefronts of all fields is smallest."
+)
 GRADE_WORDS = (("commercial", "commercial grade"), ("precision", "precision grade"), ("high", "high precision grade"))
 CRITERION_WORDS = (
     ("rms_waves", "RMS wavefront"),
@@ -228,7 +230,7 @@ class TolerancesPanel:
 
     def _stop(self) -> None:
         self.worker.cancel()
-        self._refusal = tr("Stopped. Draw again starts anew.")
+        self._refusal = tr("Stopped. Draw again starts again.")
         self._paint()
 
     def _stale(self) -> bool:

@@ -64,7 +64,7 @@ class PlayBar(QFrame):
         self.key = chooser(tuple(TITLES.items()), "Which slider moves", self)
         self.first, self.last, self.seconds = (self._edit(name) for name in ("from", "to", "seconds one way"))
         self.subject = chooser(SUBJECTS, "What the film shows", self)
-        self.export = self._button("Film…", "Save the way from the first value to the last as a film", self.ask_film)
+        self.export = self._button("Film…", "Save the sweep from the first value to the last as a film", self.ask_film)
         self.progress = QProgressBar(self)
         self.stop_film = self._button("Cancel", "Stop filming and leave no file", self.filming.cancel)
         self.close_bar = self._button("Close", "Put the sweep away", self.put_away)

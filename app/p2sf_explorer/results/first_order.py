@@ -21,9 +21,10 @@ INFINITE, NONE = Message("∞"), Message("–")
 OF_A: Row = ("A", Message(""), "The figures below and the sentence above are those of A, which the controls move.")
 
 IMAGE_TIP = "Paraxial image of this depth, from the last vertex; from the principal points 1/s′ = 1/f′ − 1/s."
-SENSOR_TIP = "Where the sensor stands, from the last vertex: in the image of the focus distance, shifted by Δz."
+SENSOR_TIP = "Position of the sensor from the last vertex: at the image of the focus distance, shifted by Δz."
 STOP_TIP = (
-    "The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice."
+    "The surface whose rim limits the light: the smallest |rim/y| along the marginal ray, or the one that the file "
+    "names."
 )
 ENTRANCE_TIP = (
     "The stop seen from the object: its diameter D = |f′|/N for a far object, its place from the first vertex."

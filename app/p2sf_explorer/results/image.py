@@ -103,15 +103,15 @@ def frame_notes(photo: str, shape: tuple[int, int]) -> tuple[Message, Message] |
     sensor = {"columns": shape[1], "rows": shape[0]}
     if high > SEEN:
         return Message("top and bottom of the photo cut off"), Message(
-            "The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and "
-            "its top and bottom are cut off, {percent:.0f} % of its height.",
+            "The proportions of the photo differ from those of the sensor ({columns} × {rows} pixels). It fills the "
+            "frame; its top and bottom are cut off, {percent:.0f} % of its height.",
             percent=100 * high,
             **sensor,
         )
     if wide > SEEN:
         return Message("sides of the photo cut off"), Message(
-            "The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and "
-            "its sides are cut off, {percent:.0f} % of its width.",
+            "The proportions of the photo differ from those of the sensor ({columns} × {rows} pixels). It fills the "
+            "frame; its sides are cut off, {percent:.0f} % of its width.",
             percent=100 * wide,
             **sensor,
         )
@@ -122,13 +122,13 @@ ROWS, COLUMNS = 208, 312
 MOST_SAMPLES = 24  # of λ/2NA across a pixel: a plan of larger pixels takes minutes, and they hide what it is about
 TOO_WIDE, TOO_LARGE = Message("No plan: these PSFs are too wide"), Message("No plan: these pixels hide the PSF")
 UNMEASURED = {
-    None: Message("Unmeasured. When the sliders rest a plan follows."),
-    TOO_WIDE: Message("Unmeasured. No plan is made for PSFs as wide as these: it would take minutes."),
+    None: Message("Not measured. A plan follows when the sliders rest."),
+    TOO_WIDE: Message("Not measured. PSFs as wide as these get no plan: it would take minutes."),
     TOO_LARGE: Message(
-        "Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones."
+        "Not measured. Pixels as large as these get no plan, since they hide the blur: choose smaller ones."
     ),
 }
-RAY_NOTE = Message("These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.")
+RAY_NOTE = Message("These PSFs are ray densities; they are so wide that pixels hide most of what diffraction adds.")
 SHARPENED = ("sharpened", "axis")  # of what can be shown
 TAKEN = "taken"  # of what can be shown: the photo was taken through the lens, and is sharpened
 LEAST_NOISE = 1e-3  # of white, that sharpening reckons with
@@ -400,8 +400,8 @@ def shown(
     wrong = wiener(blurred, with_one_kernel(lattice, axis_kernel(plan, lattice)), NOISE, watch)
     pictures = {"blurred": blurred, "own": right, "axis": wrong}
     note = Message(
-        "Against the scene the blurred picture has {blurred}, sharpened by its own PSFs {own}, by the PSF of the axis "
-        "{axis} (Wiener's filter, noise {noise:.1%} of white; PSNR of linear light, SSIM of sRGB levels).",
+        "Compared with the scene, the blurred picture has {blurred}; sharpened by its own PSFs {own}; by the PSF on "
+        "the axis {axis} (Wiener's filter, noise {noise:.1%} of white; PSNR of linear light, SSIM of sRGB levels).",
         noise=NOISE,
         **{name: likeness(picture, values) for name, picture in pictures.items()},
     )

@@ -21,7 +21,7 @@ from p2sf_explorer.state.scales import significant
 RINGS = {"preview": 6, "settled": 10}
 FAN_RAYS = 41
 ARRIVE = "That arrive, of those traced."
-WITHIN_RIMS = "That pass every rim and arrive, of those traced."
+WITHIN_RIMS = "Share of the traced rays that pass every rim and arrive."
 
 
 def lens_drawn(live: Live) -> Layout:

@@ -34,7 +34,9 @@ METHOD_WORDS = {
     "huygens": "huygens: the reference sum",
 }
 FACTS_PX = 470  # width of the figures at the right of the status line, at scale 1
-METHOD_TIP = "Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough."
+METHOD_TIP = (
+    "Method: what describes the PSF. auto takes the cheapest method whose predicted R² against Huygens is good enough."
+)
 
 
 class TopBar(QFrame):
@@ -53,7 +55,7 @@ class TopBar(QFrame):
         self._shown: tuple[object, ...] = ()
         self.lens = LensChooser(self)
         self.lens.chosen.connect(self.lens_chosen)
-        self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or one of the latest", None)
+        self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or a recent one", None)
         self.open.setMenu(QMenu(self))
         self.open.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.edited = QLabel(tr("edited"), self)

@@ -53,7 +53,7 @@ def ranked(sought: str, texts: Iterable[str]) -> list[int]:
 
 
 WIDE, MOST = 520, 60
-HINT = "Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back."
+HINT = "Type a few letters, choose with ↑ ↓, run with Enter, leave with Escape."
 STEPS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 

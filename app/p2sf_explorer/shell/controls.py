@@ -29,10 +29,10 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.readout import FactTable, Sentence, scrolled
 
-STOP_TIP = "Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|."
+STOP_TIP = "Stop: the surface whose rim limits the light, as named by the lens file or found as the smallest |rim/y|."
 AIM_TIP = (
-    "Rays fill: the real stop, as light does, or the paraxial entrance pupil, the usual choice of the paper and of "
-    "most programs. Off axis and in fast lenses the two differ."
+    "Rays fill: the real stop, as light does, or the paraxial entrance pupil, as in the paper and by default in most "
+    "programs. The two differ off axis and in fast lenses."
 )
 CLIP_TIP = "Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis."
 CHOICES = (("file", "as in the file"), ("auto", "found"))

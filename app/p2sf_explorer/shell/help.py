@@ -15,7 +15,7 @@ MOUSE_AND_KEYS = (
     ("Escape", "while something is dragged: give up, as it was before"),
     ("double-click", "back to the lens's own value"),
     ("wheel, drag, double-click", "zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home"),
-    ("click or P, L", "pin a marker to a plot, lock its scales"),
+    ("click or P, L", "pin a marker to a plot; lock its scales"),
     ("Tab, Shift+Tab", "to the next or the previous control"),
     ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, "
      "Optical Bench .txt, .csv with named columns, .toml, or a saved state"),

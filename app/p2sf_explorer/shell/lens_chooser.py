@@ -49,7 +49,7 @@ class LensChooser(QPushButton):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(tr("Lens"))
-        self.setToolTip(tr("The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)"))
+        self.setToolTip(tr("Choose a shipped lens (Ctrl+L); for files use Open (Ctrl+O)"))
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.setObjectName("lens")
         self._name, self._title, self._theme = "", "", LIGHT
@@ -126,7 +126,9 @@ class Gallery(QFrame):
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._choose)
         self.list.activated.connect(self._choose)
-        hint = QLabel(tr("Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O."), self)
+        hint = QLabel(
+            tr("Find a lens with the arrow keys or its first letters; Enter opens it. Your own files: Ctrl+O."), self
+        )
         hint.setObjectName("muted")
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 8, 8, 8)

@@ -8,7 +8,7 @@ from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State
 
-NO_ANSWER = Message("This set-up cannot be computed; what was here belongs to the one before.")
+NO_ANSWER = Message("These settings cannot be computed; what was here belonged to the previous ones.")
 UNKNOWN = "–"
 
 

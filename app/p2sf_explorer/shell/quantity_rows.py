@@ -175,7 +175,7 @@ SHAPE_TIP = (
     "What stands in the stop: an obscuration, the blades of an iris, the vanes of a spider, a filter, a phase plate; "
     "phases and amplitudes of a lens file stay."
 )
-AS_FILE_TIP = "Put into the stop what the lens file has in it"
+AS_FILE_TIP = "Restore the pupil of the lens file"
 
 
 class PupilShape(QWidget):

@@ -113,7 +113,7 @@ def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
     for number, one in enumerate(over_field):
         draw_psf(page, one, QRectF(MARGIN + number * (side + 5), 178, side, side))
     scale = tr(SCALE_WORDS[state.display.psf_scale])
-    note = tr("Each PSF over its own peak, {scale}; W11 moves the image and is left out.", scale=scale)
+    note = tr("Each PSF relative to its own peak, {scale}; W11 moves the image and is left out.", scale=scale)
     page.write(QRectF(MARGIN, 236, wide, 5), note, 8)
     page.write(QRectF(MARGIN, 242, wide, 10), answer.why.text(WINDOW), 8)
     page.write(QRectF(MARGIN, 281, wide, 5), "P2SF Explorer", 7, side=1)

@@ -36,7 +36,7 @@ class Sharing(QObject):
         """Put a link to the present state on the clipboard."""
         text = link(self._store.state)
         QGuiApplication.clipboard().setText(text)
-        done = "Copied a link of {count} letters; paste it into a window of the explorer"
+        done = "Copied a link of {count} characters; paste it into a window of the explorer"
         self._store.said.emit(Message(done, count=len(text)))
 
     def paste(self) -> bool:

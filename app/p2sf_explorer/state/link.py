@@ -38,7 +38,7 @@ def state_of_link(text: str) -> State:
     except (ValueError, RecursionError, binascii.Error, zlib.error):
         raise P2SFError("the link is cut off or changed; copy all of it again, from p2sf: to its last letter") from None
     if not isinstance(document, dict) or not isinstance(document.get("state"), dict):
-        raise P2SFError("the link holds no state of the explorer; copy it again from the explorer")
+        raise P2SFError("the link contains no state of the explorer; copy it again from the explorer")
     check_version(document.get("version"), Message("the link"))
     return state_from_dict(document["state"], document["version"])
 

@@ -78,7 +78,7 @@ def _state(values: dict[str, Any]) -> State:
         if name not in known:
             raise _unknown(name, known)
         if not isinstance(entries, dict):
-            raise P2SFError('the state\'s group "{group}" is no table; save it again from the explorer', group=name)
+            raise P2SFError('the state\'s group "{group}" is not a table; save it again from the explorer', group=name)
         default = getattr(FIRST, name)
         own = tuple(field.name for field in fields(default))
         entries = BEFORE_AIM.get(name, {}) | entries

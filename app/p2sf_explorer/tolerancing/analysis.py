@@ -164,7 +164,7 @@ class Analyst:
     ) -> ToleranceResult:
         """Return the answer. Raises P2SFError where a ray is lost, and Cancelled."""
         if not asked.tolerances:
-            raise GeometryError("nothing of this lens can be off; give it a surface with power")
+            raise GeometryError("nothing in this lens can be wrong; give it a surface with power")
         known = self._last
         if known is None or (known.lens, known.sources, known.tolerances) != (
             asked.lens,

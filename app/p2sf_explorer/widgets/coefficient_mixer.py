@@ -196,8 +196,8 @@ BACK = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
 BUTTON_TIPS = {"muted": "Mute: this term counts as zero (M)", "solo": "Solo: only this term counts (S)"}
 HOLDS = 0.02  # of the travel: nearer to zero the slider snaps to it
 ROW_TIP = (
-    "The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; "
-    "click the number, or press Return, to type it."
+    "From the lens: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to remove them; click "
+    "the number, or press Return, to type it."
 )
 SMALLEST_LIMIT = 0.5  # waves of a full bar, at least: a lens with less is as good as perfect
 

@@ -75,7 +75,7 @@ class PhotoDrop(QObject):
     photo = Signal(str)
     refused = Signal(object)
     endings: tuple[str, ...] = READABLE
-    why = "{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that"
+    why = "{file} is not a PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that"
 
     def __init__(self, widget: QWidget):
         super().__init__(widget)
@@ -112,7 +112,7 @@ class MeasuredDrop(PhotoDrop):
     """The same for pictures to be measured, which have more formats."""
 
     endings = ENDINGS
-    why = "{file} is no PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that"
+    why = "{file} is not a PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that"
 
 
 def is_photo(path: str) -> bool:

@@ -12,7 +12,7 @@ from p2sf_explorer.i18n.tr import tr, unbroken
 
 TURNS = (
     ("Cancel", "Make no plan; the coarse picture stays"),
-    ("Plan it after all", "Make the plan that was cancelled, and the picture by it"),
+    ("Plan it after all", "Resume the plan that was cancelled, and make its picture"),
 )
 
 
@@ -58,7 +58,7 @@ class Why(QLabel):
     def __init__(self) -> None:
         super().__init__()
         self.button = small_button(
-            "Why…", "Why the picture is computed in this way: the plan's decisions, each with its error"
+            "Why…", "Why the picture is computed this way: the decisions of the plan, each with its error"
         )
         self.setObjectName("reasons")
         self.setTextFormat(Qt.TextFormat.RichText)

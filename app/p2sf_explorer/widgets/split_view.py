@@ -79,8 +79,8 @@ LOOKS: dict[int, tuple[float, float]] = {
 HANDLE_PX = 7.0
 BLINK_MS = 700
 TIP = (
-    "Hover or press the arrow keys to look at a place: its PSF and its detail follow. "
-    "Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed."
+    "Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move "
+    "it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens."
 )
 BLACK = np.full((1, 1), 0xFF000000, np.uint32)
 
@@ -105,7 +105,7 @@ class SplitView(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(160, 100)
         self.setAccessibleName(
-            tr("Picture before and after the lens; arrows move the place looked at, Shift the split")
+            tr("Picture before and after the lens; arrow keys move the place you look at, with Shift the split")
         )
         self.setToolTip(tr(TIP))
         self.before, self.after, self.psf = BLACK, BLACK, BLACK

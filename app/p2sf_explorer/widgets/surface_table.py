@@ -16,12 +16,12 @@ HEADS = {
     "thickness": ("Thickness, mm", "Distance to the next vertex, mm; the last one to the sensor."),
     "medium": (
         "Glass or index",
-        'What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".',
+        'The medium behind the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".',
     ),
     "semi_diameter": ("Semi-diameter, mm", "Clear rim, mm; ∞ is unlimited. On the stop it is the aperture."),
     "conic": ("Conic K", "Conic constant K = −e²: 0 a sphere, −1 a paraboloid."),
-    "stop": ("Stop", "Click or press Enter to make this surface the stop; the f-number stays."),
-    "aspheric": ("A4 A6 … (mm⁻³ mm⁻⁵ …)", "Aspheric terms A4·r⁴ + A6·r⁶ + …, with spaces between."),
+    "stop": ("Stop", "Click or press Enter to make this surface the stop; the f-number does not change."),
+    "aspheric": ("A4 A6 … (mm⁻³ mm⁻⁵ …)", "Aspheric terms A4·r⁴ + A6·r⁶ + …, separated by spaces."),
 }
 KEYS = (*COLUMNS[:STOP], "stop", *COLUMNS[STOP:])
 NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter

@@ -200,8 +200,8 @@ class MicronEdit(QWidget):
 
 BETWEEN = re.compile(r"\s*;\s*|,\s+")  # a comma without a space is a decimal comma
 SPACE_PX = 4  # pixels between the parts of a list
-COUNT_TIP = "How many, evenly spread; this forgets values that were typed"
-LIST_TIP = "Values with semicolons between; empty: evenly spread by themselves"
+COUNT_TIP = "How many, evenly spread; this replaces typed values"
+LIST_TIP = "Values separated by semicolons; empty: evenly spread automatically"
 
 
 def read_list(text: str, read: Callable[[str], float]) -> tuple[float, ...]:

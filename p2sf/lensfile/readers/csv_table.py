@@ -91,7 +91,7 @@ def _key(raw: RawLens, text: str, line: int, source: LensText) -> None:
     elif name == "wavelengths_nm":
         raw.wavelengths_um, raw.wavelength_line = [x / 1000 for x in _list(value, name, line, source)], line
         if not all(0.05 <= x <= 50 for x in raw.wavelengths_um):
-            raise source.error("a wavelength is not light; give nanometres", line)
+            raise source.error("a wavelength is not that of light; give nanometres", line)
     elif name == "fields_deg":
         raw.fields, raw.field_line = [(0.0, x) for x in _list(value, name, line, source)], line
 

@@ -45,7 +45,7 @@ def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> 
             if older
             else Message('a lens lists its "surfaces"')
         )
-        raise source.error("the file holds no list of surfaces; {remedy}", 1, remedy=remedy)
+        raise source.error("the file contains no list of surfaces; {remedy}", 1, remedy=remedy)
     raw = RawLens(title=_text(top, "name"), source=_text(top, "description"), sensor_stated=False)
     lines = _surface_lines(source)
     for place, values in enumerate(top["surfaces"]):
@@ -89,7 +89,7 @@ def _parsed(source: LensText) -> Any:
             "this is not JSON ({reason}); correct the line", failure.lineno, reason=failure.msg
         ) from failure
     except (RecursionError, ValueError) as failure:
-        raise source.error("lists are nested too deep or a number is too long; this is no lens file", 1) from failure
+        raise source.error("lists are nested too deep or a number is too long; this is not a lens file", 1) from failure
 
 
 def _text(values: dict, key: str) -> str:
@@ -180,7 +180,7 @@ def _glass(ior: object, count: int, line: int, source: LensText) -> RawGlass | N
     except (GlassError, TypeError) as failure:
         reason = failure if isinstance(failure, GlassError) else str(failure)
         raise source.error(
-            "surface {surface}: ior is no table of wavelengths and indices ({reason})",
+            "surface {surface}: ior is not a table of wavelengths and indices ({reason})",
             line,
             surface=count,
             reason=reason,

@@ -210,7 +210,7 @@ def _asphere(reading: BenchReading, words: list[str], line: int) -> None:
     surface = reading.rows.get(words[0])
     if surface is None:
         raise reading.source.error(
-            'aspherical data of "{name}", which is no row of the lens data', line, name=words[0][:20]
+            'aspherical data of "{name}", which is not a row of the lens data', line, name=words[0][:20]
         )
     values = [number(word, Message("aspherical value"), reading.source, line) for word in words[1:] if word]
     if len(values) < 2:

@@ -152,7 +152,7 @@ def _wavelengths(reading: OsloReading, name: str, words: list[str]) -> None:
     """Read WV and up to all wavelengths, or WVn and the n-th, µm."""
     values = [number(word, Message("wavelength"), reading.source, reading.line) for word in words[1:]]
     if not all(0.05 <= value <= 50 for value in values):
-        raise reading.source.error("a wavelength is not light; give micrometres", reading.line)
+        raise reading.source.error("a wavelength is not that of light; give micrometres", reading.line)
     place = int(name[2:] or 1) - 1
     reading.raw.wavelengths_um[place:] = values
     reading.raw.wavelength_line = reading.line
@@ -181,7 +181,7 @@ def _finish(reading: OsloReading) -> None:
     """Complete the raw lens once all lines are read."""
     raw = reading.raw
     if len(reading.surfaces) < 3:
-        raise reading.source.error("the file holds no surface between object and image", len(reading.source.lines))
+        raise reading.source.error("the file contains no surface between object and image", len(reading.source.lines))
     first, *raw.surfaces, image = reading.surfaces
     raw.object_distance, raw.object_glass, raw.primary = first.thickness, first.glass, 0
     if reading.object_height is not None:

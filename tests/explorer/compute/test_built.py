@@ -32,7 +32,7 @@ def of(errors, **entries):
 
 
 def chief(state):
-    """Return where the chief ray meets the sensor, mm, in the axes of the lens set straight."""
+    """Return where the chief ray meets the sensor, mm, in the axes of the aligned lens."""
     setup = paraxial_setup(state)
     rays = pencil(setup.lens, setup.source, np.zeros(1), np.zeros(1))
     local = np.array([np.squeeze(rays.chief_x), np.squeeze(rays.chief_y), 0.0])
@@ -107,8 +107,8 @@ def test_the_preview_of_a_misaligned_lens_is_its_settled_picture():
 def test_seidel_says_that_it_is_of_the_lens_set_straight():
     straight, skew = (live(of(errors, method="seidel"), "preview") for errors in ((), SKEW))
     assert np.array_equal(straight.psf.values, skew.psf.values)
-    assert any("set straight" in str(message) for message in skew.warnings)
-    assert not any("set straight" in str(message) for message in straight.warnings)
+    assert any("aligned" in str(message) for message in skew.warnings)
+    assert not any("aligned" in str(message) for message in straight.warnings)
 
 
 @pytest.mark.parametrize(
@@ -218,7 +218,7 @@ def test_drawn_rays_meet_the_rim_of_the_stop_which_does_not_clip_them(name, erro
 
 
 def test_the_drawn_sensor_keeps_its_height_while_a_part_is_moved():
-    """It holds the widest field of the lens set straight; its height does not flicker with an error of the build."""
+    """It holds the widest field of the aligned lens; its height does not flicker with an error of the build."""
     assert straightened(with_errors(prescription(START), SKEW)) == prescription(START)
     halves = {live(of((("decentre_y", 3, 5, by),)), "preview").layout.sensor_half for by in (0.0, 0.01, 0.3)}
     assert len(halves) == 1

@@ -70,9 +70,9 @@ def test_a_language_without_words_for_a_lesson_falls_back_file_by_file(tmp_path)
     [
         ("", 1, "begins with"),
         (HEAD.replace("about: Ein Satz.\n", ""), 1, 'lacks "about"'),
-        (HEAD.replace("about", "lens"), 3, "no entry of the header"),
+        (HEAD.replace("about", "lens"), 3, "not an entry of the header"),
         (HEAD + "## Eins\nWorte.\n", 1, "there is 1 step of words, and the lesson has 3"),
-        (HEAD + "## Eins\nset: field_deg 3\n## Zwei\n## Drei\n", 6, "no entry of a step"),
+        (HEAD + "## Eins\nset: field_deg 3\n## Zwei\n## Drei\n", 6, "not an entry of a step"),
         (HEAD + "## Eins\nask: Warum?\n## Zwei\n## Drei\n", 5, "question and its answer"),
     ],
 )

@@ -99,10 +99,10 @@ def test_what_is_no_picture_of_points_is_said(panel, window, qtbot, tmp_path):
     np.save(tmp_path / "noise.npy", np.random.default_rng(0).normal(50, 5, (40, 40)))
     panel.open_picture(str(tmp_path / "noise.npy"))
     qtbot.waitUntil(lambda: bool(panel._refusal), timeout=30000)
-    assert "o point stands out" in panel._refusal
+    assert "o point rises above" in panel._refusal
     assert not panel.save.isEnabled() and not panel.take.isEnabled() and not panel.sharpen.isEnabled()
     window.store.update(measured_picture=str(tmp_path / "moved.npy"))
     qtbot.waitUntil(lambda: "moved.npy is not in" in panel._refusal, timeout=30000)
     window.store.undo()
     assert window.store.state.measured.picture.endswith("noise.npy")
-    qtbot.waitUntil(lambda: "o point stands out" in panel._refusal, timeout=30000)
+    qtbot.waitUntil(lambda: "o point rises above" in panel._refusal, timeout=30000)

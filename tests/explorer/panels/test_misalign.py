@@ -108,7 +108,7 @@ def test_the_field_along_x_has_a_slider_without_symmetry_or_on_request(window, p
 def test_panels_of_paraxial_figures_say_what_they_leave_out(window, panel):
     window.store.update(tab="first_order", errors=(("tilt_y", 3, 5, 0.1),))
     note = window.panels["first_order"].widget.note
-    assert "set straight" in note.text() and not note.isHidden()
+    assert "aligned" in note.text() and not note.isHidden()
     window.store.update(errors=())
     assert note.isHidden()
 

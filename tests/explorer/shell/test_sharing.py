@@ -50,7 +50,7 @@ def deflated(text: bytes) -> str:
         (link(new_state(field_deg=3.0))[:-6], "cut off or changed"),
         (PREFIX, "cut off or changed"),
         (PREFIX + "§§§", "cut off or changed"),
-        (packed([]), "holds no state"),
+        (packed([]), "contains no state"),
         (packed({"version": 99, "state": {}}), "version 99"),
         (packed({"version": 1, "state": {"magic": 1}}), 'unknown entry "magic"'),
         (packed({"version": 1, "state": {"lens_text": "x" * 5_000_000}}), "cut off or changed"),

@@ -6,13 +6,13 @@
 <message><source> ({count} fr.)</source><translation> ({count} Ringe)</translation></message>
 <message><source>"{entry}" sets nothing; write entries such as field_deg 10, tab mtf</source><translation>"{entry}" stellt nichts ein; Einträge schreiben wie field_deg 10, tab mtf</translation></message>
 <message><source>"{glass}" (nd {nd:.6f})</source><translation>"{glass}" (nd {nd:.6f})</translation></message>
-<message><source>"{line}" is no entry of the header; give {names}</source><translation>"{line}" ist kein Eintrag des Kopfes; {names} angeben</translation></message>
-<message><source>"{name}" is no slider; move one of {names}</source><translation>"{name}" ist kein Regler; einen von {names} bewegen</translation></message>
+<message><source>"{line}" is not an entry of the header; give {names}</source><translation>"{line}" ist kein Eintrag des Kopfes; {names} angeben</translation></message>
+<message><source>"{name}" is not a slider; move one of {names}</source><translation>"{name}" ist kein Regler; einen von {names} bewegen</translation></message>
 <message><source>"{name}" is nothing that a frame tells here; choose from {choices}</source><translation>"{name}" ist nichts, was eine Aufnahme hier sagt; wählen aus {choices}</translation></message>
-<message><source>"{name}:" is no entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
-<message><source>"{text}" in a claim is no number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
-<message><source>"{text}" is no claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
+<message><source>"{name}:" is not an entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
+<message><source>"{text}" in a claim is not a number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is no error of a build; write such as decentre_y 3-4 0.2</source><translation>"{text}" ist kein Fehler eines Exemplars; etwa decentre_y 3-4 0.2 schreiben</translation></message>
+<message><source>"{text}" is not a claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
 <message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
 <message><source>% of peak</source><translation>% der Spitze</translation></message>
 <message><source>+ no astigmatism (third order)</source><translation>+ kein Astigmatismus (dritte Ordnung)</translation></message>
@@ -28,27 +28,27 @@
 <message><source>3D is not in this download; take the one with 3D in its name, then open this panel again</source><translation>3D ist in diesem Download nicht enthalten; den mit 3D im Namen nehmen und diese Tafel dann wieder öffnen</translation></message>
 <message><source>3D needs OpenGL, and none works here; install a driver or Mesa's software renderer (apt-get install libegl1 libgl1-mesa-dri), then open this panel again</source><translation>3D braucht OpenGL, und hier läuft keines; einen Treiber oder Mesas Software-Renderer installieren (apt-get install libegl1 libgl1-mesa-dri), dann diese Ansicht wieder öffnen</translation></message>
 <message><source>3D needs pyvista, which is not installed; run pip install pyvista, then open this panel again</source><translation>3D braucht pyvista, das nicht installiert ist; pip install pyvista ausführen, dann diese Ansicht wieder öffnen</translation></message>
-<message><source>3D: elements of revolution to their clear rims; the wavefront is W·λ ahead of the sphere about the image point.</source><translation>3D: Drehkörper bis zu ihren freien Rändern; die Wellenfront ist der Kugel um den Bildpunkt um W·λ voraus.</translation></message>
+<message><source>3D: the elements up to their clear rims; the wavefront is drawn W·λ ahead of the sphere about the image point.</source><translation>3D: Drehkörper bis zu ihren freien Rändern; die Wellenfront ist der Kugel um den Bildpunkt um W·λ voraus.</translation></message>
 <message><source>4 µm pixels</source><translation>4-µm-Pixel</translation></message>
 <message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
 <message><source>?</source><translation>?</translation></message>
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
+<message><source>A back focus longer than the focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
 <message><source>A corrector plate of some micrometres at the centre of a spherical mirror: sharp over five degrees</source><translation>Eine Korrektionsplatte von einigen Mikrometern im Mittelpunkt eines Kugelspiegels: scharf über fünf Grad</translation></message>
 <message><source>A field of {angle:.0f}° is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle:.0f}° liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
-<message><source>A lesson, and what it is about on the stage (F3)</source><translation>Eine Lektion, und worum es in ihr geht, auf der Bühne (F3)</translation></message>
+<message><source>A lesson, with its subject on the stage (F3)</source><translation>Eine Lektion, und worum es in ihr geht, auf der Bühne (F3)</translation></message>
 <message><source>A meniscus and a stop behind it: coma removed by moving the stop, as in the first cameras</source><translation>Ein Meniskus und dahinter eine Blende: Koma durch den Ort der Blende behoben, wie in den ersten Kameras</translation></message>
 <message><source>A paraboloid and a hyperboloid: no spherical aberration at all, but coma, and a hole in the pupil</source><translation>Ein Paraboloid und ein Hyperboloid: gar keine sphärische Aberration, aber Koma und ein Loch in der Pupille</translation></message>
 <message><source>A photograph through the lens on the stage</source><translation>Eine Fotografie durch das Objektiv auf der Bühne</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the first vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom ersten Scheitel.</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the last vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom letzten Scheitel.</translation></message>
 <message><source>A real 35 mm wide angle for a reflex camera: long back focus, astigmatism and distortion at the corner</source><translation>Ein echtes 35-mm-Weitwinkel für eine Spiegelreflexkamera: lange Schnittweite, Astigmatismus und Verzeichnung in der Ecke</translation></message>
-<message><source>A slider for the field along x also where the lens is symmetric</source><translation>Ein Regler für das Feld entlang x auch dort, wo das Objektiv symmetrisch ist</translation></message>
 <message><source>A standard lens wide open: seven elements, large and balanced aberrations, strong vignetting</source><translation>Ein Normalobjektiv bei voller Öffnung: sieben Linsen, große und gegeneinander abgewogene Aberrationen, starke Vignettierung</translation></message>
 <message><source>A stock singlet, right way round: spherical aberration, coma and colour, undisguised</source><translation>Eine Einzellinse ab Lager, richtig herum: sphärische Aberration, Koma und Farbe, unverhüllt</translation></message>
 <message><source>A thick meniscus undoes the spherical aberration of spherical mirrors: no asphere anywhere</source><translation>Ein dicker Meniskus hebt die sphärische Aberration der Kugelspiegel auf: nirgends eine Asphäre</translation></message>
 <message><source>A triplet whose last element became a doublet: flatter field</source><translation>Ein Triplet, dessen letzte Linse zum Kittglied wurde: ebeneres Feld</translation></message>
-<message><source>A workspace of your own; it is kept as you leave it</source><translation>Ein eigener Arbeitsbereich; er bleibt, wie Sie ihn verlassen</translation></message>
+<message><source>A workspace of your own; it stays as you leave it</source><translation>Ein eigener Arbeitsbereich; er bleibt, wie Sie ihn verlassen</translation></message>
 <message><source>A − B</source><translation>A − B</translation></message>
 <message><source>A − B {part} at {field}</source><translation>A − B {part} bei {field}</translation></message>
 <message><source>A − B · at most {share} % of the higher peak</source><translation>A − B · höchstens {share} % der höheren Spitze</translation></message>
@@ -59,27 +59,25 @@
 <message><source>Accuracy</source><translation>Genauigkeit</translation></message>
 <message><source>Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens).</source><translation>Genauigkeit: R² = 1 − Σ(Referenz − PSF)²/Σ(Referenz − Mittel)² gegen eine auskonvergierte Summe verfolgter Strahlen (Huygens).</translation></message>
 <message><source>Added waves</source><translation>Hinzugefügte Wellen</translation></message>
-<message><source>Against the scene the blurred picture has {blurred}, sharpened by its own PSFs {own}, by the PSF of the axis {axis} (Wiener's filter, noise {noise:.1%} of white; PSNR of linear light, SSIM of sRGB levels).</source><translation>Gegenüber der Szene hat das unscharfe Bild {blurred}, geschärft mit seinen eigenen PSFs {own}, mit der PSF der Achse {axis} (Wiener-Filter, Rauschen {noise:.1%} von Weiß; PSNR des linearen Lichts, SSIM der sRGB-Stufen).</translation></message>
 <message><source>Airy</source><translation>Airy</translation></message>
 <message><source>Airy radius</source><translation>Airy-Radius</translation></message>
 <message><source>Airy radius, the circle</source><translation>Airy-Radius, der Kreis</translation></message>
 <message><source>All</source><translation>Alle</translation></message>
 <message><source>All at once</source><translation>Alles zugleich</translation></message>
-<message><source>All pictures have one scale; otherwise each has its own</source><translation>Alle Bilder haben einen Maßstab; sonst hat jedes seinen eigenen</translation></message>
+<message><source>All pictures share one scale; otherwise each has its own</source><translation>Alle Bilder haben einen Maßstab; sonst hat jedes seinen eigenen</translation></message>
 <message><source>An aperture of NA {na:.2f} is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Eine Öffnung von NA {na:.2f} liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>An aspheric f/2 condenser: a conic and two polynomial terms against spherical aberration</source><translation>Ein asphärischer Kondensor f/2: ein Kegelschnitt und zwei Polynomglieder gegen sphärische Aberration</translation></message>
 <message><source>Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)</source><translation>Animiertes GIF (*.gif);;MP4-Film (*.mp4);;Nummerierte PNG-Bilder (*.png)</translation></message>
 <message><source>Apodisation</source><translation>Apodisation</translation></message>
 <message><source>Apodisation power</source><translation>Potenz der Apodisation</translation></message>
-<message><source>Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 a Gaussian, larger even numbers a super-Gaussian.</source><translation>Potenz p der Amplitude exp(−(ρ/Breite)ᵖ): 2 eine Gauß-Funktion, größere gerade Zahlen eine Super-Gauß-Funktion.</translation></message>
-<message><source>Apodisation: where the amplitude has fallen to 1/e and the intensity to 1/e², over the rim's radius; ∞: even light. It dims the rings and widens the core.</source><translation>Apodisation: wo die Amplitude auf 1/e und die Intensität auf 1/e² gefallen ist, über dem Radius des Randes; ∞: gleichmäßiges Licht. Sie schwächt die Ringe und verbreitert den Kern.</translation></message>
-<message><source>Arrow keys or the first letters find a lens, Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
+<message><source>Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 is a Gaussian, a larger even number a super-Gaussian.</source><translation>Potenz p der Amplitude exp(−(ρ/Breite)ᵖ): 2 eine Gauß-Funktion, größere gerade Zahlen eine Super-Gauß-Funktion.</translation></message>
+<message><source>Apodisation: the radius, as a share of the rim's, where the amplitude has fallen to 1/e and the intensity to 1/e²; ∞: uniform light. It dims the rings and widens the core.</source><translation>Apodisation: wo die Amplitude auf 1/e und die Intensität auf 1/e² gefallen ist, über dem Radius des Randes; ∞: gleichmäßiges Licht. Sie schwächt die Ringe und verbreitert den Kern.</translation></message>
 <message><source>As built…</source><translation>Wie gebaut …</translation></message>
 <message><source>As designed</source><translation>Wie entworfen</translation></message>
 <message><source>As the grade</source><translation>Wie die Klasse</translation></message>
 <message><source>As the system</source><translation>Wie das System</translation></message>
 <message><source>Aspheric plano-convex condenser, f/2 (synthetic)</source><translation>Asphärischer plankonvexer Kondensor, f/2 (synthetisch)</translation></message>
-<message><source>Aspheric terms A4·r⁴ + A6·r⁶ + …, with spaces between.</source><translation>Asphärische Glieder A4·r⁴ + A6·r⁶ + …, mit Leerzeichen dazwischen.</translation></message>
+<message><source>Aspheric terms A4·r⁴ + A6·r⁶ + …, separated by spaces.</source><translation>Asphärische Glieder A4·r⁴ + A6·r⁶ + …, mit Leerzeichen dazwischen.</translation></message>
 <message><source>Astigmatism, 1 λ, medial focus</source><translation>Astigmatismus, 1 λ, mittlerer Fokus</translation></message>
 <message><source>Astigmatism, 2 λ, sagittal focus</source><translation>Astigmatismus, 2 λ, sagittaler Fokus</translation></message>
 <message><source>Astigmatism, 2 λ, tangential focus</source><translation>Astigmatismus, 2 λ, tangentialer Fokus</translation></message>
@@ -97,19 +95,16 @@
 <message><source>Begin or leave a lesson</source><translation>Lektion beginnen oder verlassen</translation></message>
 <message><source>Begin the first lesson (F3)</source><translation>Die erste Lektion beginnen (F3)</translation></message>
 <message><source>Bending X</source><translation>Durchbiegung X</translation></message>
-<message><source>Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power stays. 0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table.</source><translation>Durchbiegung: der Formfaktor X = (c₁ + c₂)/(c₁ − c₂) des gewählten Elements; seine Brechkraft als dünne Linse bleibt. 0 ist gleichseitig bikonvex oder bikonkav, bei ±1 ist eine Seite eben. Wählen Sie ein Element im Schnittbild oder in der Tabelle.</translation></message>
+<message><source>Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power does not change. 0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table.</source><translation>Durchbiegung: der Formfaktor X = (c₁ + c₂)/(c₁ − c₂) des gewählten Elements; seine Brechkraft als dünne Linse bleibt. 0 ist gleichseitig bikonvex oder bikonkav, bei ±1 ist eine Seite eben. Wählen Sie ein Element im Schnittbild oder in der Tabelle.</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
 <message><source>Blade angle</source><translation>Lamellenwinkel</translation></message>
 <message><source>Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.</source><translation>Lamellenwinkel: Richtung der ersten Ecke, von der Richtung des Feldes (+η) nach +ξ.</translation></message>
 <message><source>Blades</source><translation>Lamellen</translation></message>
-<message><source>Blades of the iris, their corners on the rim's circle; 0: round. The PSF has as many spikes where their number is even, twice as many where it is odd.</source><translation>Lamellen der Irisblende, ihre Ecken auf dem Kreis des Randes; 0: rund. Die PSF hat ebenso viele Strahlen, wo ihre Zahl gerade ist, doppelt so viele, wo sie ungerade ist.</translation></message>
+<message><source>Blades of the iris, their corners on the rim's circle; 0: round. An even number of blades gives as many spikes in the PSF, an odd number twice as many.</source><translation>Lamellen der Irisblende, ihre Ecken auf dem Kreis des Randes; 0: rund. Die PSF hat ebenso viele Strahlen, wo ihre Zahl gerade ist, doppelt so viele, wo sie ungerade ist.</translation></message>
 <message><source>Both halves move apart as it comes closer: sharp from infinity to more than half of life size</source><translation>Beide Hälften rücken beim Nahen auseinander: scharf von unendlich bis über die halbe Lebensgröße</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
-<message><source>Brightness: each picture over its own peak, or with One scale all over the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
+<message><source>Brightness: each picture relative to its own peak, or with One scale all relative to the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
 <message><source>Build ten thousand other lenses</source><translation>Zehntausend andere Objektive bauen</translation></message>
-<message><source>By what tilts and decentres of the Misalign panel are enlarged in the drawing</source><translation>Wievielfach Kippungen und Dezentrierungen aus dem Feld Dejustieren in der Zeichnung vergrößert sind</translation></message>
-<message><source>By which the sensor recedes from the lens towards +x.</source><translation>Um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
-<message><source>By which the sensor recedes from the lens towards +y.</source><translation>Um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
@@ -123,12 +118,13 @@
 <message><source>Choose a photo</source><translation>Ein Foto wählen</translation></message>
 <message><source>Choose a picture of points</source><translation>Ein Bild von Punkten wählen</translation></message>
 <message><source>Choose a picture of points to measure</source><translation>Ein Bild von Punkten wählen, um es zu vermessen</translation></message>
+<message><source>Choose a shipped lens (Ctrl+L); for files use Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
 <message><source>Choose a shipped lens…</source><translation>Mitgeliefertes Objektiv wählen …</translation></message>
 <message><source>Chromatic shift</source><translation>Farblängsfehler</translation></message>
 <message><source>Cividis</source><translation>Cividis</translation></message>
 <message><source>Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase</source><translation>Freie Pupille: keine Abschattung, Lamellen, Streben, Apodisation oder kubische Phase</translation></message>
 <message><source>Clear rim, mm; ∞ is unlimited. On the stop it is the aperture.</source><translation>Freier Rand, mm; ∞ ist unbegrenzt. An der Blende ist er die Öffnung.</translation></message>
-<message><source>Click or press Enter to make this surface the stop; the f-number stays.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
+<message><source>Click or press Enter to make this surface the stop; the f-number does not change.</source><translation>Klicken oder Enter macht diese Fläche zur Blende; die Blendenzahl bleibt.</translation></message>
 <message><source>Click to select this element, then drag it, its edges and its vertices.</source><translation>Ein Klick wählt dieses Element; dann lässt sich an ihm, seinen Rändern und Scheiteln ziehen.</translation></message>
 <message><source>Clip at rims</source><translation>Randbeschnitt</translation></message>
 <message><source>Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis.</source><translation>Randbeschnitt: Strahlen jenseits eines freien Halbmessers gehen verloren; das vignettiert die Pupille außerhalb der Achse.</translation></message>
@@ -140,12 +136,13 @@
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
 <message><source>Colour</source><translation>Farbe</translation></message>
 <message><source>Colour PSF</source><translation>Farbige PSF</translation></message>
-<message><source>Colour PSF: a PSF for each wavelength where its own chief ray lands, weighted by the spectrum and the CIE 1931 observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief ray lands.</source><translation>Farbige PSF: eine PSF je Wellenlänge dort, wo ihr eigener Hauptstrahl landet, gewichtet mit Spektrum und CIE-Beobachter 1931, als lineares sRGB. Daneben oder darunter: die Leuchtdichte des Spektrums und wo der Hauptstrahl jeder Farbe landet.</translation></message>
+<message><source>Colour PSF: one PSF for each wavelength, where its own chief ray lands, weighted by the spectrum and the CIE 1931 observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief ray lands.</source><translation>Farbige PSF: eine PSF je Wellenlänge dort, wo ihr eigener Hauptstrahl landet, gewichtet mit Spektrum und CIE-Beobachter 1931, als lineares sRGB. Daneben oder darunter: die Leuchtdichte des Spektrums und wo der Hauptstrahl jeder Farbe landet.</translation></message>
 <message><source>Colour {channel}</source><translation>Farbe {channel}</translation></message>
 <message><source>Colours</source><translation>Farben</translation></message>
 <message><source>Coma, 3 λ</source><translation>Koma, 3 λ</translation></message>
 <message><source>Coma, ½ λ</source><translation>Koma, ½ λ</translation></message>
 <message><source>Compare</source><translation>Vergleich</translation></message>
+<message><source>Compared with the scene, the blurred picture has {blurred}; sharpened by its own PSFs {own}; by the PSF on the axis {axis} (Wiener's filter, noise {noise:.1%} of white; PSNR of linear light, SSIM of sRGB levels).</source><translation>Gegenüber der Szene hat das unscharfe Bild {blurred}, geschärft mit seinen eigenen PSFs {own}, mit der PSF der Achse {axis} (Wiener-Filter, Rauschen {noise:.1%} von Weiß; PSNR des linearen Lichts, SSIM der sRGB-Stufen).</translation></message>
 <message><source>Compensators</source><translation>Kompensatoren</translation></message>
 <message><source>Compensators: {count}</source><translation>Kompensatoren: {count}</translation></message>
 <message><source>Conic K</source><translation>Konik K</translation></message>
@@ -154,7 +151,7 @@
 <message><source>Controls</source><translation>Regler</translation></message>
 <message><source>Cooke triplet, f/5, 50 mm, 40 degree field</source><translation>Cooke-Triplet, f/5, 50 mm, 40 Grad Feld</translation></message>
 <message><source>Copied</source><translation>Kopiert</translation></message>
-<message><source>Copied a link of {count} letters; paste it into a window of the explorer</source><translation>Link aus {count} Zeichen kopiert; in ein Fenster des Explorers einfügen</translation></message>
+<message><source>Copied a link of {count} characters; paste it into a window of the explorer</source><translation>Link aus {count} Zeichen kopiert; in ein Fenster des Explorers einfügen</translation></message>
 <message><source>Copy a link to what is on screen</source><translation>Link auf das Gezeigte kopieren</translation></message>
 <message><source>Copy data as CSV</source><translation>Daten als CSV kopieren</translation></message>
 <message><source>Copy link</source><translation>Link kopieren</translation></message>
@@ -164,10 +161,10 @@
 <message><source>Copy the report</source><translation>Bericht kopieren</translation></message>
 <message><source>Crown and flint cemented: colour and spherical aberration corrected, field curvature not</source><translation>Kron und Flint verkittet: Farbe und sphärische Aberration korrigiert, Bildfeldwölbung nicht</translation></message>
 <message><source>Cubic phase</source><translation>Kubische Phase</translation></message>
-<message><source>Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, which one deconvolution takes away.</source><translation>Kubische Phasenplatte: α des optischen Weges α(ξ³ + η³), den sie hinzufügt. Sie verwischt alle Abstände fast gleich, was eine einzige Entfaltung behebt.</translation></message>
+<message><source>Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, so one deconvolution can remove the blur.</source><translation>Kubische Phasenplatte: α des optischen Weges α(ξ³ + η³), den sie hinzufügt. Sie verwischt alle Abstände fast gleich, was eine einzige Entfaltung behebt.</translation></message>
 <message><source>Dark</source><translation>Dunkel</translation></message>
 <message><source>Database</source><translation>Datenbank</translation></message>
-<message><source>Database: every coefficient over depth and field at this wavelength, as polynomials exact to round-off; drag on a map or the atlas, or use the arrow keys and Enter, to set the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas, oder Pfeiltasten und Enter, setzen die Quelle.</translation></message>
+<message><source>Database: every coefficient over depth and field at this wavelength, as polynomials that are exact to round-off. Drag on a map or the atlas, or use the arrow keys and Enter, to choose the source.</source><translation>Datenbank: jeder Koeffizient über Abstand und Feld bei dieser Wellenlänge, als Polynome bis auf Rundung genau; Ziehen auf Karte oder Atlas, oder Pfeiltasten und Enter, setzen die Quelle.</translation></message>
 <message><source>Decentre x</source><translation>Dezentrierung x</translation></message>
 <message><source>Decentre x: the piece is moved sideways, out of the layout's plane.</source><translation>Dezentrierung x: das Teil wird zur Seite bewegt, aus der Ebene des Aufbaus hinaus.</translation></message>
 <message><source>Decentre y</source><translation>Dezentrierung y</translation></message>
@@ -178,14 +175,15 @@
 <message><source>Delete this one</source><translation>Diesen löschen</translation></message>
 <message><source>Depth</source><translation>Objektabstand</translation></message>
 <message><source>Depth of field</source><translation>Schärfentiefe</translation></message>
-<message><source>Depth of field: depths whose blur is no wider than what is tolerated. Paraxial: diameter of the axial point's cone on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
-<message><source>Depth: distance from the source to the first vertex. Half of the slider is from ten focal lengths to ∞; far away it is even in dioptres, 1/depth. ▾ is where the lens is focused.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Die Hälfte des Reglers reicht von zehn Brennweiten bis ∞; in der Ferne ist er gleichmäßig in Dioptrien, 1/Abstand. ▾ zeigt, worauf das Objektiv fokussiert ist.</translation></message>
+<message><source>Depth of field: the depths whose blur is no wider than the tolerated one. Paraxial: diameter of the cone from the axial point on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
+<message><source>Depth: distance from the source to the first vertex. Half of the slider goes from ten focal lengths to ∞; far away its steps are equal in dioptres, 1/depth. ▾ marks where the lens is focused.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Die Hälfte des Reglers reicht von zehn Brennweiten bis ∞; in der Ferne ist er gleichmäßig in Dioptrien, 1/Abstand. ▾ zeigt, worauf das Objektiv fokussiert ist.</translation></message>
 <message><source>Depths</source><translation>Abstände</translation></message>
 <message><source>Deutsch</source><translation>Deutsch</translation></message>
 <message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
+<message><source>Discard all edits and return to the lens in the file</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
-<message><source>Distances with their units, ∞ among them, with semicolons between: 2 m; 500 mm; ∞</source><translation>Abstände mit ihren Einheiten, auch ∞, mit Semikolons dazwischen: 2 m; 500 mm; ∞</translation></message>
+<message><source>Distances with units, ∞ included, separated by semicolons: 2 m; 500 mm; ∞</source><translation>Abstände mit ihren Einheiten, auch ∞, mit Semikolons dazwischen: 2 m; 500 mm; ∞</translation></message>
 <message><source>Do not ask again</source><translation>Nicht mehr fragen</translation></message>
 <message><source>Double Gauss, 28 degree field, f/3, 100 mm</source><translation>Doppel-Gauß, 28 Grad Feld, f/3, 100 mm</translation></message>
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
@@ -194,15 +192,14 @@
 <message><source>Draw again</source><translation>Neu ziehen</translation></message>
 <message><source>Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF.</source><translation>Ein Bild von Punkten hier ablegen oder eines wählen: ein Schirm heller Punkte, Sterne oder eine PSF.</translation></message>
 <message><source>Drop all values of one's own</source><translation>Alle eigenen Werte verwerfen</translation></message>
-<message><source>Drop every edit and take the lens as its file has it</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>EFL {focal} mm, {speed} · {column}</source><translation>EFL {focal} mm, {speed} · {column}</translation></message>
-<message><source>Each PSF is what the pixels of a sensor receive of one point's light, the chief ray on the middle pixel. With each go the place of its chief ray on the sensor and the light that is captured. Coefficients altered by hand are left out.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor.</translation></message>
-<message><source>Each PSF over its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
+<message><source>Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by hand are ignored.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor.</translation></message>
+<message><source>Each PSF relative to its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
-<message><source>End the lesson and put everything back as it was before (F3)</source><translation>Die Lektion beenden und alles zurückstellen, wie es vorher war (F3)</translation></message>
+<message><source>End the lesson and restore everything as it was before (F3)</source><translation>Die Lektion beenden und alles zurückstellen, wie es vorher war (F3)</translation></message>
 <message><source>English</source><translation>English</translation></message>
 <message><source>Entrance pupil</source><translation>Eintrittspupille</translation></message>
 <message><source>Error</source><translation>Fehler</translation></message>
@@ -223,19 +220,20 @@
 <message><source>Export…</source><translation>Exportieren …</translation></message>
 <message><source>FFT of {samples} × {samples} pupil samples</source><translation>FFT aus {samples} × {samples} Pupillenproben</translation></message>
 <message><source>FITS files need astropy, which is not installed; pip install 'p2sf[fits]'</source><translation>FITS-Dateien brauchen astropy, das nicht installiert ist; pip install 'p2sf[fits]'</translation></message>
+<message><source>Factor by which the drawing enlarges the tilts and decentres of the Misalign panel</source><translation>Wievielfach Kippungen und Dezentrierungen aus dem Feld Dejustieren in der Zeichnung vergrößert sind</translation></message>
 <message><source>Farthest ray</source><translation>Fernster Strahl</translation></message>
 <message><source>Fast double Gauss f/1.4, 50 mm</source><translation>Lichtstarker Doppel-Gauß f/1,4, 50 mm</translation></message>
-<message><source>Fast on a narrow field: very good on axis, the curved field bends away quickly</source><translation>Lichtstark bei kleinem Feld: sehr gut auf der Achse, das gewölbte Bildfeld biegt sich rasch weg</translation></message>
+<message><source>Fast, for a narrow field: very good on axis, but the curved field soon leaves the sensor</source><translation>Lichtstark bei kleinem Feld: sehr gut auf der Achse, das gewölbte Bildfeld biegt sich rasch weg</translation></message>
 <message><source>Field</source><translation>Feld</translation></message>
 <message><source>Field along x</source><translation>Feld entlang x</translation></message>
-<message><source>Field angles in degrees, with semicolons between: 0; 7; 14</source><translation>Feldwinkel in Grad, mit Semikolons dazwischen: 0; 7; 14</translation></message>
-<message><source>Field curvature: where sagittal (S) and tangential (T) rays come to focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays, fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
+<message><source>Field angles in degrees, separated by semicolons: 0; 7; 14</source><translation>Feldwinkel in Grad, mit Semikolons dazwischen: 0; 7; 14</translation></message>
+<message><source>Field curvature: where sagittal (S) and tangential (T) rays focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays; fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field in x</source><translation>Feld in x</translation></message>
-<message><source>Field in x: the field's angle along x, where the lens is not symmetric. The PSF is then drawn with +y away from the axis: turned as its field is.</source><translation>Feld in x: der Feldwinkel entlang x, wo das Objektiv nicht symmetrisch ist. Die PSF wird dann mit +y von der Achse weg gezeichnet: gedreht wie ihr Feld.</translation></message>
+<message><source>Field in x: the field angle along x, for a lens that is not symmetric. The PSF is then drawn with +y pointing away from the axis, turned with its field.</source><translation>Feld in x: der Feldwinkel entlang x, wo das Objektiv nicht symmetrisch ist. Die PSF wird dann mit +y von der Achse weg gezeichnet: gedreht wie ihr Feld.</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
-<message><source>Field map: the PSF all over a 3:2 picture whose corner is the field's edge, each over its own peak and turned as its field is. Click a picture, or choose it by the arrow keys and Enter, to go to its field; a frame marks the present one. Where the lens is not symmetric every picture has its own field, and the ring can be dragged to any.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige. Wo das Objektiv nicht symmetrisch ist, hat jedes Bild sein eigenes Feld, und der Ring lässt sich zu jedem ziehen.</translation></message>
-<message><source>Field: angle of the chief ray at the entrance pupil; image height is about f′·tan(field). ▾ are the fields that the lens file states.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
+<message><source>Field map: PSFs all over a 3:2 picture whose corner is the edge of the field, each relative to its own peak and turned with its field. Click a picture, or choose it with the arrow keys and Enter, to go to its field; a frame marks the present one. If the lens is not symmetric, every picture has a field of its own, and you can drag the ring to any field.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige. Wo das Objektiv nicht symmetrisch ist, hat jedes Bild sein eigenes Feld, und der Ring lässt sich zu jedem ziehen.</translation></message>
+<message><source>Field: angle of the chief ray at the entrance pupil; the image height is about f′·tan(field). ▾ marks the fields of the lens file.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
 <message><source>Fields</source><translation>Felder</translation></message>
 <message><source>Figures</source><translation>Zahlen</translation></message>
 <message><source>Files</source><translation>Dateien</translation></message>
@@ -243,27 +241,30 @@
 <message><source>Film…</source><translation>Film …</translation></message>
 <message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Ansicht, Objektiv oder Vorgabe finden</translation></message>
 <message><source>Find a command…</source><translation>Befehl finden …</translation></message>
+<message><source>Find a lens with the arrow keys or its first letters; Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>Find it in two minutes</source><translation>In zwei Minuten gefunden</translation></message>
 <message><source>First dark ring of a perfect lens, 0.61 λ/NA.</source><translation>Erster dunkler Ring eines perfekten Objektivs, 0,61 λ/NA.</translation></message>
 <message><source>First order</source><translation>Erste Ordnung</translation></message>
 <message><source>First-order data</source><translation>Daten erster Ordnung</translation></message>
-<message><source>First-order data: everything that follows from paraxial rays alone; hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
-<message><source>Fit departures from the lens on screen; without it, the lens gives the scale only</source><translation>Abweichungen vom gezeigten Objektiv anpassen; ohne das gibt es nur den Maßstab</translation></message>
+<message><source>First-order data: everything that follows from paraxial rays alone. Hover over a row for its definition.</source><translation>Daten erster Ordnung: alles, was allein aus paraxialen Strahlen folgt; über einer Zeile steht ihre Definition.</translation></message>
+<message><source>Fit departures from the lens on screen; otherwise the lens only sets the scale</source><translation>Abweichungen vom gezeigten Objektiv anpassen; ohne das gibt es nur den Maßstab</translation></message>
 <message><source>Focal length f′</source><translation>Brennweite f′</translation></message>
 <message><source>Focus</source><translation>Fokus</translation></message>
 <message><source>Focus at infinity</source><translation>Auf unendlich einstellen</translation></message>
 <message><source>Focus distance</source><translation>Fokus auf</translation></message>
-<message><source>Focus distance: the sensor sits at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. beyond ∞: nearer to the lens than the image of infinity. ▾ is where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
-<message><source>Focus: where the ring stands that moves groups inside the lens; a focus distance turns it, too. ▾ are the columns of the lens file.</source><translation>Fokus: wo der Ring steht, der Gruppen im Objektiv bewegt; auch ein Fokusabstand dreht ihn. ▾ sind die Spalten der Objektivdatei.</translation></message>
+<message><source>Focus distance: the sensor is at the paraxial image of this distance, 1/s′ = 1/f′ − 1/s. Beyond ∞ it is nearer to the lens than the image of infinity. ▾ marks where the source is.</source><translation>Fokus auf: der Sensor steht im paraxialen Bild dieses Abstands, 1/s′ = 1/f′ − 1/s. hinter ∞: näher am Objektiv als das Bild von Unendlich. ▾ zeigt, wo die Quelle steht.</translation></message>
+<message><source>Focus: position of the ring that moves groups inside the lens; a focus distance turns it too. ▾ marks the columns of the lens file.</source><translation>Fokus: wo der Ring steht, der Gruppen im Objektiv bewegt; auch ein Fokusabstand dreht ihn. ▾ sind die Spalten der Objektivdatei.</translation></message>
 <message><source>Fold or unfold the pupil shape</source><translation>Pupillenform ein- oder ausklappen</translation></message>
+<message><source>For the clear stop: builds leave out the mask in it.</source><translation>Von der freien Blende: die Maske in ihr geht in gebaute Objektive nicht ein.</translation></message>
 <message><source>Forget what was on screen when the explorer ended</source><translation>Vergessen, was beim Ende des Explorers auf dem Bildschirm war</translation></message>
 <message><source>Frame</source><translation>Ausschnitt</translation></message>
 <message><source>Free pupil</source><translation>Freie Pupille</translation></message>
-<message><source>Free pupil: the six sliders alone make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
+<message><source>Free pupil: only the six sliders make the wavefront, without the lens's own coefficients.</source><translation>Freie Pupille: allein die sechs Regler machen die Wellenfront, ohne die Koeffizienten des Objektivs.</translation></message>
 <message><source>Frequency on the sensor</source><translation>Frequenz auf dem Sensor</translation></message>
 <message><source>Fringe, peak waves</source><translation>Fringe, Spitzenwellen</translation></message>
 <message><source>From fast to exact</source><translation>Von schnell bis genau</translation></message>
-<message><source>From fast to exact: which error auto may make, or how long a picture may take. Now: {asked}</source><translation>Von schnell bis genau: welchen Fehler auto machen darf, oder wie lange ein Bild dauern darf. Jetzt: {asked}</translation></message>
+<message><source>From fast to exact: how large an error auto may make, or how long a picture may take. Now: {asked}</source><translation>Von schnell bis genau: welchen Fehler auto machen darf, oder wie lange ein Bild dauern darf. Jetzt: {asked}</translation></message>
+<message><source>From the lens: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to remove them; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
 <message><source>Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.</source><translation>Objektseitiger Brennpunkt, dessen Licht als paralleles Bündel austritt, vom ersten Scheitel: D/C.</translation></message>
 <message><source>Front focus F</source><translation>Objektseitiger Brennpunkt F</translation></message>
 <message><source>Front principal plane, imaged onto H′ at magnification 1; from the first vertex.</source><translation>Objektseitige Hauptebene, mit Maßstab 1 auf H′ abgebildet; vom ersten Scheitel.</translation></message>
@@ -278,13 +279,13 @@
 <message><source>Handbook</source><translation>Handbuch</translation></message>
 <message><source>Handbook: the page of what has the focus</source><translation>Handbuch: die Seite zu dem, was den Fokus hat</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
-<message><source>Hover or press the arrow keys to look at a place: its PSF and its detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo to have it photographed.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
+<message><source>Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
+<message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand.</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
-<message><source>How many, evenly spread; this forgets values that were typed</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
-<message><source>How much farther from the lens the sensor stood than in the window.</source><translation>Wie viel weiter vom Objektiv der Sensor stand als im Fenster.</translation></message>
-<message><source>How much of a pixel's area is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
+<message><source>How many, evenly spread; this replaces typed values</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
+<message><source>How much farther from the lens the sensor was than in the window.</source><translation>Wie viel weiter vom Objektiv der Sensor stand als im Fenster.</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
-<message><source>How the two pictures are put beside each other</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
+<message><source>How the two pictures are compared</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
 <message><source>Hubble Space Telescope as built, f/24</source><translation>Hubble-Weltraumteleskop, wie gebaut, f/24</translation></message>
 <message><source>Hubble Space Telescope as designed, f/24</source><translation>Hubble-Weltraumteleskop, wie entworfen, f/24</translation></message>
 <message><source>Hybrid achromat f/5, 50 mm: a singlet that diffracts</source><translation>Hybrid-Achromat f/5, 50 mm: eine Einzellinse, die beugt</translation></message>
@@ -294,12 +295,13 @@
 <message><source>Import</source><translation>Import</translation></message>
 <message><source>Import a lens</source><translation>Ein Objektiv importieren</translation></message>
 <message><source>Import report</source><translation>Importbericht</translation></message>
-<message><source>Import report: everything the reader of the lens file took, replaced, passed over or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
+<message><source>Import report: what the reader of the lens file took, replaced, ignored or refused, and why.</source><translation>Importbericht: alles, was der Leser der Objektivdatei nahm, ersetzte, überging oder ablehnte, und warum.</translation></message>
 <message><source>In a notebook</source><translation>Im Notebook</translation></message>
 <message><source>In its own window, or back</source><translation>In einem eigenen Fenster, oder zurück</translation></message>
 <message><source>Index behind {surface}</source><translation>Brechzahl hinter {surface}</translation></message>
 <message><source>Index: the error of the glass behind this surface, the same at every wavelength.</source><translation>Brechzahl: der Fehler des Glases hinter dieser Fläche, gleich bei jeder Wellenlänge.</translation></message>
 <message><source>Inferno</source><translation>Inferno</translation></message>
+<message><source>Insert a plane behind this surface; nothing changes until you edit it (Insert)</source><translation>Was dieser Fläche folgt, durch eine Ebene teilen; es ändert sich nichts, bis sie bearbeitet wird (Einfg)</translation></message>
 <message><source>Insert after</source><translation>Einfügen danach</translation></message>
 <message><source>Inspect</source><translation>Prüfen</translation></message>
 <message><source>Install</source><translation>Installieren</translation></message>
@@ -310,7 +312,7 @@
 <message><source>It only moves the image.</source><translation>Sie verschiebt nur das Bild.</translation></message>
 <message><source>Its primary is 2.2 µm too flat at the edge: spherical aberration of half a wave RMS in blue</source><translation>Sein Hauptspiegel ist am Rand 2,2 µm zu flach: sphärische Aberration von einer halben Welle RMS im Blauen</translation></message>
 <message><source>Keep beside the stage</source><translation>Neben der Bühne behalten</translation></message>
-<message><source>Keep in focus: while the lens is edited, the sensor follows its paraxial image, or goes to the smallest RMS of the present point, so that the aberrations are seen and not the defocus.</source><translation>Im Fokus halten: während das Objektiv bearbeitet wird, folgt der Sensor seinem paraxialen Bild oder geht zum kleinsten RMS des gegenwärtigen Punkts, damit die Abbildungsfehler zu sehen sind und nicht die Defokussierung.</translation></message>
+<message><source>Keep in focus: while you edit the lens, the sensor follows its paraxial image, or goes to the smallest RMS of the present point, so that you see the aberrations and not the defocus.</source><translation>Im Fokus halten: während das Objektiv bearbeitet wird, folgt der Sensor seinem paraxialen Bild oder geht zum kleinsten RMS des gegenwärtigen Punkts, damit die Abbildungsfehler zu sehen sind und nicht die Defokussierung.</translation></message>
 <message><source>L2 error</source><translation>L2-Fehler</translation></message>
 <message><source>Lagrange invariant</source><translation>Lagrange-Invariante</translation></message>
 <message><source>Lagrange invariant H = {h} mm</source><translation>Lagrange-Invariante H = {h} mm</translation></message>
@@ -321,7 +323,7 @@
 <message><source>Layout</source><translation>Aufbau</translation></message>
 <message><source>Length of the lens with its air: from the first vertex to the sensor.</source><translation>Länge des Objektivs mit seiner Luft: vom ersten Scheitel bis zum Sensor.</translation></message>
 <message><source>Lens</source><translation>Objektiv</translation></message>
-<message><source>Lens: one row per surface in the order light meets them; type into a cell, Ctrl+Z takes it back.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
+<message><source>Lens: one row per surface, in the order in which light meets them. Type into a cell; Ctrl+Z undoes it.</source><translation>Objektiv: eine Zeile je Fläche in der Reihenfolge des Lichts; in eine Zelle tippen, Strg+Z nimmt es zurück.</translation></message>
 <message><source>Lens…</source><translation>Objektiv …</translation></message>
 <message><source>Lesson</source><translation>Lektion</translation></message>
 <message><source>Lessons</source><translation>Lernen</translation></message>
@@ -335,8 +337,7 @@
 <message><source>Lock the scale</source><translation>Skala festhalten</translation></message>
 <message><source>Lock the scale of this axis (L: all of this plot)</source><translation>Skala dieser Achse festhalten (L: alle dieses Diagramms)</translation></message>
 <message><source>Lock the scale of this plot (L)</source><translation>Skala dieses Diagramms festhalten (L)</translation></message>
-<message><source>Longer back focus than focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
-<message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis, paraxial ones and exact ones from 0.7 and from the rim of the pupil. The band is ±n′λ/(2NA²), within which diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
+<message><source>Longitudinal chromatic shift: how far behind the sensor rays of each colour cross the axis: paraxial rays, and exact rays from 0.7 and from the rim of the pupil. Within the band, ±n′λ/(2NA²), diffraction hides it.</source><translation>Farblängsfehler: wie weit hinter dem Sensor Strahlen jeder Farbe die Achse schneiden, paraxiale und exakte aus 0,7 und vom Rand der Pupille. Das Band ist ±n′λ/(2NA²), innerhalb dessen ihn die Beugung verbirgt.</translation></message>
 <message><source>MP4 films need imageio-ffmpeg, which is not installed; pip install 'p2sf[mp4]', or choose a GIF</source><translation>MP4-Filme brauchen imageio-ffmpeg, das nicht installiert ist; pip install 'p2sf[mp4]', oder ein GIF wählen</translation></message>
 <message><source>MTF</source><translation>MTF</translation></message>
 <message><source>MTF of all fields</source><translation>MTF aller Felder</translation></message>
@@ -344,33 +345,32 @@
 <message><source>MTF over the field</source><translation>MTF über das Feld</translation></message>
 <message><source>MTF through focus</source><translation>MTF durch den Fokus</translation></message>
 <message><source>MTF: RMS error ≤ {percent} % of its own RMS</source><translation>MTF: RMS-Fehler ≤ {percent} % ihres eigenen RMS</translation></message>
-<message><source>MTF: contrast left of a sine pattern, the autocorrelation of the pupil over all light, no window; grey: the same pupil without aberration; thin beside it, where something stands in the stop: the clear pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration; dünn daneben, wo etwas in der Blende steht: die freie Pupille ohne Aberration.</translation></message>
+<message><source>MTF: the contrast that remains of a sine pattern, computed by autocorrelation of the pupil, from all light. Grey: the same pupil without aberration. Thin, if something stands in the stop: the clear pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration; dünn daneben, wo etwas in der Blende steht: die freie Pupille ohne Aberration.</translation></message>
 <message><source>Macro lens f/3.8, 60 mm, with floating focus</source><translation>Makroobjektiv f/3,8, 60 mm, mit gleitender Gruppe</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
+<message><source>Mainly {term}: {percent:.0f} % of the wavefront variance</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
-<message><source>Make the plan that was cancelled, and the picture by it</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
 <message><source>Maksutov-Cassegrain f/15, 150 mm</source><translation>Maksutow-Cassegrain f/15, 150 mm</translation></message>
 <message><source>Map over depth and field</source><translation>Karte über Abstand und Feld</translation></message>
 <message><source>Matrix</source><translation>Matrix</translation></message>
-<message><source>Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or of A and B. A click on a picture, or Enter, makes its point the present one, which a frame marks; dashed: the nearest to it.</source><translation>Matrix: dasselbe Bild bei mehreren Feldern und mehreren Wellenlängen, Abständen oder Sensorversätzen, oder von A und B. Ein Klick auf ein Bild, oder Enter, macht seinen Punkt zum jetzigen, den ein Rahmen zeigt; gestrichelt: der nächste an ihm.</translation></message>
+<message><source>Matrix: the same picture at several fields, and at several wavelengths, depths or sensor shifts, or for A and B. Click a picture, or press Enter, to go to its point. A frame marks the present point; a dashed one the nearest to it.</source><translation>Matrix: dasselbe Bild bei mehreren Feldern und mehreren Wellenlängen, Abständen oder Sensorversätzen, oder von A und B. Ein Klick auf ein Bild, oder Enter, macht seinen Punkt zum jetzigen, den ein Rahmen zeigt; gestrichelt: der nächste an ihm.</translation></message>
 <message><source>Measure a lens</source><translation>Ein Objektiv vermessen</translation></message>
 <message><source>Measured</source><translation>Gemessen</translation></message>
-<message><source>Measured: the points of a photograph, the wavefront that explains each with its errors, and what all of them tell of the lens and of how the sensor stands. Pictures are √ of brightness over the picture's peak, all on one scale.</source><translation>Gemessen: die Punkte einer Aufnahme, die Wellenfront, die jeden erklärt, mit ihren Fehlern, und was alle zusammen über das Objektiv und die Lage des Sensors sagen. Die Bilder zeigen √ der Helligkeit über der Spitze des Bildes, alle auf einer Skala.</translation></message>
+<message><source>Measured: the points of a photograph, the wavefront that explains each of them, with errors, and what all together say about the lens and the position of its sensor. Pictures show the root of brightness relative to the picture's peak, all on one scale.</source><translation>Gemessen: die Punkte einer Aufnahme, die Wellenfront, die jeden erklärt, mit ihren Fehlern, und was alle zusammen über das Objektiv und die Lage des Sensors sagen. Die Bilder zeigen √ der Helligkeit über der Spitze des Bildes, alle auf einer Skala.</translation></message>
 <message><source>Method</source><translation>Methode</translation></message>
-<message><source>Method: what describes the PSF; auto takes the cheapest whose predicted R² against Huygens is enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
+<message><source>Method: what describes the PSF. auto takes the cheapest method whose predicted R² against Huygens is good enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
 <message><source>Microscope objective 10×, NA 0.25</source><translation>Mikroskopobjektiv 10×, NA 0,25</translation></message>
 <message><source>Misalign</source><translation>Dejustieren</translation></message>
-<message><source>Misalign: what may be off in a built lens, on top of what its file has; the sensor stays where it is. Choose a piece here, or click it in the layout or the lens table. Decentres are mm, tilts degrees about the piece's first vertex, right-handed. A double click sets one back.</source><translation>Dejustieren: was an einem gebauten Objektiv nicht stimmen kann, zusätzlich zu dem, was seine Datei hat; der Sensor bleibt, wo er ist. Ein Teil hier wählen, oder im Aufbau oder in der Objektivtabelle anklicken. Dezentrierungen in mm, Kippungen in Grad um den ersten Scheitel des Teils, rechtshändig. Ein Doppelklick setzt eine zurück.</translation></message>
+<message><source>Misalign: what may be wrong with a built lens, in addition to what its file has. The sensor stays where it is. Choose a piece here, or click it in the layout or the lens table. Decentres are in mm; tilts in degrees, about the piece's first vertex, right-handed. A double-click resets a value.</source><translation>Dejustieren: was an einem gebauten Objektiv nicht stimmen kann, zusätzlich zu dem, was seine Datei hat; der Sensor bleibt, wo er ist. Ein Teil hier wählen, oder im Aufbau oder in der Objektivtabelle anklicken. Dezentrierungen in mm, Kippungen in Grad um den ersten Scheitel des Teils, rechtshändig. Ein Doppelklick setzt eine zurück.</translation></message>
 <message><source>Misalignment</source><translation>Dejustierung</translation></message>
 <message><source>More</source><translation>Mehr</translation></message>
-<message><source>Most of all {term}: {percent:.0f} % of the wavefront variance</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Mostly {term}: {percent:.0f} % of the wavefront variance</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).</source><translation>Den Sensor dorthin setzen, wo der RMS von W über die Pupille am kleinsten ist (Strg+F).</translation></message>
 <message><source>Mute: this term counts as zero (M)</source><translation>Stumm: dieser Term zählt als null (M)</translation></message>
 <message><source>NA = n′|u′|, image-space slope of the marginal ray.</source><translation>NA = n′|u′|, bildseitige Steigung des Randstrahls.</translation></message>
 <message><source>Name of the workspace:</source><translation>Name des Arbeitsbereichs:</translation></message>
 <message><source>Navarro wide-angle schematic eye, 543 nm</source><translation>Schematisches Weitwinkelauge nach Navarro, 543 nm</translation></message>
-<message><source>New here? The first lesson takes three minutes and shows what the window is for.</source><translation>Neu hier? Die erste Lektion dauert drei Minuten und zeigt, wozu das Fenster da ist.</translation></message>
+<message><source>New here? The first lesson takes three minutes and shows what this window does.</source><translation>Neu hier? Die erste Lektion dauert drei Minuten und zeigt, wozu das Fenster da ist.</translation></message>
 <message><source>Next</source><translation>Weiter</translation></message>
 <message><source>Next lesson</source><translation>Nächste Lektion</translation></message>
 <message><source>Next step of the lesson</source><translation>Nächster Schritt der Lektion</translation></message>
@@ -381,6 +381,9 @@
 <message><source>Nodal point N</source><translation>Knotenpunkt N</translation></message>
 <message><source>Nodal point N′</source><translation>Knotenpunkt N′</translation></message>
 <message><source>Noll, RMS waves</source><translation>Noll, RMS-Wellen</translation></message>
+<message><source>Not measured. A plan follows when the sliders rest.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan.</translation></message>
+<message><source>Not measured. PSFs as wide as these get no plan: it would take minutes.</source><translation>Ungemessen. Für so breite PSFs wird kein Plan gemacht: er würde Minuten brauchen.</translation></message>
+<message><source>Not measured. Pixels as large as these get no plan, since they hide the blur: choose smaller ones.</source><translation>Ungemessen. Für so große Pixel wird kein Plan gemacht, denn sie verbergen, worum es ihm geht: kleinere wählen.</translation></message>
 <message><source>Nothing fits; try fewer letters.</source><translation>Nichts passt; weniger Buchstaben versuchen.</translation></message>
 <message><source>Nothing is lost: the window is saved as it is now, and the next start shows it again.</source><translation>Nichts ist verloren: Das Fenster ist gespeichert, wie es jetzt ist, und der nächste Start zeigt es wieder.</translation></message>
 <message><source>NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)</source><translation>NumPy (*.npz);;TIFF-Stapel für ImageJ (*.tif);;FITS (*.fits);;MATLAB und Octave (*.mat);;Tabelle der Werte (*.csv)</translation></message>
@@ -388,32 +391,31 @@
 <message><source>Numerical aperture</source><translation>Numerische Apertur</translation></message>
 <message><source>Nyquist {f}</source><translation>Nyquist {f}</translation></message>
 <message><source>OPD fan</source><translation>OPD-Fächer</translation></message>
-<message><source>OPD fan: (optical path of the chief ray − of the ray)/λ for exact rays, tilt included.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
+<message><source>OPD fan: (optical path of the chief ray − that of the ray)/λ for exact rays, including tilt.</source><translation>OPD-Fächer: (optischer Weg des Hauptstrahls − des Strahls)/λ für exakte Strahlen, mit Kippung.</translation></message>
 <message><source>OPD, waves</source><translation>OPD, Wellen</translation></message>
 <message><source>Object height</source><translation>Objekthöhe</translation></message>
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
-<message><source>Obscuration ε: radius of the dark disc in the middle of the stop over the rim's radius. It takes ε² of the light, narrows the core and feeds the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
-<message><source>Of the clear stop: builds have no part of the mask in it.</source><translation>Von der freien Blende: die Maske in ihr geht in gebaute Objektive nicht ein.</translation></message>
-<message><source>Of the lens set straight: its tilts, decentres and irregularities have no part in these sums.</source><translation>Vom gerade gestellten Objektiv: seine Kippungen, Dezentrierungen und Passfehler gehen in diese Summen nicht ein.</translation></message>
-<message><source>Of the lens set straight: paraxial rays know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
-<message><source>Of the lens set straight: six coefficients know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Obscuration ε: radius of the dark disc in the middle of the stop, as a share of the rim's. It blocks ε² of the light, narrows the core and brightens the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
+<message><source>Of the aligned lens: its tilts, decentres and irregularities have no part in these sums.</source><translation>Vom gerade gestellten Objektiv: seine Kippungen, Dezentrierungen und Passfehler gehen in diese Summen nicht ein.</translation></message>
+<message><source>Of the aligned lens: paraxial rays know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Of the aligned lens: six coefficients know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
 <message><source>Of the whole field, the same at every point.</source><translation>Des ganzen Feldes, an jedem Punkt gleich.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Abstand von der Achse.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the square of the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Quadrat des Abstands von der Achse.</translation></message>
 <message><source>On the stage</source><translation>Auf die Bühne</translation></message>
-<message><source>One glass and a diffractive side: rings whose colours run the other way undo the lens's own</source><translation>Ein Glas und eine beugende Seite: Ringe, deren Farben umgekehrt laufen, heben die der Linse auf</translation></message>
-<message><source>One of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
+<message><source>One glass with a diffractive side, whose chromatic aberration has the opposite sign and cancels that of the lens</source><translation>Ein Glas und eine beugende Seite: Ringe, deren Farben umgekehrt laufen, heben die der Linse auf</translation></message>
+<message><source>One of the drawn rays does not pass (it misses a surface, or is totally reflected); less light arrives than the picture assumes.</source><translation>Einer der gezeichneten Strahlen kommt nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>One scale</source><translation>Ein Maßstab</translation></message>
 <message><source>Open</source><translation>Öffnen</translation></message>
 <message><source>Open a file…</source><translation>Datei öffnen …</translation></message>
-<message><source>Open a lens file or a saved state (Ctrl+O), or one of the latest</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>
+<message><source>Open a lens file or a saved state (Ctrl+O), or a recent one</source><translation>Objektivdatei oder gespeicherten Zustand öffnen (Strg+O), oder eine der letzten</translation></message>
 <message><source>Open a lens file or a saved state…</source><translation>Objektivdatei oder gespeicherten Zustand öffnen …</translation></message>
 <message><source>Open a lens or a state</source><translation>Objektiv oder Zustand öffnen</translation></message>
 <message><source>Open the file with the substitute glasses listed; the lens then counts as edited</source><translation>Die Datei mit den aufgeführten Ersatzgläsern öffnen; das Objektiv gilt dann als bearbeitet</translation></message>
 <message><source>Open the lens as its file has it</source><translation>Öffnung wie in der Datei</translation></message>
 <message><source>Open this panel in its own window, or put it back (Ctrl+D)</source><translation>Diese Ansicht in einem eigenen Fenster öffnen oder zurückstellen (Strg+D)</translation></message>
 <message><source>Overlays</source><translation>Vergleichskurven</translation></message>
-<message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present place.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
+<message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present point.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
 <message><source>P2SF lens (*.toml);;PSF database (*.npz)</source><translation>P2SF-Objektiv (*.toml);;PSF-Datenbank (*.npz)</translation></message>
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET-Objektiv (*.json)</translation></message>
@@ -440,7 +442,7 @@
 <message><source>Paraxial image of this depth, from the last vertex; from the principal points 1/s′ = 1/f′ − 1/s.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel; von den Hauptpunkten aus 1/s′ = 1/f′ − 1/s.</translation></message>
 <message><source>Paste a link</source><translation>Link einfügen</translation></message>
 <message><source>Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0; nahe 1 etwa exp(−(2πσ)²), σ der RMS von W.</translation></message>
-<message><source>Peak waves ± one standard deviation; in brackets the lens's own.</source><translation>Wellen (Spitze) ± eine Standardabweichung; in Klammern die des Objektivs.</translation></message>
+<message><source>Peak waves ± one standard deviation; in brackets the values of the lens.</source><translation>Wellen (Spitze) ± eine Standardabweichung; in Klammern die des Objektivs.</translation></message>
 <message><source>Perfect lens</source><translation>Ideale Linse</translation></message>
 <message><source>Perfect lens and pixels</source><translation>Ideale Linse und Pixel</translation></message>
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
@@ -451,7 +453,7 @@
 <message><source>Photo…</source><translation>Foto …</translation></message>
 <message><source>Picture (*.png)</source><translation>Bild (*.png)</translation></message>
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
-<message><source>Picture before and after the lens; arrows move the place looked at, Shift the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile verschieben den betrachteten Ort, mit Umschalt die Teilung</translation></message>
+<message><source>Picture before and after the lens; arrow keys move the place you look at, with Shift the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile verschieben den betrachteten Ort, mit Umschalt die Teilung</translation></message>
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</source><translation>Bilder (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff)</source><translation>Bilder (*.png *.tif *.tiff)</translation></message>
@@ -463,11 +465,11 @@
 <message><source>Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen, oder B entfernen (Strg+B)</translation></message>
 <message><source>Pixel</source><translation>Pixel</translation></message>
 <message><source>Pixel pitch</source><translation>Pixelabstand</translation></message>
-<message><source>Pixel pitch of the picture; listings and this program's PSFs state their own</source><translation>Pixelabstand des Bildes; Listen und PSFs dieses Programms nennen ihren eigenen</translation></message>
+<message><source>Pixel pitch of the picture; listings and PSFs of this program state theirs</source><translation>Pixelabstand des Bildes; Listen und PSFs dieses Programms nennen ihren eigenen</translation></message>
 <message><source>Pixel pitch of the sensor.</source><translation>Pixelabstand des Sensors.</translation></message>
 <message><source>Pixel pitch of the sensor; its Nyquist frequency is 1/(2 pitch).</source><translation>Pixelabstand des Sensors; seine Nyquist-Frequenz ist 1/(2 Abstand).</translation></message>
 <message><source>Pixels a side</source><translation>Pixel je Seite</translation></message>
-<message><source>Pixels along each side of every PSF; auto holds the widest one</source><translation>Pixel entlang jeder Seite jeder PSF; auto fasst die breiteste</translation></message>
+<message><source>Pixels along each side of every PSF; auto fits the widest one</source><translation>Pixel entlang jeder Seite jeder PSF; auto fasst die breiteste</translation></message>
 <message><source>Pixels at the field point, or the field</source><translation>Pixel am Feldpunkt, oder das Feld</translation></message>
 <message><source>Places</source><translation>Orte</translation></message>
 <message><source>Plan it after all</source><translation>Doch noch planen</translation></message>
@@ -482,7 +484,8 @@
 <message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
 <message><source>Points</source><translation>Punkte</translation></message>
 <message><source>Pop out</source><translation>Lösen</translation></message>
-<message><source>Preparing the 3D view: loading it takes some seconds, once.</source><translation>Die 3D-Ansicht wird vorbereitet: das Laden dauert einmal einige Sekunden.</translation></message>
+<message><source>Position of the sensor from the last vertex: at the image of the focus distance, shifted by Δz.</source><translation>Wo der Sensor steht, vom letzten Scheitel: im Bild des eingestellten Abstands, um Δz verschoben.</translation></message>
+<message><source>Preparing the 3D view; this takes some seconds, once.</source><translation>Die 3D-Ansicht wird vorbereitet: das Laden dauert einmal einige Sekunden.</translation></message>
 <message><source>Present: the stage on the full screen, or back (Esc)</source><translation>Vorführen: die Bühne auf dem ganzen Bildschirm, oder zurück (Esc)</translation></message>
 <message><source>Preset</source><translation>Vorgabe</translation></message>
 <message><source>Presets</source><translation>Vorgaben</translation></message>
@@ -496,8 +499,6 @@
 <message><source>Pupil phase</source><translation>Pupillenphase</translation></message>
 <message><source>Pupil shape</source><translation>Pupillenform</translation></message>
 <message><source>Pupils</source><translation>Pupillen</translation></message>
-<message><source>Put into the stop what the lens file has in it</source><translation>In die Blende setzen, was die Objektivdatei dort hat</translation></message>
-<message><source>Put the sensor where the lens file has it</source><translation>Den Sensor dorthin setzen, wo ihn die Datei hat</translation></message>
 <message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
 <message><source>Put the sweep away</source><translation>Durchlauf wegräumen</translation></message>
 <message><source>Put this panel on the stage (double-click its title, or drag it there)</source><translation>Diese Ansicht auf die Bühne stellen (Doppelklick auf den Titel, oder dorthin ziehen)</translation></message>
@@ -529,9 +530,9 @@
 <message><source>Ray fan</source><translation>Strahlfächer</translation></message>
 <message><source>Ray fan: how far an exact ray lands from the chief ray, against its place in the pupil.</source><translation>Strahlfächer: wie weit vom Hauptstrahl ein exakter Strahl landet, über seinem Ort in der Pupille.</translation></message>
 <message><source>Rays</source><translation>Strahlen</translation></message>
-<message><source>Rays coloured by their kind, or from every field or at every wavelength that the lens states</source><translation>Strahlen nach ihrer Art gefärbt, oder von jedem Feld oder bei jeder Wellenlänge, die das Objektiv nennt</translation></message>
+<message><source>Rays coloured by kind, or from every field or at every wavelength of the lens</source><translation>Strahlen nach ihrer Art gefärbt, oder von jedem Feld oder bei jeder Wellenlänge, die das Objektiv nennt</translation></message>
 <message><source>Rays fill</source><translation>Strahlen füllen</translation></message>
-<message><source>Rays fill: the real stop, as light does, or the paraxial entrance pupil, the usual choice of the paper and of most programs. Off axis and in fast lenses the two differ.</source><translation>Strahlen füllen: die wahre Blende, wie es das Licht tut, oder die paraxiale Eintrittspupille, die übliche Wahl des Artikels und der meisten Programme. Außer der Achse und in lichtstarken Objektiven unterscheiden sich beide.</translation></message>
+<message><source>Rays fill: the real stop, as light does, or the paraxial entrance pupil, as in the paper and by default in most programs. The two differ off axis and in fast lenses.</source><translation>Strahlen füllen: die wahre Blende, wie es das Licht tut, oder die paraxiale Eintrittspupille, die übliche Wahl des Artikels und der meisten Programme. Außer der Achse und in lichtstarken Objektiven unterscheiden sich beide.</translation></message>
 <message><source>Rays within the rims</source><translation>Strahlen in den Rändern</translation></message>
 <message><source>Rear focal point, where light from a far axial point meets, from the last vertex: f′·A.</source><translation>Bildseitiger Brennpunkt, wo sich das Licht eines fernen Achspunkts trifft, vom letzten Scheitel: f′·A.</translation></message>
 <message><source>Rear principal plane, from which f′ is measured to F′; from the last vertex.</source><translation>Bildseitige Hauptebene, von der f′ bis F′ zählt; vom letzten Scheitel.</translation></message>
@@ -540,14 +541,21 @@
 <message><source>Redo: take the step again (Ctrl+Shift+Z)</source><translation>Wiederholen: den Schritt noch einmal tun (Strg+Umschalt+Z)</translation></message>
 <message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
+<message><source>Remove this surface; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Report</source><translation>Bericht</translation></message>
 <message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
 <message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
 <message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Reset all</source><translation>Alles zurücksetzen</translation></message>
+<message><source>Reset all errors of the lens</source><translation>Jede Zahl des Objektivs wieder richtig stellen</translation></message>
+<message><source>Reset all errors of this piece</source><translation>Jede Zahl dieses Teils wieder richtig stellen</translation></message>
 <message><source>Reset piece</source><translation>Teil zurücksetzen</translation></message>
+<message><source>Reset this error</source><translation>Diese Zahl wieder richtig stellen</translation></message>
+<message><source>Restore the pupil of the lens file</source><translation>In die Blende setzen, was die Objektivdatei dort hat</translation></message>
+<message><source>Resume the plan that was cancelled, and make its picture</source><translation>Den abgebrochenen Plan doch machen und das Bild danach</translation></message>
 <message><source>Retrofocus wide angle f/2, 35 mm, 63 degree field</source><translation>Retrofokus-Weitwinkel f/2, 35 mm, 63 Grad Feld</translation></message>
+<message><source>Return the sensor to where the lens file has it</source><translation>Den Sensor dorthin setzen, wo ihn die Datei hat</translation></message>
 <message><source>Reverse telephoto f/6.7, 60 degree field (f = 2)</source><translation>Umgekehrtes Teleobjektiv f/6,7, 60 Grad Feld (f = 2)</translation></message>
 <message><source>Roundness</source><translation>Rundung</translation></message>
 <message><source>Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.</source><translation>Rundung der Lamellenkanten: ihre Krümmung mal dem Radius des Randes, 0 gerade, 1 ein Kreis.</translation></message>
@@ -581,48 +589,48 @@
 <message><source>Save the picture as PNG or TIFF, the state beside it</source><translation>Das Bild als PNG oder TIFF speichern, daneben den Zustand</translation></message>
 <message><source>Save the report</source><translation>Bericht speichern</translation></message>
 <message><source>Save the sweep as a film…</source><translation>Durchlauf als Film speichern …</translation></message>
+<message><source>Save the sweep from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
 <message><source>Save the view as a picture, or the scene as glTF or OBJ</source><translation>Die Ansicht als Bild oder die Szene als glTF oder OBJ speichern</translation></message>
-<message><source>Save the way from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
 <message><source>Save the workspace</source><translation>Arbeitsbereich speichern</translation></message>
-<message><source>Save this lens with the sensor where the picture tells it is, or its PSF database</source><translation>Dieses Objektiv mit dem Sensor dort speichern, wo er nach dem Bild steht, oder seine PSF-Datenbank</translation></message>
+<message><source>Save this lens with the sensor where the picture shows it to be, or its PSF database</source><translation>Dieses Objektiv mit dem Sensor dort speichern, wo er nach dem Bild steht, oder seine PSF-Datenbank</translation></message>
 <message><source>Saved {count} frames, {first} to {last}</source><translation>{count} Bilder gespeichert, {first} bis {last}</translation></message>
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
 <message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
-<message><source>Sections of the PSF through the chief ray, over its own peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of its centroid; grey: a perfect lens, where something stands in the stop of the same pupil, and thin of the clear one. The RMS radius is that of the rays: the light behind a hard edge has none.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse, mit etwas in der Blende die derselben Pupille, und dünn die der freien. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
-<message><source>Seidel and chromatic sums: what each surface adds, in waves at the pupil's rim; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength less those of its longest. Point at a bar: its surface is lit in the layout, and the other way round.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
-<message><source>Seidel is of the lens set straight; the other methods know its tilts, decentres and irregularities.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Sections of the PSF through the chief ray, relative to its peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of the centroid; grey: a perfect lens. If something stands in the stop, the perfect lens has the same pupil, and a thin curve is for the clear one. The RMS radius is that of the rays, since that of diffracted light is infinite.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse, mit etwas in der Blende die derselben Pupille, und dünn die der freien. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
+<message><source>Seidel and chromatic sums: what each surface adds, in waves at the rim of the pupil; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength minus those of its longest. Point at a bar to highlight its surface in the layout, or at a surface to highlight its bar.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
+<message><source>Seidel is of the aligned lens; the other methods know its tilts, decentres and irregularities.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen, Dezentrierungen und Passfehler.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>Sensor</source><translation>Sensor</translation></message>
 <message><source>Sensor position</source><translation>Sensorort</translation></message>
 <message><source>Sensor shift</source><translation>Sensorversatz</translation></message>
-<message><source>Sensor shift Δz away from the lens, on top of focus; it adds defocus Wd = NA²Δz/(2n′λ).</source><translation>Sensorversatz Δz weg vom Objektiv, zusätzlich zur Einstellung; er fügt den Defokus Wd = NA²Δz/(2n′λ) hinzu.</translation></message>
+<message><source>Sensor shift Δz away from the lens, in addition to focus; it adds the defocus Wd = NA²Δz/(2n′λ).</source><translation>Sensorversatz Δz weg vom Objektiv, zusätzlich zur Einstellung; er fügt den Defokus Wd = NA²Δz/(2n′λ) hinzu.</translation></message>
 <message><source>Sensor − image</source><translation>Sensor − Bild</translation></message>
-<message><source>Set every number of the lens right again</source><translation>Jede Zahl des Objektivs wieder richtig stellen</translation></message>
-<message><source>Set every number of this piece right again</source><translation>Jede Zahl dieses Teils wieder richtig stellen</translation></message>
 <message><source>Set of PSFs…</source><translation>Satz PSFs …</translation></message>
-<message><source>Set this number right again</source><translation>Diese Zahl wieder richtig stellen</translation></message>
+<message><source>Share of a pixel's area that is sensitive: a square in its middle</source><translation>Wie viel der Fläche eines Pixels empfindlich ist: ein Quadrat in seiner Mitte</translation></message>
+<message><source>Share of the traced rays that pass every rim and arrive.</source><translation>Die jeden Rand passieren und ankommen, von den verfolgten.</translation></message>
 <message><source>Sharpening</source><translation>Schärfung</translation></message>
 <message><source>Shift, Alt</source><translation>Umschalt, Alt</translation></message>
 <message><source>Shifts</source><translation>Versatz</translation></message>
 <message><source>Shipped lenses</source><translation>Mitgelieferte Objektive</translation></message>
 <message><source>Shortcuts</source><translation>Tastenkürzel</translation></message>
 <message><source>Shortcuts and mouse (Shift+F1 or ?)</source><translation>Tastenkürzel und Maus (Umschalt+F1 oder ?)</translation></message>
-<message><source>Shorter than its focal length: positive group in front, negative behind</source><translation>Kürzer als seine Brennweite: vorn eine sammelnde Gruppe, dahinter eine zerstreuende</translation></message>
+<message><source>Shorter than its focal length: a positive group in front, a negative one behind</source><translation>Kürzer als seine Brennweite: vorn eine sammelnde Gruppe, dahinter eine zerstreuende</translation></message>
 <message><source>Show A − B; a panel in which a difference means nothing shows A and says why</source><translation>A − B zeigen; eine Ansicht, in der eine Differenz nichts bedeutet, zeigt A und sagt, warum</translation></message>
 <message><source>Show A, B, A − B in turn</source><translation>A, B, A − B der Reihe nach zeigen</translation></message>
 <message><source>Show A, which the controls move</source><translation>A zeigen, das die Regler bewegen</translation></message>
 <message><source>Show B, as it was pinned</source><translation>B zeigen, wie es gemerkt wurde</translation></message>
+<message><source>Show a slider for the field along x even if the lens is symmetric</source><translation>Ein Regler für das Feld entlang x auch dort, wo das Objektiv symmetrisch ist</translation></message>
 <message><source>Show or hide the controls</source><translation>Regler zeigen oder verbergen</translation></message>
 <message><source>Show or hide what stands beside the stage</source><translation>Zeigen oder verbergen, was neben der Bühne steht</translation></message>
 <message><source>Show the answer</source><translation>Antwort zeigen</translation></message>
 <message><source>Show the answer (Alt+Down)</source><translation>Antwort zeigen (Alt+Abwärts)</translation></message>
-<message><source>Show the window as it was; Ctrl+Z comes back to this one</source><translation>Das Fenster zeigen, wie es war; Strg+Z kehrt zu diesem zurück</translation></message>
-<message><source>Show this point's fitted pupil in the window, as a free pupil; undo brings the lens back</source><translation>Die angepasste Pupille dieses Punktes im Fenster zeigen, als freie Pupille; Rückgängig holt das Objektiv zurück</translation></message>
+<message><source>Show the fitted pupil of this point in the window, as a free pupil; undo returns to the lens</source><translation>Die angepasste Pupille dieses Punktes im Fenster zeigen, als freie Pupille; Rückgängig holt das Objektiv zurück</translation></message>
+<message><source>Show the window as it was; Ctrl+Z returns to this one</source><translation>Das Fenster zeigen, wie es war; Strg+Z kehrt zu diesem zurück</translation></message>
 <message><source>Siemens star</source><translation>Siemensstern</translation></message>
-<message><source>Six coefficients are those of the lens set straight, without its tilts, decentres and irregularities; choose auto, fitted or traced to see what these do.</source><translation>Die sechs Koeffizienten sind die des gerade gestellten Objektivs, ohne seine Kippungen, Dezentrierungen und Passfehler; auto, fitted oder traced wählen, um zu sehen, was diese tun.</translation></message>
+<message><source>Six coefficients are those of the aligned lens, without its tilts, decentres and irregularities; choose auto, fitted or traced to see what these do.</source><translation>Die sechs Koeffizienten sind die des gerade gestellten Objektivs, ohne seine Kippungen, Dezentrierungen und Passfehler; auto, fitted oder traced wählen, um zu sehen, was diese tun.</translation></message>
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
 <message><source>Smaller type</source><translation>Kleinere Schrift</translation></message>
 <message><source>Snapshot</source><translation>Sichern</translation></message>
@@ -633,7 +641,6 @@
 <message><source>Spherical, 1 λ, best focus</source><translation>Sphärisch, 1 λ, bester Fokus</translation></message>
 <message><source>Spherical, 1 λ, marginal focus</source><translation>Sphärisch, 1 λ, Randfokus</translation></message>
 <message><source>Spherical, 1 λ, paraxial focus</source><translation>Sphärisch, 1 λ, paraxialer Fokus</translation></message>
-<message><source>Split what follows this surface by a plane; nothing changes until it is edited (Insert)</source><translation>Was dieser Fläche folgt, durch eine Ebene teilen; es ändert sich nichts, bis sie bearbeitet wird (Einfg)</translation></message>
 <message><source>Spot</source><translation>Spot</translation></message>
 <message><source>Spot diagram</source><translation>Spotdiagramm</translation></message>
 <message><source>Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction.</source><translation>Spotdiagramm: wo exakte, über die Pupille gleichmäßig verteilte Strahlen auf den Sensor treffen; ohne Beugung.</translation></message>
@@ -644,10 +651,10 @@
 <message><source>Stop filming and leave no file</source><translation>Aufnahme abbrechen und keine Datei hinterlassen</translation></message>
 <message><source>Stop measuring</source><translation>Das Messen anhalten</translation></message>
 <message><source>Stop radius</source><translation>Blendenradius</translation></message>
-<message><source>Stop shift: the stop's distance behind the surface before it, within its air gap; the f-number stays.</source><translation>Blendenverschiebung: der Abstand der Blende hinter der Fläche davor, in ihrem Luftabstand; die Blendenzahl bleibt.</translation></message>
+<message><source>Stop shift: distance of the stop behind the surface before it, within its air gap; the f-number does not change.</source><translation>Blendenverschiebung: der Abstand der Blende hinter der Fläche davor, in ihrem Luftabstand; die Blendenzahl bleibt.</translation></message>
 <message><source>Stop the computation</source><translation>Die Rechnung anhalten</translation></message>
-<message><source>Stop: the surface whose rim limits the light; named by the lens file, or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
-<message><source>Stopped. Draw again starts anew.</source><translation>Angehalten. Neu ziehen beginnt von vorn.</translation></message>
+<message><source>Stop: the surface whose rim limits the light, as named by the lens file or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
+<message><source>Stopped. Draw again starts again.</source><translation>Angehalten. Neu ziehen beginnt von vorn.</translation></message>
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
 <message><source>Strehl ratio {value}</source><translation>Strehl-Verhältnis {value}</translation></message>
@@ -662,44 +669,44 @@
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
 <message><source>Take it up again</source><translation>Wieder aufnehmen</translation></message>
 <message><source>Take the lens as measured into the window and sharpen photos that it took; undo brings the lens back</source><translation>Das Objektiv, wie gemessen, ins Fenster übernehmen und Fotos schärfen, die es aufgenommen hat; Rückgängig bringt das Objektiv zurück</translation></message>
-<message><source>Take this surface out; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Teach</source><translation>Lehren</translation></message>
 <message><source>Telecentric relay 1:1, NA 0.05 (finite objects only)</source><translation>Telezentrisches Übertragungsobjektiv 1:1, NA 0,05 (nur für nahe Objekte)</translation></message>
 <message><source>Telephoto f/5.6, 127 mm</source><translation>Teleobjektiv f/5,6, 127 mm</translation></message>
 <message><source>Tessar f/4.5 (unit scale, f = 4 in)</source><translation>Tessar f/4,5 (Einheitsmaßstab, f = 4 Zoll)</translation></message>
 <message><source>Text of the lesson</source><translation>Text der Lektion</translation></message>
 <message><source>Textbook wavefronts, in a free pupil</source><translation>Wellenfronten aus dem Lehrbuch, in freier Pupille</translation></message>
-<message><source>That pass every rim and arrive, of those traced.</source><translation>Die jeden Rand passieren und ankommen, von den verfolgten.</translation></message>
 <message><source>The PSF on the stage; layout, coefficients and profiles beside it</source><translation>Die PSF auf der Bühne; Aufbau, Koeffizienten und Profile daneben</translation></message>
-<message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each over its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
+<message><source>The PSF, the Airy pattern of a perfect lens of this aperture (each relative to its own peak), and the PSF integrated over square pixels, the middle one centred on the chief ray.</source><translation>Die PSF, das Airy-Muster einer idealen Linse dieser Öffnung (jede über ihrer eigenen Spitze) und die PSF, über quadratische Pixel summiert; das mittlere liegt um den Hauptstrahl.</translation></message>
 <message><source>The achromat's plain companion: same focal length and aperture, one glass</source><translation>Das schlichte Gegenstück zum Achromaten: gleiche Brennweite und Öffnung, ein Glas</translation></message>
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
-<message><source>The complete trade is measured of shipped lenses; of others by p2sf tradeoff LENS --complete</source><translation>Der vollständige Vergleich ist für die mitgelieferten Objektive gemessen; für andere mit p2sf tradeoff LENS --complete</translation></message>
+<message><source>The complete trade has been measured for shipped lenses; for others, run p2sf tradeoff LENS --complete</source><translation>Der vollständige Vergleich ist für die mitgelieferten Objektive gemessen; für andere mit p2sf tradeoff LENS --complete</translation></message>
 <message><source>The distance between pixels, µm</source><translation>Der Abstand der Pixel, µm</translation></message>
-<message><source>The explorer did not end as it should. What was on screen has been kept.</source><translation>Der Explorer ist nicht ordentlich zu Ende gegangen. Was auf dem Bildschirm war, ist aufgehoben.</translation></message>
+<message><source>The explorer did not close properly. What was on screen has been kept.</source><translation>Der Explorer ist nicht ordentlich zu Ende gegangen. Was auf dem Bildschirm war, ist aufgehoben.</translation></message>
 <message><source>The explorer has made a mistake.</source><translation>Der Explorer hat einen Fehler gemacht.</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The first picture is being made …</source><translation>Das erste Bild entsteht …</translation></message>
 <message><source>The human eye, 60 dioptres, with its image in the vitreous (n' = 1.3377)</source><translation>Das menschliche Auge, 60 Dioptrien, mit dem Bild im Glaskörper (n' = 1,3377)</translation></message>
+<message><source>The interpolation whose error is shown</source><translation>Zu welcher Interpolation der Fehler gehört</translation></message>
 <message><source>The layout on the stage; lens table and PSF below</source><translation>Der Aufbau auf der Bühne; Objektivtabelle und PSF darunter</translation></message>
 <message><source>The lens differs from its file; save it from the lens table (Ctrl+Shift+S)</source><translation>Das Objektiv weicht von seiner Datei ab; speichern in der Objektivtabelle (Strg+Umschalt+S)</translation></message>
 <message><source>The lens in space; arrow keys turn it, + and − zoom</source><translation>Das Objektiv im Raum; Pfeiltasten drehen, + und − vergrößern und verkleinern</translation></message>
-<message><source>The lens to scale: the stop limits the cone of light; its images by the lens are the pupils EnP and ExP. With Clip at rims a ray ends, with a bar, at the rim that stops it. Drag source, sensor or stop; click glass, then drag it, its edges or its vertices.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält. Ziehen Sie Quelle, Sensor oder Blende; klicken Sie Glas an und ziehen Sie dann an ihm, seinen Rändern oder Scheiteln.</translation></message>
-<message><source>The lens's own: {own}. Added by hand: {added}. Drag the slider to add waves, double-click to take them away; click the number, or press Return, to type it.</source><translation>Vom Objektiv selbst: {own}. Von Hand hinzugefügt: {added}. Ziehen Sie den Regler, um Wellen hinzuzufügen, ein Doppelklick nimmt sie weg; klicken Sie auf die Zahl oder drücken Sie die Eingabetaste, um sie zu tippen.</translation></message>
-<message><source>The lens: open the gallery of shipped ones (Ctrl+L); files are under Open (Ctrl+O)</source><translation>Das Objektiv: die Galerie der mitgelieferten öffnen (Strg+L); Dateien sind unter Öffnen (Strg+O)</translation></message>
+<message><source>The lens to scale. The stop limits the cone of light; the lens images it into the pupils EnP and ExP. With Clip at rims, a ray ends with a bar at the rim that stops it. Drag the source, the sensor or the stop; click glass, then drag it, its edges or its vertices.</source><translation>Das Objektiv maßstäblich: Die Blende begrenzt den Lichtkegel; ihre Bilder durch das Objektiv sind die Pupillen EnP und ExP. Mit Randbeschnitt endet ein Strahl mit einem Balken am Rand, der ihn aufhält. Ziehen Sie Quelle, Sensor oder Blende; klicken Sie Glas an und ziehen Sie dann an ihm, seinen Rändern oder Scheiteln.</translation></message>
+<message><source>The limit that a good lens meets in every field; at first, the one that four lenses of five meet.</source><translation>Was jedes Feld eines guten Objektivs einhält; anfangs, was vier von fünf Objektiven einhalten.</translation></message>
+<message><source>The medium behind the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
 <message><source>The next step (Alt+Right)</source><translation>Der nächste Schritt (Alt+Rechts)</translation></message>
 <message><source>The object lies in the front focal plane, so its image is at infinity; move the source.</source><translation>Das Objekt liegt in der objektseitigen Brennebene, sein Bild also im Unendlichen; die Quelle verschieben.</translation></message>
 <message><source>The panel's data are on the clipboard</source><translation>Die Daten der Ansicht sind in der Zwischenablage</translation></message>
 <message><source>The panel's picture is on the clipboard</source><translation>Das Bild der Ansicht ist in der Zwischenablage</translation></message>
 <message><source>The paper's lens: six elements round a stop, excellent on axis, oblique spherical at the corner</source><translation>Das Objektiv des Aufsatzes: sechs Linsen um eine Blende, hervorragend auf der Achse, schiefe sphärische Aberration in der Ecke</translation></message>
-<message><source>The paraxial curve and its limits are of the lens set straight; the exact rays are not.</source><translation>Die paraxiale Kurve und ihre Grenzen gelten für das gerade gestellte Objektiv, die exakten Strahlen für das dejustierte.</translation></message>
+<message><source>The paraxial curve and its limits are of the aligned lens; the exact rays are not.</source><translation>Die paraxiale Kurve und ihre Grenzen gelten für das gerade gestellte Objektiv, die exakten Strahlen für das dejustierte.</translation></message>
 <message><source>The piece that the sliders move: an element, a group, the whole lens or the sensor</source><translation>Das Teil, das die Regler bewegen: eine Linse, eine Gruppe, das ganze Objektiv oder der Sensor</translation></message>
 <message><source>The point's spectrum; or type planck:4300 (kelvin) or lines:486,656 (nm)</source><translation>Das Spektrum des Punktes; oder planck:4300 (Kelvin) oder lines:486,656 (nm) tippen</translation></message>
+<message><source>The proportions of the photo differ from those of the sensor ({columns} × {rows} pixels). It fills the frame; its sides are cut off, {percent:.0f} % of its width.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist seitlich abgeschnitten, {percent:.0f} % seiner Breite.</translation></message>
+<message><source>The proportions of the photo differ from those of the sensor ({columns} × {rows} pixels). It fills the frame; its top and bottom are cut off, {percent:.0f} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {percent:.0f} % seiner Höhe.</translation></message>
 <message><source>The rear-stop landscape lens turned around: its stop stands before the meniscus</source><translation>Die Landschaftslinse mit hinterer Blende, umgedreht: ihre Blende steht vor dem Meniskus</translation></message>
 <message><source>The selected element: drag it sideways to bend it, its thin-lens power stays; up or down to decentre it. A click selects its group.</source><translation>Die gewählte Linse: seitwärts ziehen, um sie durchzubiegen, ihre Brechkraft als dünne Linse bleibt; auf oder ab, um sie zu dezentrieren. Ein Klick wählt ihre Gruppe.</translation></message>
+<message><source>The selected piece. A click selects its group; its sliders are in the Misalign panel.</source><translation>Das Gewählte. Ein Klick wählt seine Gruppe; seine Regler stehen im Feld Dejustieren.</translation></message>
 <message><source>The sensitivities are computed from exact rays.</source><translation>Die Empfindlichkeiten werden aus exakten Strahlen berechnet.</translation></message>
-<message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its sides are cut off, {percent:.0f} % of its width.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist seitlich abgeschnitten, {percent:.0f} % seiner Breite.</translation></message>
-<message><source>The sensor has {columns} × {rows} pixels and the photo other proportions, so that it fills the frame and its top and bottom are cut off, {percent:.0f} % of its height.</source><translation>Der Sensor hat {columns} × {rows} Pixel und das Foto ein anderes Seitenverhältnis, daher füllt es den Rahmen und ist oben und unten abgeschnitten, {percent:.0f} % seiner Höhe.</translation></message>
 <message><source>The sensor: drag it along the axis to shift it.</source><translation>Der Sensor: entlang der Achse ziehen, um ihn zu verschieben.</translation></message>
 <message><source>The source: drag it up and down to change the field, sideways to change the depth; ∞ is at the left.</source><translation>Die Quelle: nach oben und unten ziehen ändert das Feld, seitlich den Abstand; ∞ liegt links.</translation></message>
 <message><source>The step before (Alt+Left)</source><translation>Der Schritt davor (Alt+Links)</translation></message>
@@ -707,50 +714,51 @@
 <message><source>The stop seen from the sensor: its diameter, and its place from the last vertex.</source><translation>Die Blende vom Sensor aus gesehen: ihr Durchmesser und ihr Ort vom letzten Scheitel.</translation></message>
 <message><source>The stop's rim: drag it up or down to change the f-number.</source><translation>Der Rand der Blende: nach oben oder unten ziehen ändert die Blendenzahl.</translation></message>
 <message><source>The stop: drag it along the axis within its air gap; the f-number stays.</source><translation>Die Blende: entlang der Achse in ihrem Luftabstand ziehen; die Blendenzahl bleibt.</translation></message>
-<message><source>The surface whose rim limits the light: the least |rim/y| on the way of the marginal ray, or the file's choice.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
+<message><source>The surface whose rim limits the light: the smallest |rim/y| along the marginal ray, or the one that the file names.</source><translation>Die Fläche, deren Rand das Licht begrenzt: das kleinste |Rand/y| auf dem Weg des Randstrahls, oder wie es die Datei sagt.</translation></message>
 <message><source>The surface's edge: drag it sideways to change the radius.</source><translation>Der Rand der Fläche: seitlich ziehen ändert den Radius.</translation></message>
 <message><source>The telescope that the prescription meant, and that its later instruments see</source><translation>Das Teleskop, das der Entwurf meinte und das seine späteren Instrumente sehen</translation></message>
+<message><source>The tolerances that workshops offer under this name; you can change the ± values below.</source><translation>Was Werkstätten unter diesem Namen anbieten; die ±-Werte unten lassen sich überschreiben.</translation></message>
 <message><source>The vertex: drag it along the axis to change the thickness before it; what follows moves with it.</source><translation>Der Scheitel: entlang der Achse ziehen ändert die Dicke davor; was folgt, wandert mit.</translation></message>
 <message><source>The wavefront as a surface; drag it or use the arrow keys to turn it</source><translation>Die Wellenfront als Fläche; durch Ziehen oder mit den Pfeiltasten zu drehen</translation></message>
 <message><source>The whole plot</source><translation>Das ganze Diagramm</translation></message>
 <message><source>The whole plot (Home, double-click)</source><translation>Das ganze Diagramm (Pos1, Doppelklick)</translation></message>
 <message><source>The window</source><translation>Das Fenster</translation></message>
-<message><source>The window began with this lesson, so there is nothing to put back: its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
-<message><source>The window could not be saved, since its folder cannot be written; save what you need with Ctrl+E.</source><translation>Das Fenster konnte nicht gespeichert werden, da sein Ordner nicht beschreibbar ist; was gebraucht wird, mit Strg+E speichern.</translation></message>
+<message><source>The window began with this lesson, so there is nothing to restore; its lens stays</source><translation>Das Fenster begann mit dieser Lektion, also gibt es nichts zurückzuholen: ihr Objektiv bleibt</translation></message>
+<message><source>The window could not be saved because its folder is not writable; save what you need with Ctrl+E.</source><translation>Das Fenster konnte nicht gespeichert werden, da sein Ordner nicht beschreibbar ist; was gebraucht wird, mit Strg+E speichern.</translation></message>
 <message><source>Theme</source><translation>Aussehen</translation></message>
 <message><source>Theory</source><translation>Theorie</translation></message>
 <message><source>Theory of this panel</source><translation>Theorie zu dieser Ansicht</translation></message>
 <message><source>Theory: conventions, formulas, sources</source><translation>Theorie: Konventionen, Formeln, Quellen</translation></message>
-<message><source>These PSFs are the density of rays; pixels hide most of what diffraction adds to ones so wide.</source><translation>Diese PSFs sind die Dichte der Strahlen; das meiste, was Beugung zu so breiten beiträgt, verbergen die Pixel.</translation></message>
+<message><source>These PSFs are ray densities; they are so wide that pixels hide most of what diffraction adds.</source><translation>Diese PSFs sind die Dichte der Strahlen; das meiste, was Beugung zu so breiten beiträgt, verbergen die Pixel.</translation></message>
+<message><source>These settings cannot be computed; what was here belonged to the previous ones.</source><translation>Diese Einstellung lässt sich nicht berechnen; was hier war, gehört zur vorigen.</translation></message>
 <message><source>Thickness {surface}</source><translation>Dicke {surface}</translation></message>
 <message><source>Thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>Thickness: its error behind this surface; what follows moves with it.</source><translation>Dicke: ihr Fehler hinter dieser Fläche; was folgt, bewegt sich mit.</translation></message>
-<message><source>This is A: a build is opened as A beside the lens as designed, and both have one yield.</source><translation>Dies ist A: Ein Exemplar öffnet sich als A neben dem Objektiv wie entworfen, und beide haben eine Ausbeute.</translation></message>
+<message><source>This is A: a build is shown as A and the designed lens as B, and both have the same yield.</source><translation>Dies ist A: Ein Exemplar öffnet sich als A neben dem Objektiv wie entworfen, und beide haben eine Ausbeute.</translation></message>
 <message><source>This is A: a database belongs to one lens.</source><translation>Dies ist A: eine Datenbank gehört zu einem Objektiv.</translation></message>
+<message><source>This is A: a photograph cannot show negative light.</source><translation>Dies ist A: Licht, von dem A weniger hat als B, lässt sich nicht als Foto zeigen.</translation></message>
 <message><source>This is A: a picture is measured beside one lens.</source><translation>Das ist A: Ein Bild wird neben einem Objektiv vermessen.</translation></message>
-<message><source>This is A: a spot is places of rays, not amounts; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
-<message><source>This is A: bodies in space have no difference that could be shown.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
-<message><source>This is A: curves of several fields or colours are many already; MTF and Field show A − B.</source><translation>Das ist A: Kurven mehrerer Felder oder Farben sind schon viele; MTF und Feld zeigen A − B.</translation></message>
+<message><source>This is A: a spot diagram has positions, not amounts, to subtract; the fans show A − B.</source><translation>Dies ist A: ein Spot besteht aus Orten von Strahlen, nicht aus Mengen; A − B zeigen die Fächer.</translation></message>
 <message><source>This is A: each lens is measured against its own rays.</source><translation>Dies ist A: jedes Objektiv wird an seinen eigenen Strahlen gemessen.</translation></message>
 <message><source>This is A: fields × A | B shows the pictures of both side by side.</source><translation>Das ist A: Felder × A | B zeigt die Bilder von beiden nebeneinander.</translation></message>
 <message><source>This is A: here it is compared with a perfect lens.</source><translation>Dies ist A: hier wird es mit einem perfekten Objektiv verglichen.</translation></message>
-<message><source>This is A: how far it is sharp is where it begins and ends, which B does not move.</source><translation>Dies ist A: wie weit es scharf ist, sagen Anfang und Ende, und B verschiebt sie nicht.</translation></message>
-<message><source>This is A: it has {a} surfaces and B has {b}, so that none stands for another.</source><translation>Dies ist A: es hat {a} Flächen und B hat {b}, sodass keine einer anderen entspricht.</translation></message>
+<message><source>This is A: it has {a} surfaces and B has {b}, so they do not correspond.</source><translation>Dies ist A: es hat {a} Flächen und B hat {b}, sodass keine einer anderen entspricht.</translation></message>
 <message><source>This is A: it is the lens that is edited here; the strip above names what differs.</source><translation>Dies ist A: bearbeitet wird hier dieses Objektiv; die Leiste oben nennt, worin sie sich unterscheiden.</translation></message>
 <message><source>This is A: it is the lens whose build is set here; the strip above names what differs.</source><translation>Dies ist A: hier wird eingestellt, wie das Objektiv gebaut ist; der Streifen oben nennt, was verschieden ist.</translation></message>
 <message><source>This is A: it is what was read from its file.</source><translation>Dies ist A: es ist, was aus seiner Datei gelesen wurde.</translation></message>
-<message><source>This is A: light that A has less of than B cannot be shown as a photograph.</source><translation>Dies ist A: Licht, von dem A weniger hat als B, lässt sich nicht als Foto zeigen.</translation></message>
-<message><source>This is A: one colour less another is no colour.</source><translation>Dies ist A: eine Farbe weniger eine andere ist keine Farbe.</translation></message>
-<message><source>This is A: over the field the pictures of A and of B have windows of their own; PSF shows A − B.</source><translation>Dies ist A: über das Feld haben die Bilder von A und von B eigene Fenster; A − B zeigt die PSF.</translation></message>
+<message><source>This is A: one colour minus another is not a colour.</source><translation>Dies ist A: eine Farbe weniger eine andere ist keine Farbe.</translation></message>
+<message><source>This is A: solid bodies have no difference to show.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
 <message><source>This is A: the curves of A or of B take longer than a frame.</source><translation>Das ist A: die Kurven von A oder von B brauchen länger als ein Bild.</translation></message>
-<message><source>This is A: the diagram's points are surfaces, and those of B are others.</source><translation>Dies ist A: die Punkte des Diagramms sind Flächen, und die von B sind andere.</translation></message>
-<message><source>This is A: two lenses drawn to scale have no difference that could be drawn.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
+<message><source>This is A: the limits of sharpness are positions, not amounts, to subtract.</source><translation>Dies ist A: wie weit es scharf ist, sagen Anfang und Ende, und B verschiebt sie nicht.</translation></message>
+<message><source>This is A: the pictures of A and of B have different windows; PSF shows A − B.</source><translation>Dies ist A: über das Feld haben die Bilder von A und von B eigene Fenster; A − B zeigt die PSF.</translation></message>
+<message><source>This is A: the points of the diagram are surfaces, and B has different ones.</source><translation>Dies ist A: die Punkte des Diagramms sind Flächen, und die von B sind andere.</translation></message>
+<message><source>This is A: there are many curves already; MTF and Field show A − B.</source><translation>Das ist A: Kurven mehrerer Felder oder Farben sind schon viele; MTF und Feld zeigen A − B.</translation></message>
+<message><source>This is A: two drawings of lenses have no difference to draw.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
 <message><source>This is A; B has none: {why}</source><translation>Dies ist A; B hat keines: {why}</translation></message>
 <message><source>This lens has {count} such faults; p2sf info lists them all.</source><translation>Dieses Objektiv hat {count} solche Fehler; p2sf info zählt sie alle auf.</translation></message>
-<message><source>This lesson has not been translated and stands here as it was written</source><translation>Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde</translation></message>
+<message><source>This lesson has not been translated; here is the original</source><translation>Diese Lektion ist nicht übersetzt und steht hier, wie sie geschrieben wurde</translation></message>
 <message><source>This panel has no numbers</source><translation>Diese Ansicht hat keine Zahlen</translation></message>
 <message><source>This panel stands in its own window; close that window to have it back here.</source><translation>Diese Ansicht steht in einem eigenen Fenster; dieses schließen, um es hier wieder zu haben.</translation></message>
-<message><source>This set-up cannot be computed; what was here belongs to the one before.</source><translation>Diese Einstellung lässt sich nicht berechnen; was hier war, gehört zur vorigen.</translation></message>
 <message><source>Three elements, the fewest that correct all five Seidel sums</source><translation>Drei Linsen, die wenigsten, die alle fünf Seidel-Summen korrigieren</translation></message>
 <message><source>Three plastic elements and six aspheres in 4.4 mm of length, as in the first phone cameras</source><translation>Drei Kunststofflinsen und sechs Asphären auf 4,4 mm Länge, wie in den ersten Telefonkameras</translation></message>
 <message><source>Through focus</source><translation>Fokusreihe</translation></message>
@@ -759,16 +767,18 @@
 <message><source>Tilt about x: right-handed; a positive one turns y towards z, the piece's top away from the object.</source><translation>Kippung um x: rechtshändig; eine positive dreht y nach z, das Teil oben vom Objekt weg.</translation></message>
 <message><source>Tilt about y</source><translation>Kippung um y</translation></message>
 <message><source>Tilt about y: right-handed; a positive one turns z towards x.</source><translation>Kippung um y: rechtshändig; eine positive dreht z nach x.</translation></message>
+<message><source>Tilt by which the sensor recedes from the lens towards +x.</source><translation>Um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
+<message><source>Tilt by which the sensor recedes from the lens towards +y.</source><translation>Um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
 <message><source>To Image</source><translation>Ins Bild</translation></message>
 <message><source>To pupil</source><translation>Als Pupille</translation></message>
-<message><source>To report it, copy the text below and send it to the authors: it names versions and places in the program, no folder or file of yours.</source><translation>Um den Fehler zu melden, den Text unten kopieren und den Autoren schicken: Er nennt Versionen und Stellen im Programm, keinen Ordner und keine Datei von Ihnen.</translation></message>
+<message><source>To report it, copy the text below and send it to the authors. It names versions and places in the program, but none of your folders or files.</source><translation>Um den Fehler zu melden, den Text unten kopieren und den Autoren schicken: Er nennt Versionen und Stellen im Programm, keinen Ordner und keine Datei von Ihnen.</translation></message>
 <message><source>To the next part of the window</source><translation>Zum nächsten Teil des Fensters</translation></message>
 <message><source>To the previous part of the window</source><translation>Zum vorigen Teil des Fensters</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
 <message><source>Tolerance of all errors of this kind</source><translation>Toleranz aller Fehler dieser Art</translation></message>
 <message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerances</source><translation>Toleranzen</translation></message>
-<message><source>Tolerances: every radius, thickness, glass, tilt, decentre and irregularity is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused anew.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Verkippung, jede Dezentrierung und jeder Passfehler weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
+<message><source>Tolerances: every radius, thickness, glass, tilt, decentre and irregularity is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused again.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Verkippung, jede Dezentrierung und jeder Passfehler weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
 <message><source>Tools</source><translation>Extras</translation></message>
 <message><source>Track</source><translation>Baulänge</translation></message>
@@ -779,24 +789,21 @@
 <message><source>Two equal menisci about a stop: at unit magnification coma, distortion and lateral colour cancel exactly</source><translation>Zwei gleiche Menisken um eine Blende: beim Maßstab 1 heben sich Koma, Verzeichnung und Farbquerfehler genau auf</translation></message>
 <message><source>Two groups, negative then positive: their space sets the focal length, and both move to keep focus</source><translation>Zwei Gruppen, negativ, dann positiv: Ihr Abstand setzt die Brennweite, und beide wandern, damit es scharf bleibt</translation></message>
 <message><source>Two halves, each with the stop in its focus: the image keeps its size out of focus, and has no distortion</source><translation>Zwei Hälften, jede mit der Blende im Brennpunkt: Das Bild behält unscharf seine Größe und ist verzeichnungsfrei</translation></message>
-<message><source>Type a few letters, choose with ↑ ↓, Enter does it, Escape goes back.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
+<message><source>Type a few letters, choose with ↑ ↓, run with Enter, leave with Escape.</source><translation>Einige Buchstaben tippen, mit ↑ ↓ wählen, Enter führt aus, Esc geht zurück.</translation></message>
 <message><source>Type that suits the screen</source><translation>Schriftgröße, die zum Bildschirm passt</translation></message>
 <message><source>Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point.</source><translation>Getippte Zahlen dürfen Dezimalpunkt oder Dezimalkomma haben; Dateien und die Kommandozeile nehmen den Dezimalpunkt.</translation></message>
 <message><source>Undo</source><translation>Rückgängig</translation></message>
 <message><source>Undo: take back one step (Ctrl+Z)</source><translation>Rückgängig: einen Schritt zurücknehmen (Strg+Z)</translation></message>
 <message><source>Unexpected error</source><translation>Unerwarteter Fehler</translation></message>
 <message><source>Units of the colour bar</source><translation>Einheit der Farbskala</translation></message>
-<message><source>Unmeasured. No plan is made for PSFs as wide as these: it would take minutes.</source><translation>Ungemessen. Für so breite PSFs wird kein Plan gemacht: er würde Minuten brauchen.</translation></message>
-<message><source>Unmeasured. No plan is made for pixels as large as these, which hide what it cares for: choose smaller ones.</source><translation>Ungemessen. Für so große Pixel wird kein Plan gemacht, denn sie verbergen, worum es ihm geht: kleinere wählen.</translation></message>
-<message><source>Unmeasured. When the sliders rest a plan follows.</source><translation>Ungemessen. Wenn die Regler ruhen, folgt ein Plan.</translation></message>
 <message><source>Unpin</source><translation>B lösen</translation></message>
-<message><source>Values with semicolons between; empty: evenly spread by themselves</source><translation>Werte mit Strichpunkten dazwischen; leer: von selbst gleichmäßig verteilt</translation></message>
+<message><source>Values separated by semicolons; empty: evenly spread automatically</source><translation>Werte mit Strichpunkten dazwischen; leer: von selbst gleichmäßig verteilt</translation></message>
 <message><source>Vane angle</source><translation>Strebenwinkel</translation></message>
 <message><source>Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.</source><translation>Strebenwinkel: Richtung der ersten Strebe, von der Richtung des Feldes (+η) nach +ξ.</translation></message>
 <message><source>Vane width</source><translation>Strebenbreite</translation></message>
-<message><source>Vane width over the rim's diameter.</source><translation>Breite der Streben über dem Durchmesser des Randes.</translation></message>
+<message><source>Vane width, as a share of the rim's diameter.</source><translation>Breite der Streben über dem Durchmesser des Randes.</translation></message>
 <message><source>Vanes</source><translation>Streben</translation></message>
-<message><source>Vanes of the spider that holds what obscures, from the middle to the rim and evenly around; 0: none. Each throws a spike across itself.</source><translation>Streben der Spinne, die das Abschattende hält, von der Mitte zum Rand und gleichmäßig ringsum; 0: keine. Jede wirft einen Strahl quer zu sich.</translation></message>
+<message><source>Vanes of the spider that holds the obscuration, from the middle to the rim, evenly spaced; 0: none. Each makes a spike at right angles to itself.</source><translation>Streben der Spinne, die das Abschattende hält, von der Mitte zum Rand und gleichmäßig ringsum; 0: keine. Jede wirft einen Strahl quer zu sich.</translation></message>
 <message><source>View</source><translation>Darstellung</translation></message>
 <message><source>Viridis</source><translation>Viridis</translation></message>
 <message><source>W modulo 1, waves</source><translation>W modulo 1, Wellen</translation></message>
@@ -816,12 +823,12 @@
 <message><source>W40 added</source><translation>W40 hinzu</translation></message>
 <message><source>W40 of the frame</source><translation>W40 der Aufnahme</translation></message>
 <message><source>W40 spherical aberration</source><translation>W40 sphärische Aberration</translation></message>
-<message><source>Wavefront W over the pupil: how far, in waves, a ray's optical path falls short of the chief ray's. What stands in the stop is left out, and a filter's shade lies over the picture.</source><translation>Wellenfront W über der Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer ist als der des Hauptstrahls. Was in der Blende steht, ist ausgespart, und der Schatten eines Filters liegt über dem Bild.</translation></message>
+<message><source>Wavefront W over the pupil: by how many waves the optical path of a ray is shorter than that of the chief ray. What the stop hides is left out, and a filter shades the picture.</source><translation>Wellenfront W über der Pupille: um wie viele Wellen der optische Weg eines Strahls kürzer ist als der des Hauptstrahls. Was in der Blende steht, ist ausgespart, und der Schatten eines Filters liegt über dem Bild.</translation></message>
 <message><source>Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves.</source><translation>Wellenfrontkoeffizienten: der Höchstwert jedes Glieds von W(ρ, θ) an diesem Feld, in Wellen.</translation></message>
 <message><source>Wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.</source><translation>Wellenlänge λ im Vakuum; der Brechungsindex n(λ) jedes Glases folgt ihr. F, d und C sind Fraunhofers Linien.</translation></message>
 <message><source>Wavelengths</source><translation>Wellenlängen</translation></message>
-<message><source>Wavelengths in nm, with semicolons between: 486.1; 587.6; 656.3</source><translation>Wellenlängen in nm, mit Semikolons dazwischen: 486,1; 587,6; 656,3</translation></message>
+<message><source>Wavelengths in nm, separated by semicolons: 486.1; 587.6; 656.3</source><translation>Wellenlängen in nm, mit Semikolons dazwischen: 486,1; 587,6; 656,3</translation></message>
 <message><source>Wd</source><translation>Wd</translation></message>
 <message><source>Wd = 0: a line towards the field</source><translation>Wd = 0: eine Linie zum Feld hin</translation></message>
 <message><source>Wd = −2 W40: rim rays meet on the axis</source><translation>Wd = −2 W40: Randstrahlen treffen sich auf der Achse</translation></message>
@@ -831,34 +838,27 @@
 <message><source>Wd added</source><translation>Wd hinzu</translation></message>
 <message><source>Wd defocus</source><translation>Wd Defokus</translation></message>
 <message><source>Wd is muted</source><translation>Wd ist stumm</translation></message>
-<message><source>What a lens is judged by, in the worst of three fields: axis, seven tenths and edge.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand.</translation></message>
 <message><source>What changes from column to column</source><translation>Was sich von Spalte zu Spalte ändert</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
-<message><source>What every field of a good lens keeps; at first, what four lenses of five keep.</source><translation>Was jedes Feld eines guten Objektivs einhält; anfangs, was vier von fünf Objektiven einhalten.</translation></message>
-<message><source>What follows the surface: a name such as "SCHOTT N-BK7", an index, or "nd 1.5168 vd 64.17".</source><translation>Was der Fläche folgt: ein Name wie "SCHOTT N-BK7", ein Index oder "nd 1.5168 vd 64.17".</translation></message>
-<message><source>What is selected. A click selects its group; its sliders stand in the Misalign panel.</source><translation>Das Gewählte. Ein Klick wählt seine Gruppe; seine Regler stehen im Feld Dejustieren.</translation></message>
+<message><source>What is adjusted in every lens at assembly so that the mean square of the wavefronts of all fields is smallest.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What is selected: drag it along the axis, or up or down to decentre it. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen, oder auf oder ab, um es zu dezentrieren. Ein Klick wählt kein Glas mehr.</translation></message>
-<message><source>What is set in every lens at assembly, so that the mean square of all fields' wavefronts is least.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What stands in the stop: an obscuration, the blades of an iris, the vanes of a spider, a filter, a phase plate; phases and amplitudes of a lens file stay.</source><translation>Was in der Blende steht: eine Abschattung, die Lamellen einer Iris, die Streben einer Spinne, ein Filter, eine Phasenplatte; Phasen und Amplituden einer Objektivdatei bleiben.</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
-<message><source>What the plot at the right shows: every method at this point, or every representation of all the lens's PSFs</source><translation>Was das rechte Diagramm zeigt: alle Verfahren an diesem Punkt, oder alle Darstellungen aller PSFs des Objektivs</translation></message>
-<message><source>What the slider is about: an error, or the time of a picture</source><translation>Worum es beim Regler geht: einen Fehler oder die Zeit eines Bildes</translation></message>
-<message><source>What workshops offer under this name; ± values below are typed over.</source><translation>Was Werkstätten unter diesem Namen anbieten; die ±-Werte unten lassen sich überschreiben.</translation></message>
-<message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface stay the lens's own.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
+<message><source>What the slider sets: an error, or the time of a picture</source><translation>Worum es beim Regler geht: einen Fehler oder die Zeit eines Bildes</translation></message>
+<message><source>What-if: coefficients altered by hand. Image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface remain those of the lens.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
-<message><source>Where the sensor stands, from the last vertex: in the image of the focus distance, shifted by Δz.</source><translation>Wo der Sensor steht, vom letzten Scheitel: im Bild des eingestellten Abstands, um Δz verschoben.</translation></message>
+<message><source>Whether the plot at the right shows every method at this point, or every representation of all PSFs of the lens</source><translation>Was das rechte Diagramm zeigt: alle Verfahren an diesem Punkt, oder alle Darstellungen aller PSFs des Objektivs</translation></message>
 <message><source>Which coefficient</source><translation>Welcher Koeffizient</translation></message>
 <message><source>Which curves are shown</source><translation>Welche Kurven gezeigt werden</translation></message>
-<message><source>Which interpolation the error is of</source><translation>Zu welcher Interpolation der Fehler gehört</translation></message>
 <message><source>Which order of the terms</source><translation>Welche Reihenfolge der Terme</translation></message>
 <message><source>Which picture is made</source><translation>Welches Bild gemacht wird</translation></message>
 <message><source>Which slider moves</source><translation>Welcher Regler sich bewegt</translation></message>
 <message><source>Which sum</source><translation>Welche Summe</translation></message>
-<message><source>Why the picture is computed in this way: the plan's decisions, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
+<message><source>Why the picture is computed this way: the decisions of the plan, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
 <message><source>Why…</source><translation>Warum …</translation></message>
 <message><source>Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo.</source><translation>Wiener-Filter mit den PSFs dieses Objektivs, für ein Rauschen von {noise:.1%} von Weiß, wie aus dem Foto geschätzt.</translation></message>
 <message><source>Window</source><translation>Fenster</translation></message>
@@ -872,13 +872,13 @@
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
-<message><source>Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; take vanes, blades, filters and phases away</source><translation>Zernike-Terme gelten über eine Scheibe oder einen Ring, und in der Blende steht mehr als eine Abschattung; Streben, Lamellen, Filter und Phasen wegnehmen</translation></message>
+<message><source>Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; remove vanes, blades, filters and phases</source><translation>Zernike-Terme gelten über eine Scheibe oder einen Ring, und in der Blende steht mehr als eine Abschattung; Streben, Lamellen, Filter und Phasen wegnehmen</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
 <message><source>Zoom</source><translation>Zoom</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
 <message><source>Zoom lens 3×, 20 to 60 mm</source><translation>Zoomobjektiv 3×, 20 bis 60 mm</translation></message>
 <message><source>Zoom out</source><translation>Verkleinern</translation></message>
-<message><source>Zoom: where the ring of the lens stands, on its own scale. ▾ are the columns of the lens file, between which the lens is interpolated.</source><translation>Zoom: wo der Ring des Objektivs steht, auf seiner eigenen Skala. ▾ sind die Spalten der Objektivdatei, zwischen denen das Objektiv interpoliert wird.</translation></message>
+<message><source>Zoom: position of the ring, on the lens's own scale. ▾ marks the columns of the lens file, between which the lens is interpolated.</source><translation>Zoom: wo der Ring des Objektivs steht, auf seiner eigenen Skala. ▾ sind die Spalten der Objektivdatei, zwischen denen das Objektiv interpoliert wird.</translation></message>
 <message><source>Z{number}: {waves} λ · {share}</source><translation>Z{number}: {waves} λ · {share}</translation></message>
 <message><source>[aperture] states {count} of {names}; keep exactly one</source><translation>[aperture] gibt {count} von {names} an; genau eines behalten</translation></message>
 <message><source>[sensor] lacks {missing}; add it</source><translation>in [sensor] fehlt {missing}; hinzufügen</translation></message>
@@ -915,9 +915,9 @@
 <message><source>a lesson begins with a line "{fence}"; put title, about and lens below it</source><translation>eine Lektion beginnt mit einer Zeile "{fence}"; title, about und lens darunter schreiben</translation></message>
 <message><source>a map of the pupil has cells that are no finite numbers; give every cell one</source><translation>eine Karte der Pupille hat Zellen, die keine endlichen Zahlen sind; jeder Zelle eine geben</translation></message>
 <message><source>a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side</source><translation>eine Karte der Pupille hat die Form {shape}; ein Quadrat von {low} bis {high} Zellen je Seite angeben</translation></message>
-<message><source>a mask stands in the stop, and the transfer function of a pupil without symmetry knows a clear round stop only; take the mask away or set the lens straight</source><translation>eine Maske steht in der Blende, und die Übertragungsfunktion einer Pupille ohne Symmetrie kennt nur eine klare runde Blende; die Maske entfernen oder das Objektiv gerade stellen</translation></message>
-<message><source>a mask stands in the stop, and {what} knows a clear round stop only; take the mask away</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
-<message><source>a mask stands in the stop, which a file that ends in {ending} cannot say; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
+<message><source>a mask stands in the stop, and the transfer function of a pupil without symmetry supports only a clear round stop; remove the mask or align the lens</source><translation>eine Maske steht in der Blende, und die Übertragungsfunktion einer Pupille ohne Symmetrie kennt nur eine klare runde Blende; die Maske entfernen oder das Objektiv gerade stellen</translation></message>
+<message><source>a mask stands in the stop, and {what} supports only a clear round stop; remove the mask</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
+<message><source>a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>a mask stands in the stop; RMS, Strehl ratio and contrast of builds are those of the clear stop</source><translation>in der Blende steht eine Maske; RMS, Strehl-Zahl und Kontrast gebauter Objektive sind die der freien Blende</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
@@ -925,7 +925,7 @@
 <message><source>a model with a pupil map needs the field along +y; turn the picture first</source><translation>ein Modell mit Pupillenabbildung braucht das Feld entlang +y; das Bild vorher drehen</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
-<message><source>a number is too long or lists are nested too deep; this is no lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
+<message><source>a number is too long or lists are nested too deep; this is not a lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
 <message><source>a picture of rays</source><translation>ein Bild von Strahlen</translation></message>
@@ -949,11 +949,11 @@
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
 <message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
 <message><source>a transfer function of a pupil that ends at rims or where rays are lost</source><translation>eine Übertragungsfunktion einer Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
-<message><source>a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or take the vanes away</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
+<message><source>a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
-<message><source>a wavelength is not light; give micrometres</source><translation>eine Wellenlänge ist kein Licht; Mikrometer angeben</translation></message>
-<message><source>a wavelength is not light; give nanometres</source><translation>eine Wellenlänge ist kein Licht; Nanometer angeben</translation></message>
+<message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist kein Licht; Mikrometer angeben</translation></message>
+<message><source>a wavelength is not that of light; give nanometres</source><translation>eine Wellenlänge ist kein Licht; Nanometer angeben</translation></message>
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
 <message><source>a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; 8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
@@ -962,6 +962,7 @@
 <message><source>aim "{aim}" is unknown; choose "stop" or "paraxial"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "stop" oder "paraxial" wählen</translation></message>
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
 <message><source>air</source><translation>Luft</translation></message>
+<message><source>align it</source><translation>sie gerade stellen</translation></message>
 <message><source>all</source><translation>alle</translation></message>
 <message><source>all PSFs, by bytes</source><translation>alle PSFs, nach Bytes</translation></message>
 <message><source>all PSFs, by time</source><translation>alle PSFs, nach Zeit</translation></message>
@@ -996,7 +997,7 @@
 <message><source>ask for {mirror:.6g} {unit}, whose PSF is the same upside down, or build one that reaches there</source><translation>{mirror:.6g} {unit} verlangen, wo die PSF dieselbe kopfüber ist, oder eine bauen, die dorthin reicht</translation></message>
 <message><source>ask inside, or build one that reaches there</source><translation>innerhalb fragen oder eine bauen, die dorthin reicht</translation></message>
 <message><source>aspheric coefficient</source><translation>asphärischer Koeffizient</translation></message>
-<message><source>aspherical data of "{name}", which is no row of the lens data</source><translation>asphärische Daten von "{name}", was keine Zeile der Linsendaten ist</translation></message>
+<message><source>aspherical data of "{name}", which is not a row of the lens data</source><translation>asphärische Daten von "{name}", was keine Zeile der Linsendaten ist</translation></message>
 <message><source>aspherical value</source><translation>asphärischer Wert</translation></message>
 <message><source>astigmatism</source><translation>Astigmatismus</translation></message>
 <message><source>at ({x}, {y}) of the corner: share of the peak</source><translation>bei ({x}, {y}) der Ecke: Anteil der Spitze</translation></message>
@@ -1011,6 +1012,7 @@
 <message><source>best</source><translation>best</translation></message>
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
 <message><source>between columns</source><translation>zwischen Spalten</translation></message>
+<message><source>between {depths} × {fields} × {wavelengths} nodes the fits are still wrong by {error:.2g} waves; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
 <message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
 <message><source>blade angle</source><translation>Lamellenwinkel</translation></message>
@@ -1022,9 +1024,9 @@
 <message><source>brightness</source><translation>Helligkeit</translation></message>
 <message><source>bring focus and source together to see waves</source><translation>Fokus und Quelle zusammenbringen, um Wellen zu sehen</translation></message>
 <message><source>build</source><translation>Exemplar</translation></message>
+<message><source>build a fitted one, or align it</source><translation>eine angepasste (fitted) erstellen oder sie gerade stellen</translation></message>
 <message><source>build {number}</source><translation>Exemplar {number}</translation></message>
 <message><source>build {number}: {value} · tilts and decentres ×{factor}, rays as they are</source><translation>Exemplar {number}: {value} · Kippungen und Dezentrierungen ×{factor}, Strahlen wie sie sind</translation></message>
-<message><source>build a fitted one, or set it straight</source><translation>eine angepasste (fitted) erstellen oder sie gerade stellen</translation></message>
 <message><source>builds</source><translation>Exemplare</translation></message>
 <message><source>by R²</source><translation>nach R²</translation></message>
 <message><source>by field</source><translation>nach Feld</translation></message>
@@ -1047,7 +1049,7 @@
 <message><source>chief ray ȳ, mm</source><translation>Hauptstrahl ȳ, mm</translation></message>
 <message><source>chief ray, µm</source><translation>Hauptstrahl, µm</translation></message>
 <message><source>chief rays do not reach all of the sensor; take a smaller sensor</source><translation>Hauptstrahlen erreichen nicht den ganzen Sensor; einen kleineren Sensor nehmen</translation></message>
-<message><source>chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or set the lens straighter</source><translation>Hauptstrahlen treffen den Sensor in keiner glatten Ordnung, um {miss:.2g} Pixel; einen kleineren Sensor nehmen oder das Objektiv gerader stellen</translation></message>
+<message><source>chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or align the lens better</source><translation>Hauptstrahlen treffen den Sensor in keiner glatten Ordnung, um {miss:.2g} Pixel; einen kleineren Sensor nehmen oder das Objektiv gerader stellen</translation></message>
 <message><source>choose a folder that is one</source><translation>einen Ordner wählen, der einer ist</translation></message>
 <message><source>choose a folder you may write to</source><translation>einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
 <message><source>choose a photo that was taken through this lens by Photo…, or drop it here: a chart was not</source><translation>ein Foto, das dieses Objektiv aufgenommen hat, mit Foto … wählen oder hier ablegen: eine Tafel ist keines</translation></message>
@@ -1152,7 +1154,7 @@
 <message><source>error of linear interpolation</source><translation>Fehler der linearen Interpolation</translation></message>
 <message><source>error of table 1 of the paper</source><translation>Fehler von Tabelle 1 des Aufsatzes</translation></message>
 <message><source>errors is {value}; give a list of kind, first and last surface, and amount</source><translation>errors ist {value}; eine Liste aus Art, erster und letzter Fläche und Betrag angeben</translation></message>
-<message><source>every chief ray meets the sensor on the axis, so it holds no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
+<message><source>every chief ray meets the sensor on the axis, so it contains no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
 <message><source>every chief ray meets the sensor on the axis; give the field as an angle</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse; das Feld als Winkel angeben</translation></message>
 <message><source>every medium of this lens has the index {index:g}, so no surface bends light; name its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
 <message><source>every pixel of the photo</source><translation>jedes Pixel des Fotos</translation></message>
@@ -1214,7 +1216,7 @@
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
-<message><source>give fields along x as well, or set it straight</source><translation>auch Felder längs x angeben oder sie gerade stellen</translation></message>
+<message><source>give fields along x as well, or align it</source><translation>auch Felder längs x angeben oder sie gerade stellen</translation></message>
 <message><source>give the name of a file in it</source><translation>den Namen einer Datei darin angeben</translation></message>
 <message><source>glass "{name}"</source><translation>Glas "{name}"</translation></message>
 <message><source>glass "{name}" is a table of {count:d} points, too long to be shipped; write the points you need as {{ wavelengths_um = […], n = […] }}</source><translation>das Glas "{name}" ist eine Tabelle von {count:d} Punkten, zu lang, um beizuliegen; die gebrauchten Punkte als {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
@@ -1224,7 +1226,7 @@
 <message><source>glass "{name}" is not in the catalogue of {maker}; {suggestion}</source><translation>das Glas "{name}" steht nicht im Katalog von {maker}; {suggestion}</translation></message>
 <message><source>glass "{name}" is sold with different indices as {glasses}; write the one you mean</source><translation>das Glas "{name}" wird mit verschiedenen Indizes verkauft als {glasses}; das gemeinte schreiben</translation></message>
 <message><source>glass "{name}" of {makers}</source><translation>Glas "{name}" von {makers}</translation></message>
-<message><source>glass catalogue {path} with {count} glasses is at hand</source><translation>der Glaskatalog {path} mit {count} Gläsern liegt bei</translation></message>
+<message><source>glass catalogue {path} with {count} glasses was found</source><translation>der Glaskatalog {path} mit {count} Gläsern liegt bei</translation></message>
 <message><source>glass has the keys {names}; write {known}</source><translation>glass hat die Schlüssel {names}; {known} schreiben</translation></message>
 <message><source>glass is {found}; write a name such as "SCHOTT N-BK7", an index, or nd and vd</source><translation>glass ist {found}; einen Namen wie "SCHOTT N-BK7", einen Index oder nd und vd schreiben</translation></message>
 <message><source>glass is {found}; write {{ nd = 1.5168, vd = 64.17 }} or {{ wavelengths_um = […], n = […] }}</source><translation>glass ist {found}; {{ nd = 1.5168, vd = 64.17 }} oder {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
@@ -1261,6 +1263,7 @@
 <message><source>infinity</source><translation>unendlich</translation></message>
 <message><source>inner radius</source><translation>Innenradius</translation></message>
 <message><source>interpolant "{interpolant}" is unknown; choose {interpolants}</source><translation>die Interpolation "{interpolant}" ist unbekannt; {interpolants} wählen</translation></message>
+<message><source>interpolation between a few of them does not give the others</source><translation>keine Polynome durch wenige von ihnen ergeben die übrigen</translation></message>
 <message><source>ipywidgets is not installed; run pip install 'p2sf[notebook]'</source><translation>ipywidgets ist nicht installiert; pip install 'p2sf[notebook]' ausführen</translation></message>
 <message><source>irregularity</source><translation>Passfehler</translation></message>
 <message><source>irregularity at 45°, surface {where}</source><translation>Passfehler unter 45°, Fläche {where}</translation></message>
@@ -1276,7 +1279,7 @@
 <message><source>its PSFs, as a map</source><translation>seine PSFs als Karte</translation></message>
 <message><source>its diffraction</source><translation>ihre Beugung</translation></message>
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
-<message><source>its rim ({keyword}) is not round; the round semi-diameter stands in</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
+<message><source>its rim ({keyword}) is not round; the round semi-diameter is used instead</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
 <message><source>its shape</source><translation>ihre Form</translation></message>
 <message><source>its thickness follows from others ({keyword}), and is here the same in all configurations</source><translation>ihre Dicke folgt aus anderen ({keyword}) und ist hier in allen Konfigurationen dieselbe</translation></message>
 <message><source>its tilt or decentre</source><translation>ihre Kippung oder Dezentrierung</translation></message>
@@ -1309,7 +1312,7 @@
 <message><source>linear {error} λ, on {depths} depths × {fields} fields × {waves} wavelengths</source><translation>linear {error} λ, auf {depths} Abständen × {fields} Feldern × {waves} Wellenlängen</translation></message>
 <message><source>lines F d C</source><translation>Linien F d C</translation></message>
 <message><source>listed nd</source><translation>verzeichnetes nd</translation></message>
-<message><source>lists are nested too deep or a number is too long; this is no lens file</source><translation>Listen sind zu tief verschachtelt oder eine Zahl ist zu lang; das ist keine Objektivdatei</translation></message>
+<message><source>lists are nested too deep or a number is too long; this is not a lens file</source><translation>Listen sind zu tief verschachtelt oder eine Zahl ist zu lang; das ist keine Objektivdatei</translation></message>
 <message><source>locked peak</source><translation>feste Spitze</translation></message>
 <message><source>log</source><translation>log</translation></message>
 <message><source>logarithm of brightness</source><translation>Logarithmus der Helligkeit</translation></message>
@@ -1361,10 +1364,9 @@
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>no point can be used: {flags}; expose less, or move the points apart</source><translation>kein Punkt ist brauchbar: {flags}; kürzer belichten oder die Punkte weiter auseinanderrücken</translation></message>
 <message><source>no point of the target</source><translation>kein Punkt der Zielkarte</translation></message>
-<message><source>no point stands out of the noise in a window of {shape} pixels; expose longer, or choose another point</source><translation>in einem Fenster von {shape} Pixeln hebt sich kein Punkt vom Rauschen ab; länger belichten oder einen anderen Punkt wählen</translation></message>
-<message><source>no point stands out of the noise of {noise:.3g} counts; expose longer, or check the dark field</source><translation>kein Punkt hebt sich vom Rauschen von {noise:.3g} Zählwerten ab; länger belichten oder das Dunkelbild prüfen</translation></message>
-<message><source>no polynomial follows the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
-<message><source>no polynomials through a few of them give the others</source><translation>keine Polynome durch wenige von ihnen ergeben die übrigen</translation></message>
+<message><source>no point rises above the noise in a window of {shape} pixels; expose longer, or choose another point</source><translation>in einem Fenster von {shape} Pixeln hebt sich kein Punkt vom Rauschen ab; länger belichten oder einen anderen Punkt wählen</translation></message>
+<message><source>no point rises above the noise of {noise:.3g} counts; expose longer, or check the dark field</source><translation>kein Punkt hebt sich vom Rauschen von {noise:.3g} Zählwerten ab; länger belichten oder das Dunkelbild prüfen</translation></message>
+<message><source>no polynomial fits the rays of this pupil; stop the lens down or reduce the field</source><translation>kein Polynom folgt den Strahlen dieser Pupille; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray lands within {half} pixels of the chief ray; take larger pixels</source><translation>im Umkreis von {half} Pixeln um den Hauptstrahl landet kein Strahl; größere Pixel nehmen</translation></message>
 <message><source>no ray of the fan reaches the sensor; choose a smaller field</source><translation>kein Strahl des Fächers erreicht den Sensor; ein kleineres Feld wählen</translation></message>
@@ -1381,9 +1383,9 @@
 <message><source>not symmetric: sections seen along x</source><translation>unsymmetrisch: Schnitte längs x gesehen</translation></message>
 <message><source>not used because</source><translation>nicht verwendet, weil</translation></message>
 <message><source>nothing</source><translation>nichts</translation></message>
+<message><source>nothing in this lens can be wrong; give it a surface with power</source><translation>an diesem Objektiv kann nichts abweichen; ihm eine Fläche mit Brechkraft geben</translation></message>
 <message><source>nothing is off</source><translation>alles stimmt</translation></message>
 <message><source>nothing is pinned as B (Ctrl+B)</source><translation>nichts ist als B gemerkt (Strg+B)</translation></message>
-<message><source>nothing of this lens can be off; give it a surface with power</source><translation>an diesem Objektiv kann nichts abweichen; ihm eine Fläche mit Brechkraft geben</translation></message>
 <message><source>nothing varies from column to column; list the values of what does</source><translation>nichts ändert sich von Spalte zu Spalte; die Werte dessen auflisten, was sich ändert</translation></message>
 <message><source>number of blades</source><translation>Zahl der Lamellen</translation></message>
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
@@ -1413,7 +1415,7 @@
 <message><source>on screen: {method}, {ms} ms, {error}</source><translation>auf dem Bildschirm: {method}, {ms} ms, {error}</translation></message>
 <message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
 <message><source>on top of the tilts of its file</source><translation>zusätzlich zu den Kippungen seiner Datei</translation></message>
-<message><source>one focus leaves the common sign of all even terms open; a second, known focus decides</source><translation>ein Fokus lässt das gemeinsame Vorzeichen aller geraden Terme offen; ein zweiter, bekannter Fokus entscheidet</translation></message>
+<message><source>one focus does not determine the common sign of all even terms; add a second focus at a known distance</source><translation>ein Fokus lässt das gemeinsame Vorzeichen aller geraden Terme offen; ein zweiter, bekannter Fokus entscheidet</translation></message>
 <message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
@@ -1431,8 +1433,8 @@
 <message><source>paraxial, axis</source><translation>paraxial, Achse</translation></message>
 <message><source>partial dispersion</source><translation>Teildispersion</translation></message>
 <message><source>parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop</source><translation>Teile des Objektivs sind gekippt oder dezentriert, und seine Pupille ist keine paraxiale Scheibe; {parameter} stop wählen</translation></message>
-<message><source>parts of the lens are tilted or decentred, which {what} cannot say; save as TOML, or for Zemax at one position</source><translation>Teile des Objektivs sind gekippt oder dezentriert, was {what} nicht sagen kann; als TOML speichern oder für Zemax in einer Stellung</translation></message>
-<message><source>parts of the lens are tilted, decentred or irregular; all paraxial figures and the six coefficients are those of the lens set straight, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt, dezentriert oder haben Passfehler; alle paraxialen Werte und die sechs Koeffizienten sind die des gerade gestellten Objektivs und lassen aus, was das hinzufügt: Koma auf der Achse, ein gekipptes Feld</translation></message>
+<message><source>parts of the lens are tilted or decentred, which {what} cannot express; save as TOML, or for Zemax at one position</source><translation>Teile des Objektivs sind gekippt oder dezentriert, was {what} nicht sagen kann; als TOML speichern oder für Zemax in einer Stellung</translation></message>
+<message><source>parts of the lens are tilted, decentred or irregular; all paraxial figures and the six coefficients are those of the aligned lens, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt, dezentriert oder haben Passfehler; alle paraxialen Werte und die sechs Koeffizienten sind die des gerade gestellten Objektivs und lassen aus, was das hinzufügt: Koma auf der Achse, ein gekipptes Feld</translation></message>
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
@@ -1451,7 +1453,7 @@
 <message><source>pictures of {one} and {two}; compare two of one shape, at least {least} pixels a side</source><translation>Bilder von {one} und {two}; zwei von einer Form vergleichen, mit mindestens {least} Pixeln je Seite</translation></message>
 <message><source>pictures {wide} µm wide</source><translation>Bilder {wide} µm breit</translation></message>
 <message><source>pictures {wide} µm wide, each over its own peak</source><translation>Bilder {wide} µm breit, jedes über seiner Spitze</translation></message>
-<message><source>pin a marker to a plot, lock its scales</source><translation>in einem Diagramm eine Marke setzen, seine Skalen festhalten</translation></message>
+<message><source>pin a marker to a plot; lock its scales</source><translation>in einem Diagramm eine Marke setzen, seine Skalen festhalten</translation></message>
 <message><source>pincushion {part} at {field}</source><translation>Kissen {part} bei {field}</translation></message>
 <message><source>piston</source><translation>Kolbenterm</translation></message>
 <message><source>pixel</source><translation>Pixel</translation></message>
@@ -1501,7 +1503,7 @@
 <message><source>rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; stop the lens down or reduce the field</source><translation>Strahlen aus verschiedenen Teilen der Pupille kommen in einer Richtung an, und die Summe ihres Lichts hat keine Grenze; abblenden oder das Feld verkleinern</translation></message>
 <message><source>rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip</source><translation>Strahlen innerhalb eines Radius von {radius:g} gehen verloren, ein Loch oder eine Abschattung, wo Fassungen abschneiden</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
-<message><source>reads another file, which is not at hand</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
+<message><source>reads another file, which was not found</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
 <message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
 <message><source>rear group</source><translation>hintere Gruppe</translation></message>
 <message><source>red</source><translation>Rot</translation></message>
@@ -1522,7 +1524,7 @@
 <message><source>rims and holes of mirrors hide {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
-<message><source>rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a whole ring; leave {parameter} off, stop the lens down, or take the obscuration away</source><translation>Ränder begrenzen eine Pupille mit Abschattung, oder Strahlen von ihr gehen verloren, und Ringterme gelten über einen ganzen Ring; {parameter} weglassen, abblenden oder die Abschattung wegnehmen</translation></message>
+<message><source>rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a whole ring; leave {parameter} off, stop the lens down, or remove the obscuration</source><translation>Ränder begrenzen eine Pupille mit Abschattung, oder Strahlen von ihr gehen verloren, und Ringterme gelten über einen ganzen Ring; {parameter} weglassen, abblenden oder die Abschattung wegnehmen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>roundness</source><translation>Rundung</translation></message>
 <message><source>sagittal</source><translation>sagittal</translation></message>
@@ -1555,7 +1557,6 @@
 <message><source>sensor stays</source><translation>Sensor bleibt</translation></message>
 <message><source>sensor {key} is {value:g}; give a whole number</source><translation>{key} des Sensors ist {value:g}; eine ganze Zahl angeben</translation></message>
 <message><source>sensor {name} is {count}; give a whole number from 1 to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von 1 bis {most} angeben</translation></message>
-<message><source>set it straight</source><translation>sie gerade stellen</translation></message>
 <message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
 <message><source>share of a panel beside the stage</source><translation>Anteil einer Ansicht neben der Bühne</translation></message>
 <message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
@@ -1621,29 +1622,29 @@
 <message><source>surface {number} (file)</source><translation>Fläche {number} (Datei)</translation></message>
 <message><source>surface {number} has no rim to be the stop; give it a semi-diameter first</source><translation>Fläche {number} hat keinen Rand, der Blende sein könnte; ihr zuerst einen Halbmesser geben</translation></message>
 <message><source>surface {number} is the stop; put the stop on another surface before deleting it</source><translation>Fläche {number} ist die Blende; die Blende auf eine andere Fläche legen, bevor diese gelöscht wird</translation></message>
-<message><source>surface {number} stands where {due} is due</source><translation>Fläche {number} steht, wo {due} kommen müsste</translation></message>
-<message><source>surface {number} stands where {due} is due; sort them</source><translation>Fläche {number} steht, wo {due} kommen müsste; ordnen</translation></message>
+<message><source>surface {number} is where {due} is expected</source><translation>Fläche {number} steht, wo {due} kommen müsste</translation></message>
+<message><source>surface {number} is where {due} is expected; sort them</source><translation>Fläche {number} steht, wo {due} kommen müsste; ordnen</translation></message>
 <message><source>surface {surface}</source><translation>Fläche {surface}</translation></message>
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
 <message><source>surface {surface} differs between columns in its aspheric terms or in a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in asphärischen Termen oder in einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
-<message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot say; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
+<message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot express; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
 <message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in r^{power}, and a CODE V file holds powers up to r^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in r^{power}, und eine CODE-V-Datei fasst Potenzen bis r^{most}; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ist eine Qbfs-Asphäre mit geraden Gliedern oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
-<message><source>surface {surface} is a Qbfs asphere, which a CODE V file cannot say here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, die eine CODE-V-Datei hier nicht fasst; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
-<message><source>surface {surface} is a mirror, which has no index to be off</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
+<message><source>surface {surface} is a Qbfs asphere, which a CODE V file cannot express here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, die eine CODE-V-Datei hier nicht fasst; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
+<message><source>surface {surface} is a mirror, which has no index that could be wrong</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
 <message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
-<message><source>surface {surface} is an ideal lens, which a CODE V file cannot say; save as TOML</source><translation>Fläche {surface} ist eine ideale Linse, die eine CODE-V-Datei nicht fasst; als TOML speichern</translation></message>
-<message><source>surface {surface} is irregular, which a file that ends in {ending} cannot say; save as TOML</source><translation>Fläche {surface} hat einen Passfehler, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
-<message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot say; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
+<message><source>surface {surface} is an ideal lens, which a CODE V file cannot express; save as TOML</source><translation>Fläche {surface} ist eine ideale Linse, die eine CODE-V-Datei nicht fasst; als TOML speichern</translation></message>
+<message><source>surface {surface} is irregular, which a file that ends in {ending} cannot express; save as TOML</source><translation>Fläche {surface} hat einen Passfehler, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
+<message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot express; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
-<message><source>surface {surface} is tilted, decentred or irregular, and {what} knows rotational symmetry only; {remedy}</source><translation>Fläche {surface} ist gekippt, dezentriert oder hat einen Passfehler, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
+<message><source>surface {surface} is tilted, decentred or irregular, and {what} supports only rotational symmetry; {remedy}</source><translation>Fläche {surface} ist gekippt, dezentriert oder hat einen Passfehler, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: a coefficient of its shape or its phase is not finite; correct it</source><translation>Fläche {surface}: ein Koeffizient ihrer Form oder ihrer Phase ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
@@ -1655,7 +1656,7 @@
 <message><source>surface {surface}: conic or aspheric coefficient is not finite; correct it</source><translation>Fläche {surface}: der Kegelschnitt oder ein asphärischer Koeffizient ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: inner radius {inner} mm; give a number from 0 to below the semi-diameter</source><translation>Fläche {surface}: innerer Radius {inner} mm; eine Zahl von 0 bis unter den halben Durchmesser angeben</translation></message>
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
-<message><source>surface {surface}: ior is no table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
+<message><source>surface {surface}: ior is not a table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
 <message><source>surface {surface}: irregularity of {fringes:g} and {more:g} fringes over a radius of {radius:g} mm; give finite numbers, and a positive radius</source><translation>Fläche {surface}: ein Passfehler von {fringes:g} und {more:g} Ringen über einen Radius von {radius:g} mm; endliche Zahlen und einen positiven Radius angeben</translation></message>
 <message><source>surface {surface}: its rim has the centre ({centre:g}) mm and the half-widths {widths}; give finite numbers, and positive widths</source><translation>Fläche {surface}: ihr Rand hat die Mitte ({centre:g}) mm und die halben Breiten {widths}; endliche Zahlen und positive Breiten angeben</translation></message>
 <message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
@@ -1703,7 +1704,7 @@
 <message><source>the aperture ({kind} {value:g}) fills the stop to {rim:g} mm; correct it</source><translation>die Öffnung ({kind} {value:g}) füllt die Blende bis {rim:g} mm; berichtigen</translation></message>
 <message><source>the aperture is {value:g}; give a positive number</source><translation>die Öffnung ist {value:g}; eine positive Zahl angeben</translation></message>
 <message><source>the archive cannot be unpacked ({reason}); unpack it yourself</source><translation>das Archiv lässt sich nicht auspacken ({reason}); von Hand auspacken</translation></message>
-<message><source>the archive holds no .zmx or .seq file; unpack the lens yourself</source><translation>das Archiv enthält keine .zmx- oder .seq-Datei; das Objektiv von Hand auspacken</translation></message>
+<message><source>the archive contains no .zmx or .seq file; unpack the lens yourself</source><translation>das Archiv enthält keine .zmx- oder .seq-Datei; das Objektiv von Hand auspacken</translation></message>
 <message><source>the aspheres have odd powers (AsphericalOddCount); only even ones are read</source><translation>die Asphären haben ungerade Potenzen (AsphericalOddCount); nur gerade werden gelesen</translation></message>
 <message><source>the axis is folded, and glass is not moved by hand here; use the sliders of Misalign</source><translation>die Achse ist gefaltet, und Glas lässt sich hier nicht mit der Hand bewegen; die Regler von Dejustieren nehmen</translation></message>
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
@@ -1737,19 +1738,19 @@
 <message><source>the file asks for telecentric object space; chief rays pass the centre of its stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum; Hauptstrahlen gehen stattdessen durch die Mitte ihrer Blende</translation></message>
 <message><source>the file cannot be read ({reason}); check its path and permissions</source><translation>die Datei ist nicht lesbar ({reason}); Pfad und Rechte prüfen</translation></message>
 <message><source>the file cannot be written ({reason}); choose another place</source><translation>die Datei ist nicht schreibbar ({reason}); einen anderen Ort wählen</translation></message>
+<message><source>the file contains no lens surface between object and image</source><translation>die Datei enthält keine Linsenfläche zwischen Objekt und Bild</translation></message>
+<message><source>the file contains no list of surfaces; {remedy}</source><translation>die Datei enthält keine Liste von Flächen; {remedy}</translation></message>
+<message><source>the file contains no surface (S) between object and image</source><translation>die Datei enthält keine Fläche (S) zwischen Objekt und Bild</translation></message>
+<message><source>the file contains no surface between object and image</source><translation>die Datei enthält keine Fläche zwischen Objekt und Bild</translation></message>
 <message><source>the file does not say RDM; its numbers are read as radii, since {value:g} is no lens's curvature</source><translation>die Datei sagt kein RDM; ihre Zahlen sind als Radien gelesen, denn {value:g} ist keine Krümmung einer Linse</translation></message>
 <message><source>the file does not say where the sensor is, and the lens has no focus; it is at the last vertex</source><translation>die Datei sagt nicht, wo der Sensor steht, und das Objektiv hat keinen Fokus; er steht am letzten Scheitel</translation></message>
 <message><source>the file does not say where the sensor is; it is put at the paraxial focus for infinity</source><translation>die Datei sagt nicht, wo der Sensor steht; er kommt in den paraxialen Fokus für unendlich</translation></message>
 <message><source>the file has over {count} lines; a prescription is far smaller</source><translation>die Datei hat über {count} Zeilen; ein Objektiv ist viel kleiner</translation></message>
-<message><source>the file holds no lens surface between object and image</source><translation>die Datei enthält keine Linsenfläche zwischen Objekt und Bild</translation></message>
-<message><source>the file holds no list of surfaces; {remedy}</source><translation>die Datei enthält keine Liste von Flächen; {remedy}</translation></message>
-<message><source>the file holds no surface (S) between object and image</source><translation>die Datei enthält keine Fläche (S) zwischen Objekt und Bild</translation></message>
-<message><source>the file holds no surface between object and image</source><translation>die Datei enthält keine Fläche zwischen Objekt und Bild</translation></message>
 <message><source>the file holds {count} positions, of which {read} are so many zooms at every distance; these are read</source><translation>die Datei enthält {count} Stellungen, von denen {read} bei jedem Abstand gleich viele Zoomstellungen sind; diese werden gelesen</translation></message>
 <message><source>the file holds {count} positions; the first {most} are read</source><translation>die Datei enthält {count} Stellungen; die ersten {most} werden gelesen</translation></message>
 <message><source>the file holds {count} surfaces; at most {most} are read</source><translation>die Datei enthält {count} Flächen; höchstens {most} werden gelesen</translation></message>
 <message><source>the file is empty; write a lens into it</source><translation>die Datei ist leer; ein Objektiv hineinschreiben</translation></message>
-<message><source>the file is larger than {size} bytes; this is no lens file</source><translation>die Datei ist größer als {size} Byte; das ist keine Objektivdatei</translation></message>
+<message><source>the file is larger than {size} bytes; this is not a lens file</source><translation>die Datei ist größer als {size} Byte; das ist keine Objektivdatei</translation></message>
 <message><source>the file is none of the formats known here: {formats}</source><translation>die Datei hat keines der hier bekannten Formate: {formats}</translation></message>
 <message><source>the file is not UTF-8 text; save it as UTF-8</source><translation>die Datei ist kein UTF-8-Text; als UTF-8 speichern</translation></message>
 <message><source>the file is not text but binary; give the lens as a text file</source><translation>die Datei ist kein Text, sondern binär; das Objektiv als Textdatei angeben</translation></message>
@@ -1760,7 +1761,6 @@
 <message><source>the fill factor is {fill:g}; give a part above 0 and up to 1</source><translation>der Füllfaktor ist {fill:g}; einen Teil über 0 und bis 1 angeben</translation></message>
 <message><source>the filter in the stop lets no light through; make its apodisation wider</source><translation>das Filter in der Blende lässt kein Licht durch; seine Apodisation breiter machen</translation></message>
 <message><source>the fit was cancelled before it was done</source><translation>die Anpassung wurde abgebrochen, bevor sie fertig war</translation></message>
-<message><source>the fits are still {error:.2g} waves off between {depths} × {fields} × {wavelengths} nodes; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
 <message><source>the flat field is not brighter than the dark field; expose it longer</source><translation>das Hellbild ist nicht heller als das Dunkelbild; es länger belichten</translation></message>
 <message><source>the focus is stated twice, by {first} and {second}; keep one</source><translation>der Fokus ist zweimal angegeben, durch {first} und {second}; eines behalten</translation></message>
 <message><source>the focus of each zone</source><translation>der Fokus jeder Zone</translation></message>
@@ -1776,15 +1776,15 @@
 <message><source>the image height</source><translation>die Bildhöhe</translation></message>
 <message><source>the image is at infinity, so no sensor position is in focus; move the source</source><translation>das Bild liegt im Unendlichen, also ist kein Sensorort scharf; die Quelle verschieben</translation></message>
 <message><source>the image lies at infinity, so the sensor sees no blur of finite size; move the object</source><translation>das Bild liegt im Unendlichen, der Sensor sieht also keine Unschärfe endlicher Größe; das Objekt verschieben</translation></message>
-<message><source>the image of this object lies at infinity (NA 0), so the sensor holds no PSF; move the object or refocus</source><translation>das Bild dieses Objekts liegt im Unendlichen (NA 0), auf dem Sensor gibt es also keine PSF; das Objekt verschieben oder neu fokussieren</translation></message>
+<message><source>the image of this object lies at infinity (NA 0), so the sensor contains no PSF; move the object or refocus</source><translation>das Bild dieses Objekts liegt im Unendlichen (NA 0), auf dem Sensor gibt es also keine PSF; das Objekt verschieben oder neu fokussieren</translation></message>
 <message><source>the image surface</source><translation>die Bildfläche</translation></message>
 <message><source>the image surface is curved in the file; the sensor here is flat</source><translation>die Bildfläche ist in der Datei gekrümmt; der Sensor hier ist eben</translation></message>
 <message><source>the last thickness as the distance to the sensor</source><translation>die letzte Dicke als Abstand zum Sensor</translation></message>
 <message><source>the layout</source><translation>der Aufbau</translation></message>
 <message><source>the lens</source><translation>das Objektiv</translation></message>
-<message><source>the lens as built is the lens as designed and what differs: measure beside the lens</source><translation>das gebaute Objektiv ist das entworfene mit seinen Abweichungen: neben dem Objektiv messen</translation></message>
+<message><source>the lens as built is the designed lens with its departures; measure relative to the lens</source><translation>das gebaute Objektiv ist das entworfene mit seinen Abweichungen: neben dem Objektiv messen</translation></message>
 <message><source>the lens has a ring of zoom and one of focus, and a Zemax file one list of configurations; save as TOML</source><translation>das Objektiv hat einen Zoomring und einen Fokusring, eine Zemax-Datei eine Liste von Konfigurationen; als TOML speichern</translation></message>
-<message><source>the lens has mirrors, which an ISET file cannot say; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
+<message><source>the lens has mirrors, which an ISET file cannot express; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
@@ -1794,9 +1794,9 @@
 <message><source>the lens names no stop surface and no semi-diameters; state one of them</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser; eines davon angeben</translation></message>
 <message><source>the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden; diese hinzufügen oder {parameter} auslassen</translation></message>
 <message><source>the lens's own</source><translation>die des Objektivs</translation></message>
-<message><source>the line has over {count} characters; this is no lens file</source><translation>die Zeile hat über {count} Zeichen; das ist keine Objektivdatei</translation></message>
+<message><source>the line has over {count} characters; this is not a lens file</source><translation>die Zeile hat über {count} Zeichen; das ist keine Objektivdatei</translation></message>
 <message><source>the link</source><translation>der Link</translation></message>
-<message><source>the link holds no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
+<message><source>the link contains no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
 <message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
 <message><source>the measurement was cancelled before it was done</source><translation>die Messung wurde abgebrochen, bevor sie fertig war</translation></message>
@@ -1804,28 +1804,27 @@
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
 <message><source>the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %</source><translation>das mittlere Pixel hält {real} % des Lichts, von dem einer idealen Linse {perfect} %</translation></message>
 <message><source>the model glass's deviation in partial dispersion is left out; n changes by less than 1e-4</source><translation>die Abweichung der Teildispersion des Modellglases ist weggelassen; n ändert sich um weniger als 1e-4</translation></message>
-<message><source>the model leaves {ratio:.2g} times the noise, and errors are enlarged by that; try more numbers, and check the numerical aperture, the pixel and the noise</source><translation>das Modell lässt das {ratio:.2g}-Fache des Rauschens übrig, um das die Fehler vergrößert sind; mehr Zahlen versuchen, und numerische Apertur, Pixel und Rauschen prüfen</translation></message>
 <message><source>the noise is {noise:g}; give the standard deviation of the picture's noise, above 0</source><translation>das Rauschen ist {noise:g}; die Standardabweichung des Bildrauschens angeben, über 0</translation></message>
 <message><source>the object height</source><translation>die Objekthöhe</translation></message>
 <message><source>the object is tilted or decentred ({command}), which is not read; move the lens instead</source><translation>das Objekt ist gekippt oder dezentriert ({command}), was nicht gelesen wird; stattdessen das Objektiv bewegen</translation></message>
 <message><source>the object is tilted or decentred, which is not read; move the lens instead</source><translation>das Objekt ist gekippt oder dezentriert, was nicht gelesen wird; stattdessen das Objektiv bewegen</translation></message>
 <message><source>the object lies in the entrance pupil, so no cone of light is defined; move the object</source><translation>das Objekt liegt in der Eintrittspupille, also ist kein Lichtkegel festgelegt; das Objekt verschieben</translation></message>
 <message><source>the object lies in the first vertex, where an aperture angle fills no stop; move it</source><translation>das Objekt liegt im ersten Scheitel, wo ein Öffnungswinkel keine Blende füllt; verschieben</translation></message>
-<message><source>the object stands in a medium, which an ISET file cannot say; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
+<message><source>the object stands in a medium, which an ISET file cannot express; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the object's height of {height:g} as an angle, for it is far away</source><translation>die Objekthöhe {height:g} als Winkel, denn das Objekt ist sehr weit entfernt</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
 <message><source>the outline of half a pupil</source><translation>der Umriss einer halben Pupille</translation></message>
 <message><source>the paraxial pupil</source><translation>die paraxiale Pupille</translation></message>
 <message><source>the phase is {slope:.0f} waves steep; stop the lens down</source><translation>die Phase ist {slope:.0f} Wellen steil; das Objektiv abblenden</translation></message>
 <message><source>the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it</source><translation>das Foto hat {count:.3g} Megapixel, von denen höchstens {most:g} auf einmal geschärft werden; einen Teil davon wählen</translation></message>
-<message><source>the picture has the shape ({shape}), but the scene's sensor wants {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
+<message><source>the picture has the shape ({shape}), but the scene's sensor needs {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
 <message><source>the picture {name} is not in {folder} any more; put it back there, or choose another</source><translation>das Bild {name} ist nicht mehr in {folder}; dorthin zurücklegen oder ein anderes wählen</translation></message>
 <message><source>the pixel is {pixel:g} µm; give a pitch above 0</source><translation>das Pixel misst {pixel:g} µm; einen Abstand über 0 angeben</translation></message>
 <message><source>the point at {depth:g} mm, slope {slope:.4g}, {wave:g} nm: {error}</source><translation>der Punkt bei {depth:g} mm, Steigung {slope:.4g}, {wave:g} nm: {error}</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
-<message><source>the pupil is too distorted for polynomials over its spatial frequencies, which find {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
+<message><source>the pupil is too distorted for polynomials over its spatial frequencies, which give {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
 <message><source>the pupil map of this lens folds over; stop the lens down or take a smaller field</source><translation>die Pupillenabbildung dieses Objektivs faltet sich; das Objektiv abblenden oder ein kleineres Feld nehmen</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
 <message><source>the real stop</source><translation>die wahre Blende</translation></message>
@@ -1850,7 +1849,7 @@
 <message><source>the spectral lines are {given:g} nm; give wavelengths from {least:g} to {most:g} nm, as in lines:486,588,656</source><translation>die Spektrallinien sind {given:g} nm; Wellenlängen von {least:g} bis {most:g} nm angeben, wie in lines:486,588,656</translation></message>
 <message><source>the spectrum "{kind}" is unknown; choose {examples}</source><translation>das Spektrum "{kind}" ist unbekannt; {examples} wählen</translation></message>
 <message><source>the spectrum "{kind}" takes no number, not {number:g}; write {examples}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number:g}; {examples} schreiben</translation></message>
-<message><source>the spectrum "{text}" holds "{rest}", which is no list of numbers; write {examples}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {examples} schreiben</translation></message>
+<message><source>the spectrum "{text}" holds "{rest}", which is not a list of numbers; write {examples}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {examples} schreiben</translation></message>
 <message><source>the spectrum {name} has no light that the eye sees; choose one with some</source><translation>das Spektrum {name} hat kein Licht, das das Auge sieht; eines mit Licht wählen</translation></message>
 <message><source>the stage</source><translation>die Bühne</translation></message>
 <message><source>the state</source><translation>der Zustand</translation></message>
@@ -1858,7 +1857,7 @@
 <message><source>the state inside {name}</source><translation>der Zustand in {name}</translation></message>
 <message><source>the state names no lens; give the name of a shipped lens or a path</source><translation>der Zustand nennt kein Objektiv; den Namen eines mitgelieferten Objektivs oder einen Pfad angeben</translation></message>
 <message><source>the state's edited lens is not text; leave lens_text out to take the lens as its file has it</source><translation>das bearbeitete Objektiv des Zustands ist kein Text; lens_text weglassen, um das Objektiv zu nehmen, wie es in der Datei steht</translation></message>
-<message><source>the state's group "{group}" is no table; save it again from the explorer</source><translation>die Gruppe "{group}" des Zustands ist keine Tabelle; im Explorer neu speichern</translation></message>
+<message><source>the state's group "{group}" is not a table; save it again from the explorer</source><translation>die Gruppe "{group}" des Zustands ist keine Tabelle; im Explorer neu speichern</translation></message>
 <message><source>the state's lists are nested too deep; save it again from the explorer</source><translation>die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
 <message><source>the state's {name} must be a list of panels' names; correct it or leave it out</source><translation>{name} des Zustands muss eine Liste von Ansichtenamen sein; berichtigen Sie sie oder lassen Sie sie weg</translation></message>
 <message><source>the stop alone</source><translation>die Blende allein</translation></message>
@@ -1982,6 +1981,7 @@
 <message><source>what is added to {term}</source><translation>was zu {term} hinzukommt</translation></message>
 <message><source>what is pinned as B must be one state with nothing pinned in it; pin it again</source><translation>was als B gemerkt ist, muss ein einzelner Zustand sein, in dem nichts gemerkt ist; neu merken</translation></message>
 <message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
+<message><source>what the model does not explain is {ratio:.2g} times the noise, and the errors are enlarged by that; try more numbers, and check the numerical aperture, the pixel and the noise</source><translation>das Modell lässt das {ratio:.2g}-Fache des Rauschens übrig, um das die Fehler vergrößert sind; mehr Zahlen versuchen, und numerische Apertur, Pixel und Rauschen prüfen</translation></message>
 <message><source>what-if</source><translation>Was wäre wenn</translation></message>
 <message><source>what-if: coefficients altered by hand</source><translation>Was wäre wenn: Koeffizienten von Hand geändert</translation></message>
 <message><source>what-if: coefficients altered by hand, so the lens's Huygens reference does not apply; reset them to measure again</source><translation>Was wäre wenn: Koeffizienten von Hand geändert, daher gilt die Huygens-Referenz des Objektivs nicht; setzen Sie sie zurück, um wieder zu messen</translation></message>
@@ -2056,7 +2056,7 @@
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{count} numbers are off</source><translation>{count} Zahlen stimmen nicht</translation></message>
-<message><source>{count} of the drawn rays cannot pass (surface missed, or total reflection); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
+<message><source>{count} of the drawn rays do not pass (they miss a surface, or are totally reflected); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
 <message><source>{count} points can be used, and the lens as built needs five; take a picture of more points</source><translation>{count} Punkte sind brauchbar, und das gebaute Objektiv braucht fünf; mehr Punkte aufnehmen</translation></message>
 <message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
@@ -2075,8 +2075,8 @@
 <message><source>{error}; the field list holds the axis only</source><translation>{error}; die Feldliste enthält nur die Achse</translation></message>
 <message><source>{f:g}/mm</source><translation>{f:g}/mm</translation></message>
 <message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
-<message><source>{file} is no PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, FITS, npy, npz und keine Liste; das Bild als eines davon speichern und das ablegen</translation></message>
-<message><source>{file} is no PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
+<message><source>{file} is not a PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, FITS, npy, npz und keine Liste; das Bild als eines davon speichern und das ablegen</translation></message>
+<message><source>{file} is not a PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
 <message><source>{first} and {second} have no number in common; measure the same points by the same model</source><translation>{first} und {second} haben keine Zahl gemeinsam; dieselben Punkte mit demselben Modell messen</translation></message>
 <message><source>{frames} frames and {focus} focus positions; give one for each</source><translation>{frames} Aufnahmen und {focus} Fokuslagen; für jede eine angeben</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
@@ -2101,7 +2101,7 @@
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
 <message><source>{method} here: longer than a frame</source><translation>{method} hier: länger als ein Bild der Bewegung</translation></message>
 <message><source>{method} here: {ms} ms, {error}</source><translation>{method} hier: {ms} ms, {error}</translation></message>
-<message><source>{method} over this whole lens, measured: {what} {half} at half of all points, {most} at 95 %</source><translation>{method} über das ganze Objektiv, gemessen: {what} {half} an der Hälfte aller Punkte, {most} an 95 %</translation></message>
+<message><source>{method} over this whole lens, measured: {what} {half} at 50 % of all points, {most} at 95 %</source><translation>{method} über das ganze Objektiv, gemessen: {what} {half} an der Hälfte aller Punkte, {most} an 95 %</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
 <message><source>{method}, by waves of the pupil; the picture is the density of its rays</source><translation>{method}, durch Wellen der Pupille; das Bild ist die Dichte ihrer Strahlen</translation></message>
@@ -2115,7 +2115,7 @@
 <message><source>{names}: a database knows no tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
 <message><source>{names}: no part of the lens as built; measure spacings in their place</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
-<message><source>{names}: the picture tells a combination of these only, and hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
+<message><source>{names}: the picture determines only a combination of these, hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
 <message><source>{name} are {count} numbers; write x and y</source><translation>{name} sind {count} Zahlen; x und y schreiben</translation></message>
 <message><source>{name} are {count} numbers; write x, y and z</source><translation>{name} sind {count} Zahlen; x, y und z schreiben</translation></message>
@@ -2129,7 +2129,7 @@
 <message><source>{name} is "{word}"; give a number</source><translation>{name} ist "{word}"; eine Zahl angeben</translation></message>
 <message><source>{name} is an empty list; write at least one number</source><translation>{name} ist eine leere Liste; mindestens eine Zahl schreiben</translation></message>
 <message><source>{name} is missing; {remedy}</source><translation>{name} fehlt; {remedy}</translation></message>
-<message><source>{name} is no list of tables; head every one with [[{name}]]</source><translation>{name} ist keine Liste von Tabellen; jede mit [[{name}]] überschreiben</translation></message>
+<message><source>{name} is not a list of tables; head every one with [[{name}]]</source><translation>{name} ist keine Liste von Tabellen; jede mit [[{name}]] überschreiben</translation></message>
 <message><source>{name} is {found}; write a list of numbers as in [1.0, 2.0]</source><translation>{name} ist {found}; eine Liste von Zahlen schreiben wie [1.0, 2.0]</translation></message>
 <message><source>{name} is {found}; write a list of tables, each with decentre or tilt_deg</source><translation>{name} ist {found}; eine Liste von Tabellen schreiben, jede mit decentre oder tilt_deg</translation></message>
 <message><source>{name} is {found}; write a square list of rows of numbers</source><translation>{name} ist {found}; eine quadratische Liste von Zeilen von Zahlen schreiben</translation></message>
@@ -2167,7 +2167,7 @@
 <message><source>{parameter} is given with {height}; give {angle} with it, or leave it out</source><translation>{parameter} ist mit {height} angegeben; dazu {angle} angeben oder es weglassen</translation></message>
 <message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
 <message><source>{parameter} is {value:g} mm, but an object at infinity has no height; give {depth} as well, or the field as an angle or an image height</source><translation>{parameter} ist {value:g} mm, aber ein Objekt im Unendlichen hat keine Höhe; auch {depth} angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
-<message><source>{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind the lens; give a distance whose image is real, as a rule a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
+<message><source>{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind the lens; give a distance whose image is real, usually a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
 <message><source>{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; give a smaller shift</source><translation>{parameter} ist {value:g} µm, was den Sensor von {place:g} mm hinter dem Objektiv in dieses hinein schiebt; einen kleineren Versatz angeben</translation></message>
 <message><source>{parameter} is {value:g}; give a number from {low:g} to {high:g}</source><translation>{parameter} ist {value:g}; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
 <message><source>{parameter} is {value:g}; give a radius of at least {low:g}, inf for none</source><translation>{parameter} ist {value:g}; einen Radius von mindestens {low:g} angeben, inf für keine</translation></message>
@@ -2198,7 +2198,7 @@
 <message><source>{path} cannot be written, {reason}; {remedy}</source><translation>{path} ist nicht schreibbar, {reason}; {remedy}</translation></message>
 <message><source>{path} cannot be written, {why}; choose another place</source><translation>{path} ist nicht schreibbar, {why}; einen anderen Ort wählen</translation></message>
 <message><source>{path} cannot be written; choose XDG_DATA_HOME otherwise</source><translation>{path} ist nicht beschreibbar; XDG_DATA_HOME anders wählen</translation></message>
-<message><source>{path} does not say how large its pixels are; give {parameter}</source><translation>{path} sagt nicht, wie groß seine Pixel sind; {parameter} angeben</translation></message>
+<message><source>{path} does not state the size of its pixels; give {parameter}</source><translation>{path} sagt nicht, wie groß seine Pixel sind; {parameter} angeben</translation></message>
 <message><source>{path} has a table of {rows} × {columns} values, and its head says {said}; list it again</source><translation>{path} hat eine Tabelle von {rows} × {columns} Werten, und ihr Kopf sagt {said}; sie neu ausgeben</translation></message>
 <message><source>{path} has the ending "{ending}", which is no picture here; choose {choices}</source><translation>{path} hat die Endung "{ending}", was hier kein Bild ist; {choices} wählen</translation></message>
 <message><source>{path} has the shape ({shape}); give one picture of 1 or 3 channels</source><translation>{path} hat die Form ({shape}); ein Bild mit 1 oder 3 Kanälen angeben</translation></message>
@@ -2210,18 +2210,18 @@
 <message><source>{path} is a damaged PNG ({why}); save the picture again</source><translation>{path} ist ein beschädigtes PNG ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is a damaged {kind} ({why}); save the picture again</source><translation>{path} ist ein beschädigtes {kind} ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG; ohne Interlacing speichern, in RGB oder Grau</translation></message>
-<message><source>{path} is no PNG, TIFF, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is no TOML: {reason}; correct it</source><translation>{path} ist kein TOML: {reason}; berichtigen</translation></message>
-<message><source>{path} is no listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio</source><translation>{path} ist keine lesbare Liste einer PSF oder einer Wellenfront; sie als Text aus OpticStudio schreiben</translation></message>
+<message><source>{path} is not a PNG, TIFF, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS; save the snapshot again</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat; den Schnappschuss neu speichern</translation></message>
 <message><source>{path} is not a PSF that this program wrote; export it again with p2sf psf -o</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat; mit p2sf psf -o neu ausgeben</translation></message>
+<message><source>{path} is not a listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio</source><translation>{path} ist keine lesbare Liste einer PSF oder einer Wellenfront; sie als Text aus OpticStudio schreiben</translation></message>
 <message><source>{path} is not a measurement that this program wrote; make it with p2sf measure -o</source><translation>{path} ist keine Messung, die dieses Programm geschrieben hat; sie mit p2sf measure -o erstellen</translation></message>
 <message><source>{path} is not on this computer; the saved state carries the lens itself</source><translation>{path} ist nicht auf diesem Rechner; der gespeicherte Zustand enthält das Objektiv selbst</translation></message>
 <message><source>{path} is too large a PNG ({why}); save it smaller</source><translation>{path} ist ein zu großes PNG ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
 <message><source>{path} lists a wavefront, not a PSF; list the PSF of the same point</source><translation>{path} listet eine Wellenfront, keine PSF; die PSF desselben Punktes ausgeben</translation></message>
-<message><source>{path}, line {line}: "{text}" is no point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
+<message><source>{path}, line {line}: "{text}" is not a point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
 <message><source>{path}, line {line}: name the columns first, number x_mm y_mm or number x_deg y_deg</source><translation>{path}, Zeile {line}: zuerst die Spalten nennen, number x_mm y_mm oder number x_deg y_deg</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
 <message><source>{path}, line {line}: {words} is number {other} once more; give each point one number and place</source><translation>{path}, Zeile {line}: {words} ist noch einmal Nummer {other}; jedem Punkt eine Nummer und einen Ort geben</translation></message>
@@ -2241,7 +2241,7 @@
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
 <message><source>{pixels} usable pixels for {unknowns} unknowns; take a larger window, or fit fewer numbers</source><translation>{pixels} brauchbare Pixel für {unknowns} Unbekannte; ein größeres Fenster nehmen oder weniger Zahlen anpassen</translation></message>
-<message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene anew</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
+<message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
 <message><source>{psnr:.1f} dB, SSIM {ssim:.3f}</source><translation>{psnr:.1f} dB, SSIM {ssim:.3f}</translation></message>
@@ -2260,7 +2260,7 @@
 <message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
 <message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
-<message><source>{sampling}; the lens set straight, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
+<message><source>{sampling}; the aligned lens, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
 <message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{share} % ± {error} % keep {limit}</source><translation>{share} % ± {error} % halten {limit}</translation></message>
