@@ -5,10 +5,11 @@ MIME types, in the person's own folders, so that no administrator is needed and 
 """
 
 import os
-import shlex
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from shutil import copyfile, which
 from urllib.parse import unquote, urlparse
@@ -52,11 +53,12 @@ LENS_MIME = f"""<?xml version="1.0" encoding="UTF-8"?>
   </mime-type>
 </mime-info>
 """
-WINDOWS_KEYS = (
-    (rf"Software\Classes\{SCHEME}", "", "URL:P2SF link"),
-    (rf"Software\Classes\{SCHEME}", "URL Protocol", ""),
-    (rf"Software\Classes\{SCHEME}\shell\open\command", "", "{command}"),
-    (rf"Software\Classes\Applications\{NAME}.exe\shell\open\command", "", "{command}"),
+WINDOWS_ROOTS = rf"Software\Classes\{SCHEME}", rf"Software\Classes\Applications\{NAME}.exe"
+BRANCH = r"\shell", r"\open", r"\command"
+WINDOWS_VALUES = (
+    (WINDOWS_ROOTS[0], "", "URL:P2SF link"),
+    (WINDOWS_ROOTS[0], "URL Protocol", ""),
+    *((root + "".join(BRANCH), "", "{command}") for root in WINDOWS_ROOTS),
 )
 
 
@@ -72,8 +74,7 @@ def as_path(argument: str) -> str:
 
 def register() -> str:
     """Write the entries and return in a sentence what was done; P2SFError where they cannot be written."""
-    if sys.platform == "darwin":
-        raise P2SFError("macOS learns what a program opens from its bundle; put P2SF Explorer.app into Applications")
+    _refuse_macos()
     try:
         if sys.platform == "win32":
             _write_windows()
@@ -84,17 +85,33 @@ def register() -> str:
         _icon_place().parent.mkdir(parents=True, exist_ok=True)
         copyfile(ICON, _icon_place())
     except OSError as error:
-        raise P2SFError("{path} cannot be written; choose XDG_DATA_HOME otherwise", path=str(error.filename)) from error
+        raise _not_written(error) from error
     _refresh()
     return f"P2SF Explorer is in the menu of programs: {next(iter(_linux_files()))}"
 
 
 def unregister() -> str:
-    """Take away what `register` wrote on Linux, and return that in a sentence."""
-    for path in (*_linux_files(), _icon_place()):
-        path.unlink(missing_ok=True)
+    """Take away what `register` wrote and return that in a sentence; P2SFError where it cannot be taken away."""
+    _refuse_macos()
+    if sys.platform == "win32":
+        _clear_windows()
+        return "p2sf: links and Open with no longer start P2SF Explorer"
+    try:
+        for path in (*_linux_files(), _icon_place()):
+            path.unlink(missing_ok=True)
+    except OSError as error:
+        raise _not_written(error) from error
     _refresh()
     return "P2SF Explorer is no longer in the menu of programs"
+
+
+def _refuse_macos() -> None:
+    if sys.platform == "darwin":
+        raise P2SFError("macOS learns what a program opens from its bundle; put P2SF Explorer.app into Applications")
+
+
+def _not_written(error: OSError) -> P2SFError:
+    return P2SFError("{path} cannot be written; choose XDG_DATA_HOME otherwise", path=str(error.filename))
 
 
 def _data_folder() -> Path:
@@ -106,12 +123,18 @@ def _icon_place() -> Path:
 
 
 def _linux_files() -> dict[Path, str]:
-    entry = ENTRY.format(command=shlex.join(command()), name=NAME, types=";".join(TYPES))
+    entry = ENTRY.format(command=" ".join(map(_quoted, command())), name=NAME, types=";".join(TYPES))
     folder = _data_folder()
     return {
         folder / "applications" / f"{NAME}.desktop": entry,
         folder / "mime" / "packages" / f"{NAME}.xml": LENS_MIME,
     }
+
+
+def _quoted(argument: str) -> str:
+    """Return an argument as the freedesktop.org Desktop Entry Specification has it quoted in the key Exec."""
+    escaped = re.sub(r'(["`$\\])', r"\\\1", argument)
+    return '"' + escaped.replace("\\", "\\\\").replace("%", "%%") + '"'
 
 
 def _refresh() -> None:
@@ -132,6 +155,15 @@ def _write_windows() -> None:
     import winreg
 
     line = subprocess.list2cmdline([*command(), "%1"])
-    for key, name, value in WINDOWS_KEYS:
+    for key, name, value in WINDOWS_VALUES:
         with winreg.CreateKey(winreg.HKEY_CURRENT_USER, key) as opened:  # type: ignore[attr-defined,unused-ignore]
             winreg.SetValueEx(opened, name, 0, winreg.REG_SZ, value.format(command=line))  # type: ignore[attr-defined,unused-ignore]
+
+
+def _clear_windows() -> None:
+    import winreg
+
+    for root in WINDOWS_ROOTS:
+        for depth in range(len(BRANCH), -1, -1):  # only a key without others below it can be deleted
+            with suppress(FileNotFoundError):
+                winreg.DeleteKey(winreg.HKEY_CURRENT_USER, root + "".join(BRANCH[:depth]))  # type: ignore[attr-defined,unused-ignore]

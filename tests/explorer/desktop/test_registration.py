@@ -3,6 +3,7 @@
 import configparser
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -36,6 +37,52 @@ def test_the_entry_opens_links_and_lens_files_and_goes_again(tmp_path, monkeypat
     unregister()
     left = [path for path in tmp_path.rglob("p2sf*") if path.is_file()]
     assert not [path for path in left if path.suffix in (".desktop", ".png") or path.parent.name == "packages"]
+
+
+@ON_LINUX
+def test_a_program_in_a_folder_of_any_name_is_quoted_for_the_menu(tmp_path, monkeypatch):
+    """Double quotes, a backslash before what a shell would expand, each written twice in the file, and %% for %."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    monkeypatch.setattr("p2sf_explorer.desktop.registration.command", lambda: ["/my 100 % folder/$it", "-m"])
+    register()
+    text = (tmp_path / "applications" / "p2sf-explorer.desktop").read_text()
+    assert 'Exec="/my 100 %% folder/\\\\$it" "-m" %u\n' in text
+    unregister()
+
+
+class Registry:
+    """Keys of the Windows registry under one root, as the module winreg offers them."""
+
+    HKEY_CURRENT_USER, REG_SZ = object(), 1
+
+    def __init__(self):
+        self.keys = {"Software", "Software\\Classes", "Software\\Classes\\Applications"}
+
+    @contextmanager
+    def CreateKey(self, root, path):
+        parts = path.split("\\")
+        self.keys |= {"\\".join(parts[:k]) for k in range(1, len(parts) + 1)}
+        yield path
+
+    def SetValueEx(self, key, name, reserved, kind, value):
+        assert key in self.keys
+
+    def DeleteKey(self, root, path):
+        if path not in self.keys:
+            raise FileNotFoundError(path)
+        if any(key.startswith(path + "\\") for key in self.keys):
+            raise PermissionError(path)
+        self.keys.remove(path)
+
+
+def test_on_windows_the_keys_go_again_and_may_be_missing(monkeypatch):
+    registry = Registry()
+    before = set(registry.keys)
+    monkeypatch.setitem(sys.modules, "winreg", registry)
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert "start P2SF Explorer" in register() and len(registry.keys) > len(before) + 4
+    for _ in range(2):
+        assert "no longer" in unregister() and registry.keys == before
 
 
 def test_every_shipped_lens_is_known_by_its_content():
