@@ -19,7 +19,7 @@ LARGEST: dict[Kind, float] = {
     **dict.fromkeys(("decentre_x", "decentre_y"), 1000.0),
     **dict.fromkeys(("tilt_x", "tilt_y"), 360.0),
     "radius": 99.0,
-    "thickness": 1000.0,
+    "thickness": 1e5,  # a telescope refocused by metres is one still
     "index": 1.0,
     **dict.fromkeys(IRREGULAR, 1000.0),
 }

@@ -91,3 +91,13 @@ def test_without_builds_it_is_said_what_to_wait_for(window, qtbot, monkeypatch):
     window.play.ask_film_of_builds()
     assert window.banner.isVisible() and "histogram" in window.banner.text.text()
     window.store.update(tab="profiles")
+
+
+def test_a_telescope_that_is_refocused_by_metres_is_filmed(panel, window, qtbot):
+    """Hubble is f/24, its primary f/2.3: 0.5 % of a radius of 11 m move the focus by (24/2.3)² times 28 mm."""
+    window.store.update(lens="hubble", tolerances_grade="commercial")
+    qtbot.waitUntil(lambda: not panel._stale(), timeout=60000)
+    moments = moments_of_builds(*panel.drawn())
+    shifts = [amount for moment in moments for kind, *_, amount in moment.state.optics.errors if kind == "thickness"]
+    assert max(map(abs, shifts)) > 1000 and len(moments) == 41
+    assert all(paraxial_setup(moment.state).lens for moment in moments)
