@@ -18,8 +18,7 @@ from p2sf.threads import one_blas_thread
 
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
-TRIED = 6, 15  # starts; the second count where none of the first explains the pictures,
-WIDER, TRIED_WIDER = 2.0, 9  # and then some whose mean square width is so many times that seen: noise hides faint light
+TRIED = 6, 24  # starts; the second count where none of the first explains the pictures
 KEPT = 3  # coarse fits that are followed to their end
 COARSE_STEPS, FINE_STEPS = 12, 60
 COARSE_RTOL, FINE_RTOL = 1e-2, 1e-6  # of the sum of squares in one step
@@ -174,17 +173,33 @@ def _six(
         expected[5::PER_FRAME] += (near[1] - every[0].waves[1]) * np.cos(azimuth) / optics.cycles
         expected[4::PER_FRAME] += (near[1] - every[0].waves[1]) * np.sin(azimuth) / optics.cycles
         minima.append(_descended(fine, expected, loss))
-    for first in (True, False):
-        some = every[: TRIED[0]]
-        if not first:
-            some = every[TRIED[0] :] + starts(pictures, optics, azimuth, TRIED_WIDER, WIDER)
-        rough = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in some]
+    for some in (slice(0, TRIED[0]), slice(*TRIED)):
+        rough = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
         rough.sort(key=_cost)
         minima += [_descended(fine, minimum.unknowns, loss) for minimum in _distinct(rough, 4)[:KEPT]]
         minima.sort(key=_cost)
         if 2 * minima[0].cost < fine.freedom * most_chi2(fine.freedom):
             break
+    else:
+        if len(pictures) > 1:
+            minima += [_descended(fine, start, loss) for start in _from_each(pictures, optics, azimuth, loss, every[0])]
+            minima.sort(key=_cost)
     return _distinct(minima, 4, SAME_WAVES)
+
+
+def _from_each(
+    pictures: Sequence[PointPicture], optics: Optics, azimuth: float, loss: Loss, first: Start
+) -> list[np.ndarray]:
+    """Return unknowns that explain one picture alone, and their twins: it has fewer minima than all together."""
+    out = []
+    for k, picture in enumerate(pictures):
+        alone = _six([picture], optics, azimuth, loss, None)[0].unknowns
+        frames = first.frames.copy()
+        frames[:, :2] = alone[4:6]
+        frames[k] = alone[4:]
+        for waves in (alone[:4], pupil_model(SIX).twin(alone[:4], picture.defocus_waves)):
+            out.append(np.concatenate([waves, frames.ravel()]))
+    return out
 
 
 def most_chi2(freedom: int) -> float:

@@ -7,7 +7,7 @@ pictures, both a little blurred.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -107,16 +107,10 @@ def blurring(count: int, width: float) -> np.ndarray:
     return blur
 
 
-def starts(
-    pictures: Sequence[PointPicture], optics: Optics, azimuth: float, keep: int, wider: float = 1.0
-) -> list[Start]:
-    """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError.
-
-    ``wider``: the factor by which the mean square width of candidates exceeds that seen.
-    """
+def starts(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, keep: int) -> list[Start]:
+    """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError."""
     found = [seen(picture, optics) for picture in pictures]
-    widths = [replace(one, square_um2=wider * one.square_um2) for one in found]
-    waves = candidates(widths, pictures, optics, azimuth)
+    waves = candidates(found, pictures, optics, azimuth)
     mean, _ = slope_moments(azimuth, optics.mask)
     offset = waves @ mean.T / optics.cycles  # the centroid of light is −⟨∇W⟩·λ/NA
     places = [np.stack([one.x + offset[:, 0], one.y + offset[:, 1]], 1) for one in found]
