@@ -176,7 +176,7 @@ def palette(theme: Tokens) -> QPalette:
 
 def stylesheet(theme: Tokens) -> str:
     """Return the style sheet of the window; every length in it is written at scale 1."""
-    plain = _frames(theme) + _inputs(theme) + _lists(theme)
+    plain = _frames(theme) + _inputs(theme) + _tools(theme) + _lists(theme)
     if QGuiApplication.isRightToLeft():  # Qt mirrors layouts, and leaves these as they are written
         plain = plain.replace("padding-right", "padding-left").replace("text-align: left", "text-align: right")
     return PIXELS.sub(lambda length: f"{theme.px(int(length[1])) if int(length[1]) else 0}px", plain)
@@ -221,7 +221,7 @@ def _frames(t: Tokens) -> str:
 
 
 def _inputs(t: Tokens) -> str:
-    """Return the look of buttons, choosers and text fields."""
+    """Return the look of plain buttons, choosers and text fields."""
     return f"""
     QLineEdit, QComboBox, QPushButton, QToolButton {{
         background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 3px 8px; min-height: 20px; }}
@@ -237,6 +237,12 @@ def _inputs(t: Tokens) -> str:
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}
     QToolButton#small[tight="true"] {{ padding: 1px 2px; }}
     QToolButton#small[turns="true"] {{ min-width: 28px; max-width: 28px; }}
+    """
+
+
+def _tools(t: Tokens) -> str:
+    """Return the look of buttons that are not plain, of progress bars, and of choosers' arrows and lists."""
+    return f"""
     QPushButton#lens {{ text-align: left; padding-right: 22px; }}
     QPushButton#segment {{ padding: 3px 9px; color: {t.muted}; background: transparent;
         border: 1px solid transparent; }}

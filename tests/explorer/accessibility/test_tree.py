@@ -5,8 +5,9 @@ import re
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
-from PySide6.QtWidgets import QApplication, QScrollArea
+from PySide6.QtWidgets import QApplication, QScrollArea, QWidget
 
+from p2sf_explorer.crash.dialog import CrashDialog
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.solid import SolidPanel
 from tests.support.screen_reader import EMPTY, nodes, transcript
@@ -41,6 +42,31 @@ def test_everything_interactive_has_a_name_and_a_role(window, key, monkeypatch):
     window.store.update(show_pupil_shape=True, playback_slider="field_deg")
     QApplication.processEvents()
     assert not (wrong := wanting(window)), "\n".join(f"{where}: {why}" for where, why in wrong.items())
+
+
+OPENED = {
+    "handbook": lambda window: window.commands.theory(),
+    "shortcuts": lambda window: window.commands.help(),
+    "palette": lambda window: window.commands.find(),
+    "lenses": lambda window: window.top.lens.open_gallery(),
+    "exactness": lambda window: window.top.tolerance.click(),
+    "set of exports": lambda window: window.commands.ask_set(),
+    "crash": lambda window: CrashDialog("what happened", True, window).open(),
+}
+
+
+@pytest.mark.parametrize("name", OPENED)
+def test_what_opens_above_the_window_has_names_and_roles_too(window, name):
+    OPENED[name](window)
+    QApplication.processEvents()
+    above = [part for part in window.findChildren(QWidget) if part.isWindow() and part.isVisible()]
+    try:
+        assert above
+        for part in above:
+            assert not (wrong := wanting(part)), "\n".join(f"{where}: {why}" for where, why in wrong.items())
+    finally:
+        for part in above:
+            part.close()
 
 
 def test_the_tree_has_the_sliders_with_what_they_stand_at(window):
