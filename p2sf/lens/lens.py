@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 # Far below any atom, and far above where the cube of a curvature overflows.
 SMALLEST_RADIUS_MM = 1e-30
+NORMALISATIONS_MM = 1e-6, 1e6  # radii whose powers, up to the 50th, are still numbers
 
 ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_number"]
 Aim = Literal["stop", "paraxial"]
@@ -454,11 +455,14 @@ def _check_shape(surface: Surface, number: int) -> None:
     for part in (surface.shape, surface.diffraction):
         if part is None:
             continue
-        if not (isfinite(part.normalisation_mm) and part.normalisation_mm > 0):
+        low, high = NORMALISATIONS_MM
+        if not low <= part.normalisation_mm <= high:
             raise GeometryError(
-                "surface {surface}: normalisation radius {radius} mm; give a positive number",
+                "surface {surface}: normalisation radius {radius} mm; give a number from {low:g} to {high:g}",
                 surface=number,
                 radius=part.normalisation_mm,
+                low=low,
+                high=high,
             )
         if not all(map(isfinite, part.numbers)):
             raise GeometryError(

@@ -21,6 +21,7 @@ SETTLED_TOLERANCE = 1e-4
 NEWTON_STEPS = 8
 NEWTON_ENOUGH = 1e-6  # of a step, in units of the closest nodes' distance: the next error is its square
 MOST_KEPT = 2**18  # nodes that a cached result may have: 3 MB for the half disc
+UNCOUNTED = 2.0**40  # nodes along one line, more than are ever summed
 AT_ONCE = 2**22  # numbers in one block of a table that is summed
 
 Nodes = TypeVar("Nodes")
@@ -228,6 +229,10 @@ def even_count(count: float) -> int:
 
 
 def _stepped(count: float) -> int:
-    """Return the next count with four significant bits, so that neighbouring requests share the cache."""
+    """Return the next count with four significant bits, so that neighbouring requests share the cache.
+
+    At most `UNCOUNTED`, also for what is no number, which whoever sums refuses.
+    """
+    count = count if count < UNCOUNTED else UNCOUNTED
     step: int = 2 ** max(0, int(count).bit_length() - 4)
     return step * ceil(count / step)

@@ -163,6 +163,8 @@ def lens(**values) -> Lens:
     [
         ({"shape": Qcon((1.0,), 0.0)}, "normalisation radius 0.0 mm"),
         ({"shape": Qbfs((1.0,), inf)}, "normalisation radius inf mm"),
+        ({"shape": RadialPolynomial((1.0,), 1e160)}, r"normalisation radius 1e\+160 mm; give .* from 1e-06 to 1e\+06"),
+        ({"diffraction": Diffraction((1.0,), 1e-160)}, "normalisation radius 1e-160 mm"),
         ({"shape": RadialPolynomial((1.0, nan))}, "not finite"),
         ({"diffraction": Diffraction((1.0,), 5.0, inf)}, "not finite"),
     ],

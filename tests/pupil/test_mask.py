@@ -26,7 +26,10 @@ RING = np.linspace(0, 2 * pi, 721)
         {"apodisation": 0.0},
         {"apodisation_power": 3},
         {"zernike_um": (float("nan"),)},
+        {"zernike_um": (0.1, -1e308)},
+        {"zernike_um": (0.0,) * 1000},
         {"cubic_um": inf},
+        {"cubic_um": 1e308},
     ],
     ids=str,
 )
@@ -34,6 +37,11 @@ def test_what_cannot_stand_in_a_stop_is_refused_by_name(wrong):
     with pytest.raises(RequestError) as error:
         PupilMask(**wrong)
     assert error.value.message.values["parameter"] == next(iter(wrong))
+
+
+def test_an_apodisation_too_wide_to_be_seen_is_none():
+    """Its radius may be as large as a number can be, whose square is none any more."""
+    assert PupilMask(apodisation=1e308).amplitude(np.array([0.0, 0.6]), np.array([0.0, 0.8])).tolist() == [1, 1]
 
 
 @pytest.mark.parametrize("values", [np.zeros((3, 3)), np.zeros((8, 9)), np.full((8, 8), np.nan)], ids=str)

@@ -18,6 +18,7 @@ from p2sf.pupil.quadrature import (
     chord_rows,
     chords_for,
     disc_nodes,
+    even_count,
     gauss_legendre,
     grid_rows,
     nodes_for,
@@ -147,3 +148,8 @@ def test_a_rule_is_kept_unless_it_is_large(rule):
     large = 2 * (isqrt(MOST_KEPT) // 2 + 1)
     assert rule(large, large) is not rule(large, large)
     assert MOST_KEPT * 24 / 2 * 32 < 1.1e8
+
+
+@pytest.mark.parametrize("count", [1e30, float("inf"), float("nan")])
+def test_counts_that_overflow_are_more_than_is_ever_summed(count):
+    assert even_count(count) == 2**41

@@ -1659,7 +1659,7 @@
 <message><source>surface {surface}: ior is not a table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
 <message><source>surface {surface}: irregularity of {fringes:g} and {more:g} fringes over a radius of {radius:g} mm; give finite numbers, and a positive radius</source><translation>Fläche {surface}: ein Passfehler von {fringes:g} und {more:g} Ringen über einen Radius von {radius:g} mm; endliche Zahlen und einen positiven Radius angeben</translation></message>
 <message><source>surface {surface}: its rim has the centre ({centre:g}) mm and the half-widths {widths}; give finite numbers, and positive widths</source><translation>Fläche {surface}: ihr Rand hat die Mitte ({centre:g}) mm und die halben Breiten {widths}; endliche Zahlen und positive Breiten angeben</translation></message>
-<message><source>surface {surface}: normalisation radius {radius} mm; give a positive number</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine positive Zahl angeben</translation></message>
+<message><source>surface {surface}: normalisation radius {radius} mm; give a number from {low:g} to {high:g}</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
 <message><source>surface {surface}: thickness {thickness} mm; give a finite number</source><translation>Fläche {surface}: Dicke {thickness} mm; eine endliche Zahl angeben</translation></message>
@@ -2157,7 +2157,7 @@
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
-<message><source>{parameter} has {count} terms; give up to {most} finite numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} endliche Zahlen angeben</translation></message>
+<message><source>{parameter} has {count} terms; give up to {most} numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} Zahlen angeben</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose noll or fringe</source><translation>{parameter} ist "{value}"; noll oder fringe wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose stop or paraxial</source><translation>{parameter} ist "{value}"; stop oder paraxial wählen</translation></message>
