@@ -60,6 +60,8 @@ def on_post_build(config: Any) -> None:
     """Refuse a site that has a dead link, or that would fetch something from the network."""
     site = Path(config.site_dir)
     (site / "404.html").unlink()  # for servers, with links that hold on a server only
+    for sitemap in site.glob("sitemap.xml*"):  # empty, since the site has no address of its own
+        sitemap.unlink()
     if faults := link_faults(site):
         raise PluginError("\n".join(faults))
 
