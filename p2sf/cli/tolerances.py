@@ -12,7 +12,6 @@ from p2sf.cli.screen import field_text, print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.messages import Message
 from p2sf.parameters import check_positive
 from p2sf.request import Setup, set_up
 from p2sf.tolerance import (
@@ -38,7 +37,6 @@ COLUMNS: dict[Criterion, str] = {
     "mtf": "takes from the least contrast",
     "boresight_um": "moves the image by, µm",
 }
-CLEAR_STOP = Message("a mask stands in the stop; RMS, Strehl ratio and contrast of builds are those of the clear stop")
 MOST_BUILDS, SHOWN = 1_000_000, 12
 PERCENTILES = 10, 50, 90
 
@@ -104,7 +102,6 @@ def tolerance(
     if as_json:
         return print_json(record)
     warn(setup.stop.warning)
-    warn(None if setup.lens.mask.clear else CLEAR_STOP)
     return show(setup, known.sources, record)
 
 

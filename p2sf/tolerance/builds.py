@@ -12,7 +12,7 @@ from p2sf.pupil import zernike
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.threads import one_blas_thread
 from p2sf.tolerance.contrast import Pairs, pairs_of
-from p2sf.tolerance.differentials import FINE, NODES, Differentials
+from p2sf.tolerance.differentials import NODES, Differentials, OpenRays
 from p2sf.tolerance.errors_of_build import IRREGULAR, Tolerance
 
 TOGETHER = 500  # builds at a time
@@ -94,12 +94,11 @@ def evaluate(
         if cancelled and cancelled():
             raise Cancelled("the builds were stopped before they were done")
         some = slice(begin, begin + TOGETHER)
-        waves = form.waves(errors[some])
         for _ in range(ROUNDS if compensators else 0):
-            waves, change = form.compensated(waves, errors[some], tuple(compensators))
-            errors[some][:, list(compensators)] += change
-        rms[some], strehl[some] = form.quality(waves)
-        form.contrast(waves, mtf[some])
+            errors[some][:, list(compensators)] += form.compensated(errors[some], tuple(compensators))
+        change = form.change(errors[some])
+        rms[some], strehl[some] = form.quality(change)
+        form.contrast(change, mtf[some])
         if progress:
             progress(min(1.0, (begin + TOGETHER) / len(errors)))
     boresight = np.einsum("be,efx->bfx", errors, known.chief_um)
@@ -119,111 +118,100 @@ def sensitivities(
     return evaluate(known, np.concatenate([alone, np.zeros((1, amounts.size))]), compensators, frequency_per_mm)
 
 
+class _Field:
+    """The waves of one field at open rays, without the piston and the tilt that are best there.
+
+    A build adds polynomials to those of the lens: it has ``still`` (rays,) + change (terms,) @ ``terms`` (terms, rays).
+    (1, change) @ ``root`` are numbers whose squares add to the mean square.
+    """
+
+    def __init__(self, rays: OpenRays):
+        self.weight = rays.weight
+        rows = np.concatenate([rays.phase[None], _terms(rays.xi, rays.eta)])
+        flat = np.stack([np.ones_like(rays.fx), rays.fx, rays.fy])
+        weighted = flat * rays.weight
+        rows = rows - np.linalg.solve(weighted @ flat.T, weighted @ rows.T).T @ flat
+        self.still, self.terms = rows[0], rows[1:]
+        # Not of the rays themselves times roots of their weights, since those of a mask's edges may be negative.
+        values, vectors = np.linalg.eigh((rows * rays.weight) @ rows.T)
+        self.root = vectors * np.sqrt(np.maximum(values, 0.0))
+
+    def strehl(self, change: np.ndarray) -> np.ndarray:
+        """Return |Σ weight·exp(2πi·waves)|² of builds, (builds,), that differ by (builds, terms)."""
+        angle = 2 * np.pi * (self.still + change @ self.terms)
+        strehl: np.ndarray = (np.cos(angle) @ self.weight) ** 2 + (np.sin(angle) @ self.weight) ** 2
+        return strehl
+
+
 class _Form:
-    """The quadratic form of all fields' waves, with what piston and tilt take out of them."""
+    """The quadratic form of all fields' waves in the errors, by polynomials over the stop."""
 
     def __init__(self, known: Differentials, frequency_per_mm: float | None = None):
-        self.shape = known.phase.shape
-        self.frequency_per_mm = frequency_per_mm
-        count = len(known.tolerances)
-        one, other = np.triu_indices(count)
+        self.fields = [_Field(rays) for rays in known.fine]
+        few = [_Field(_few_rays(known, k)) for k in range(len(self.fields))]
+        self.few = few if known.lens.mask.clear else self.fields
+        one, other = np.triu_indices(len(known.tolerances))
         felt = known.second[one, other].any((1, 2))
         self.pairs = one[felt], other[felt]
         factor = np.where(self.pairs[0] == self.pairs[1], 0.5, 1.0)
-        root = np.sqrt(known.weight)
-        self.out = [_orthonormal(root[k], known.fx[k], known.fy[k]) for k in range(self.shape[0])]
-        self.root = root.ravel()
-        # Scaled by the root of each ray's light, sums of squares are mean squares; piston and tilt are taken out once.
-        self.still = self._projected(known.phase[None])[0]
-        self.first = self._projected(known.first)
-        self.second = self._projected(known.second[self.pairs] * factor[:, None, None])
-        self.by_one = known.second
-        self.finer = _continued(*whole_disc(*FINE)[:2])
-        self.fine_light, phase, fx, fy = known.fine
-        self.fine_still = np.stack([self._fine(known, k, phase[k], fx[k], fy[k]) for k in range(self.shape[0])])
+        self.first, self.by_one = known.first @ _to_terms(), known.second @ _to_terms()
+        self.second = self.by_one[self.pairs] * factor[:, None, None]
+        self.patterns = []
+        if frequency_per_mm is not None:
+            for k in range(len(self.fields)):
+                both = pairs_of(known, k, frequency_per_mm)
+                self.patterns.append([pairs and (pairs, _differences(pairs)) for pairs in both])
 
-        self.pairs_of_field = [
-            (None, None) if frequency_per_mm is None else pairs_of(known, k, frequency_per_mm)
-            for k in range(self.shape[0])
-        ]
-        self.to_pairs = [[pairs and _differences(pairs) for pairs in both] for both in self.pairs_of_field]
-
-    @staticmethod
-    def _fine(known: Differentials, field: int, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
-        """Return the waves of the lens at many rays less the piston and tilt that the fewer rays of a field have."""
-        root = np.sqrt(known.weight[field])
-        terms = np.stack([root, root * known.fx[field], root * known.fy[field]], axis=1)
-        piston, across, along = np.linalg.lstsq(terms, root * known.phase[field], rcond=None)[0]
-        left: np.ndarray = phase - piston - across * fx - along * fy
-        return left
-
-    def _projected(self, waves: np.ndarray) -> np.ndarray:
-        """Return waves (…, fields, rays) times the roots of the light, without piston and tilt, (…, fields·rays)."""
-        scaled = waves * self.root.reshape(self.shape)
-        for field, out in enumerate(self.out):
-            scaled[:, field] -= (scaled[:, field] @ out) @ out.T
-        flat: np.ndarray = scaled.reshape(len(waves), self.root.size)
-        return flat
-
-    def waves(self, errors: np.ndarray) -> np.ndarray:
-        """Return the scaled waves of builds, (builds, fields·rays)."""
+    def change(self, errors: np.ndarray) -> np.ndarray:
+        """Return the polynomials that errors, (builds, errors), add to every field's waves, (builds, fields, terms)."""
         products = errors[:, self.pairs[0]] * errors[:, self.pairs[1]]
-        waves: np.ndarray = self.still + errors @ self.first + products @ self.second
-        return waves
+        return np.tensordot(errors, self.first, 1) + np.tensordot(products, self.second, 1)
 
-    def compensated(
-        self, waves: np.ndarray, errors: np.ndarray, places: tuple[int, ...]
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the waves after a step that makes their mean square least, and the step, (builds, compensators)."""
-        slopes = np.stack([self.first[place] + errors @ self._slope(place) for place in places], axis=1)
+    def _rooted(self, change: np.ndarray, still: float) -> np.ndarray:
+        """Return numbers whose squares add to each field's mean square, (…, fields, terms + 1).
+
+        Of a change of the waves alone where ``still`` is 0, and of the waves where it is 1.
+        """
+        roots = [still * field.root[0] + change[..., k, :] @ field.root[1:] for k, field in enumerate(self.fields)]
+        return np.stack(roots, axis=-2)
+
+    def compensated(self, errors: np.ndarray, places: tuple[int, ...]) -> np.ndarray:
+        """Return the step of compensators, (builds, compensators), that makes the mean square of all fields least."""
+        waves = self._rooted(self.change(errors), 1.0).reshape(len(errors), -1)
+        each = [self.first[place] + np.tensordot(errors, self.by_one[place], 1) for place in places]
+        slopes = np.stack([self._rooted(one, 0.0).reshape(len(errors), -1) for one in each], axis=1)
         normal = slopes @ slopes.swapaxes(1, 2)
-        step = -np.linalg.solve(normal, (slopes @ waves[..., None]))[..., 0]
-        moved = errors.copy()
-        moved[:, list(places)] += step
-        return self.waves(moved), step
+        step: np.ndarray = -np.linalg.solve(normal, (slopes @ waves[..., None]))[..., 0]
+        return step
 
-    def _slope(self, place: int) -> np.ndarray:
-        return self._projected(self.by_one[place].copy())
-
-    def quality(self, waves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def quality(self, change: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return RMS in waves and Strehl ratio, (builds, fields)."""
-        by_field = waves.reshape(-1, *self.shape)
-        rms = np.sqrt((by_field * by_field).sum(-1))
-        root, strehl = self.root.reshape(self.shape), np.exp(-((2 * np.pi * rms) ** 2))
-        for field, light in enumerate(root * root):
-            near = rms[:, field] <= FEW_RAYS_RMS
-            strehl[near, field] = _strehl(by_field[near, field] / root[field], light)
-            far = ~near & (rms[:, field] <= SUMMED_RMS)
-            change = self._change(waves[far], field)
-            strehl[far, field] = _strehl(self.fine_still[field] + change @ self.finer, self.fine_light[field])
+        rms = np.sqrt(np.square(self._rooted(change, 1.0)).sum(-1))
+        strehl = np.exp(-((2 * np.pi * rms) ** 2))
+        for k, field in enumerate(self.fields):
+            near = rms[:, k] <= FEW_RAYS_RMS
+            strehl[near, k] = self.few[k].strehl(change[near, k])
+            far = ~near & (rms[:, k] <= SUMMED_RMS)
+            strehl[far, k] = field.strehl(change[far, k])
         return rms, strehl
 
-    def _change(self, waves: np.ndarray, field: int) -> np.ndarray:
-        """Return what scaled waves of builds add to a field's, (builds, rays)."""
-        added = (waves - self.still).reshape(-1, *self.shape)[:, field]
-        change: np.ndarray = added / self.root.reshape(self.shape)[field]
-        return change
-
-    def contrast(self, waves: np.ndarray, found: np.ndarray) -> None:
+    def contrast(self, change: np.ndarray, found: np.ndarray) -> None:
         """Write the contrast of builds, (builds, fields, 2), where a frequency is asked for; 0 beyond the cut-off."""
-        if self.frequency_per_mm is None:
-            return
-        for field, both in enumerate(self.pairs_of_field):
-            terms = (self._change(waves, field) @ _to_terms()).astype(np.float32)
-            for axis, pairs in enumerate(both):
-                found[:, field, axis] = pairs.contrast(terms @ self.to_pairs[field][axis]) if pairs else 0.0
+        for field, both in enumerate(self.patterns):
+            terms = change[:, field].astype(np.float32)
+            for axis, known in enumerate(both):
+                found[:, field, axis] = known[0].contrast(terms @ known[1]) if known else 0.0
 
 
-def _strehl(waves: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Return |Σ light·exp(2πi·waves)|² over the last axis."""
-    angle = 2 * np.pi * waves
-    strehl: np.ndarray = (np.cos(angle) @ light) ** 2 + (np.sin(angle) @ light) ** 2
-    return strehl
+def _few_rays(known: Differentials, field: int) -> OpenRays:
+    """Return the rays of the differentials, which carry exp(2πiW) of a clear stop where W is small."""
+    xi, eta, _ = whole_disc(*NODES)
+    return OpenRays(xi, eta, known.weight[field], known.phase[field], known.fx[field], known.fy[field])
 
 
 @lru_cache(maxsize=1)
 def _to_terms() -> np.ndarray:
-    """Return the matrix (rays, terms) from a smooth change at the few rays to its polynomials."""
+    """Return the matrix (rays, terms) from a smooth change at the rays of the differentials to its polynomials."""
     return protected(np.linalg.pinv(_terms(*whole_disc(*NODES)[:2])))
 
 
@@ -233,19 +221,7 @@ def _terms(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     return rows
 
 
-def _continued(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return the matrix (rays, points) that continues a smooth change from the few rays to any points."""
-    matrix: np.ndarray = _to_terms() @ _terms(xi, eta)
-    return matrix
-
-
 def _differences(pairs: Pairs) -> np.ndarray:
     """Return the difference of every polynomial at pairs of points, (terms, pairs)."""
     found: np.ndarray = (_terms(*pairs.ends[0]) - _terms(*pairs.ends[1])).astype(np.float32)
     return found
-
-
-def _orthonormal(root: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
-    """Return an orthonormal basis of piston and tilts, (rays, 3), where rays are scaled by the root of the light."""
-    basis: np.ndarray = np.linalg.qr(np.stack([root, root * fx, root * fy], axis=1))[0]
-    return basis

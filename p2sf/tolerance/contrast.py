@@ -6,6 +6,7 @@ With D(f) the density of rays over frequencies f = n'K/λ and w their phase (see
 
 (Goodman 2005, eq. 6-28). Pairs of points of the stop whose frequencies differ by ν are found once in the lens without
 errors; a build changes their phases only. That its pupil changes too is left out: it moves the cut-off, by some 1e-3.
+Behind a mask both D have its amplitude, and rows of points are broken where an edge of the mask crosses them.
 """
 
 from dataclasses import dataclass
@@ -17,15 +18,19 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.metrics.mask_lines import edges_of, places_between
 from p2sf.parameters import check_positive
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.phasors import cosine_sine
-from p2sf.pupil.quadrature import whole_disc
-from p2sf.tolerance.differentials import FINE, Differentials, fly
+from p2sf.pupil.quadrature import gauss_legendre, whole_disc
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.tolerance.differentials import FINE, FINEST, Differentials, fly
 
 ORDER = 10  # of the polynomials that follow the pupil
 SIZES = (12, 16), (18, 24), (26, 34), (38, 50), (56, 72)  # rows and columns of pairs
 DISTORTION = 1.1  # by which the edge of a pupil is farther from its middle than the middle's scale says, at most
 SETTLED = 1e-3  # by which the lens's contrast may differ between one size and the next, which is taken
+FEWEST, ALONG, STEPS, HALVINGS = 6, 17, 128, 14  # of a part of a row: points; of a row: where its edges are sought
 ROUNDS = 7  # that find them: each reduces the error by the pupil's distortion, some per cent
 
 
@@ -52,16 +57,19 @@ class _PupilMap:
     """Frequencies and weight over the stop, as polynomials T_i(ξ)·T_j(η) through many rays."""
 
     def __init__(self, known: Differentials, field: int):
-        xi, eta, area = whole_disc(*FINE)
-        light, _, fx, fy = known.fine[:, field]
+        xi, eta, _ = whole_disc(*FINE)
+        rays = fly(known.lens, known.sources[field], xi, eta)
         places = np.indices((ORDER + 1, ORDER + 1))
         kept = places.sum(0) <= ORDER
         rows = chebvander2d(xi, eta, (ORDER, ORDER)).reshape(xi.size, *kept.shape)[:, kept]
         self._tables = np.zeros((3, *kept.shape))
-        self._tables[:, kept] = np.linalg.lstsq(rows, np.stack([fx, fy, light / area], axis=1))[0].T
+        self._tables[:, kept] = np.linalg.lstsq(rows, np.stack([rays.fx, rays.fy, rays.weight], axis=1))[0].T
         self._slopes = [[chebder(table, axis=axis) for axis in (0, 1)] for table in self._tables[:2]]
-        density = light / area / np.abs(np.linalg.det(self.jacobian(xi, eta)))
-        self.square = float((light * density).sum()) * np.pi
+        self.mask = mask_seen(known.lens, known.sources[field])
+        nodes = mask_nodes(self.mask, *FINEST).unfolded()
+        xi, eta = nodes.xi, nodes.eta
+        density = np.square(self.weight(np.stack([xi, eta]))) / np.abs(np.linalg.det(self.jacobian(xi, eta)))
+        self.square = float((nodes.weight * np.square(nodes.amplitude) * density).sum()) * np.pi * nodes.share
 
     def at(self, place: np.ndarray) -> np.ndarray:
         """Return the frequencies (2, points) at places (2, points) of the stop."""
@@ -107,7 +115,7 @@ def _settled(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray
     if corners is None:
         return None
     last, none = np.inf, np.zeros((1, 1))
-    for size in SIZES:
+    for size in SIZES[2 * pupil.mask.edged :]:
         found = _pairs(pupil, lens, source, frequency, _overlap(pupil, frequency, corners, size))
         contrast = float(found.contrast(none)[0])
         if abs(contrast - last) <= SETTLED:
@@ -126,6 +134,7 @@ def _pairs(
     middle, area = middles
     apart = pupil.apart(middle, frequency)
     ends = np.stack([middle + apart / 2, middle - apart / 2])
+    area = area * pupil.mask.amplitude(*ends[0]) * pupil.mask.amplitude(*ends[1])
     first, second = (pupil.jacobian(*end) for end in ends)
     # From F(m + δ/2) − F(m − δ/2) = ν: ∂δ/∂m = 2(J + J′)⁻¹(J′ − J), and df = |J(1 + ½∂δ/∂m)| dm.
     turned = np.eye(2) + np.linalg.solve(first + second, second - first)
@@ -133,6 +142,7 @@ def _pairs(
     density = [pupil.weight(end) / np.abs(np.linalg.det(by)) for end, by in zip(ends, (first, second), strict=True)]
     light = density[0] * density[1] * area / pupil.square
     phase = fly(lens, source, *ends.swapaxes(0, 1).reshape(2, -1)).phase.reshape(2, -1)
+    phase = phase + pupil.mask.path_um(ends[:, 0], ends[:, 1]) / source.wavelength_um
     return Pairs(ends, light, phase[0] - phase[1])
 
 
@@ -156,15 +166,17 @@ def _overlap(
     """Return Gauss-Legendre nodes (2, points) in rows between the corners, and the area of each.
 
     Rows end where one point of the pair is on the rim. Even steps of an angle φ, sin φ along the corners' line, follow
-    both a full circle and the corners of its overlap with another.
+    both a full circle and the corners of its overlap with another; so they do between the ends of a mask's edges.
     """
-    angle, share = np.polynomial.legendre.leggauss(size[0])
-    angle, share = angle * np.pi / 2, share * np.pi / 2
     centre, half = corners.mean(1), (corners[:, 0] - corners[:, 1]) / 2
     along = np.array([half[1], -half[0]]) / np.hypot(*half)
     along = along * np.sign(along @ pupil.apart(centre[:, None], frequency)[:, 0])
-    base = centre[:, None] + half[:, None] * np.sin(angle)
-    ends = [np.zeros(size[0]), np.zeros(size[0])]
+    inner, dark = edges_of(pupil.mask)
+    heights = [half @ (np.stack(edge) - centre[:, None]) / (half @ half) for edge in (*inner, *dark)]
+    line = np.array([-1.0, 1.0])
+    places, share = places_between([np.stack([one, one]) for one in (line, *heights)], size[0])
+    base = centre[:, None] + half[:, None] * places
+    ends = [np.zeros(places.size), np.zeros(places.size)]
     for _ in range(ROUNDS):
         for which, sign in enumerate((1.0, -1.0)):
             point = base + along[:, None] * ends[which]
@@ -172,9 +184,47 @@ def _overlap(
             across = along @ start
             root = np.sqrt(np.maximum(across**2 - (start * start).sum(0) + 1, 0.0))
             ends[which] = -across + sign * root
-    node, part = np.polynomial.legendre.leggauss(size[1])
-    middle, reach = (ends[0] + ends[1]) / 2, (ends[0] - ends[1]) / 2
-    place = middle[:, None] + reach[:, None] * node
-    area = (share * np.cos(angle) * np.hypot(*half) * reach)[:, None] * part
-    points = base[:, :, None] + along[:, None, None] * place
-    return points.reshape(2, -1), area.ravel()
+    row, low, high = _open_parts(pupil, frequency, base, along, ends[1], ends[0])
+    counts = np.maximum(FEWEST, np.ceil(size[1] * (high - low) / (ends[0] - ends[1])[row])).astype(int)
+    points, areas = [], []
+    for count in np.unique(counts):
+        some = counts == count
+        node, part = gauss_legendre(int(count))
+        middle, reach = (high + low)[some] / 2, (high - low)[some] / 2
+        place = middle[:, None] + reach[:, None] * node
+        points.append((base[:, row[some], None] + along[:, None, None] * place).reshape(2, -1))
+        areas.append(((share[row[some]] * np.hypot(*half) * reach)[:, None] * part).ravel())
+    return np.concatenate(points, axis=1), np.concatenate(areas)
+
+
+def _open_parts(
+    pupil: _PupilMap, frequency: np.ndarray, base: np.ndarray, along: np.ndarray, low: np.ndarray, high: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the parts of rows from ``low`` to ``high`` in which a mask leaves both points open: row, low and high.
+
+    Found at even steps, and their ends by bisection. ``base``: (2, rows), where the rows are 0.
+    """
+    if not pupil.mask.edged:
+        return np.arange(low.size), low, high
+    middle = base[:, :, None] + along[:, None, None] * np.linspace(low, high, ALONG, axis=1)
+    halves = pupil.apart(middle.reshape(2, -1), frequency).reshape(middle.shape) / 2
+
+    def opens(row: np.ndarray, part: np.ndarray) -> np.ndarray:
+        cell = np.minimum((part * (ALONG - 1)).astype(int), ALONG - 2)
+        rest = part * (ALONG - 1) - cell
+        half = halves[:, row, cell] * (1 - rest) + halves[:, row, cell + 1] * rest
+        place = base[:, row] + along[:, None] * (low[row] + part * (high - low)[row])
+        both: np.ndarray = pupil.mask.opens(*(place + half)) & pupil.mask.opens(*(place - half))
+        return both
+
+    steps = np.linspace(0, 1, STEPS)
+    rows, parts = (each.ravel() for each in np.meshgrid(np.arange(low.size), steps, indexing="ij"))
+    open_ = np.pad(opens(rows, parts).reshape(low.size, STEPS), ((0, 0), (1, 1)))
+    row, step = np.nonzero(open_[:, 1:] != open_[:, :-1])  # of every row in turn, where it opens and where it closes
+    before, after = steps[np.maximum(step - 1, 0)], steps[np.minimum(step, STEPS - 1)]
+    for _ in range(HALVINGS):
+        half_way = (before + after) / 2
+        same = opens(row, half_way) == open_[row, step]
+        before, after = np.where(same, half_way, before), np.where(same, after, half_way)
+    ends = low[row] + (before + after) / 2 * (high - low)[row]
+    return row[::2], ends[::2], ends[1::2]

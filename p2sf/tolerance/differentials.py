@@ -22,8 +22,10 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.source import Source
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.aiming import pupil_rays, start
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import run
 from p2sf.threads import one_blas_thread
@@ -31,19 +33,36 @@ from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, p
 
 NODES = 6, 12  # radii and directions of the rays
 FINE = 16, 40  # those of the lens without errors, which carry exp(2πiW) where the lens itself has waves of aberration
+FINEST = 40, 96  # behind a filter or a phase, which may be anything
 FIELDS = 0.0, 0.7, 1.0  # of the largest field of a lens
 STEP = 0.6  # of a tolerance: the root mean square of an error that is anywhere within it
 LEAST_STEP = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
+class OpenRays:
+    """Rays of one source through what the stop leaves open, all (rays,), at points (ξ, η) of it.
+
+    ``weight``: shares of the field at the focus, some of them negative where a mask has vanes or blades. ``phase``:
+    waves, that of a mask included. ``fx``, ``fy``: frequencies, cycles per µm.
+    """
+
+    xi: np.ndarray
+    eta: np.ndarray
+    weight: np.ndarray
+    phase: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class Differentials:
     """Waves at the rays of every field: (fields, rays), and what errors add, the axes of these first.
 
-    ``weight``: shares of the light of each ray. ``fx``, ``fy``: its frequencies, cycles per µm. ``first``:
-    (errors, fields, rays) waves per unit, ``second``: (errors, errors, fields, rays). ``chief_um``:
-    (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit. ``fine``: light,
-    phase, fx and fy, (4, fields, rays), of more rays through the lens without errors.
+    They are those of the clear stop. ``weight``: shares of the light of each ray. ``fx``, ``fy``: its frequencies,
+    cycles per µm. ``first``: (errors, fields, rays) waves per unit, ``second``: (errors, errors, fields, rays).
+    ``chief_um``: (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit. ``fine``: for every field
+    more rays through the lens without errors, over what a mask in its stop leaves open.
     """
 
     lens: Lens
@@ -56,7 +75,7 @@ class Differentials:
     first: np.ndarray
     second: np.ndarray
     chief_um: np.ndarray
-    fine: np.ndarray
+    fine: tuple[OpenRays, ...]
 
     @property
     def amounts(self) -> np.ndarray:
@@ -92,7 +111,7 @@ def differentials(
 
     parts = [_of_source(lens, source, known, steps, one_more) for source in sources]
     weight, phase, fx, fy, first, second, chief = (np.stack(column, axis) for column, axis in _columns(parts))
-    fine = np.stack([_fine(lens, source) for source in sources], 1)
+    fine = tuple(_open_rays(lens, source) for source in sources)
     return Differentials(lens, tuple(sources), known, weight, phase, fx, fy, first, second, chief, fine)
 
 
@@ -105,11 +124,14 @@ def usual_sources(lens: Lens, source: Source) -> tuple[Source, ...]:
     return tuple(Source(depth, field_deg=part * top, wavelength_um=wavelength) for part in FIELDS)
 
 
-def _fine(lens: Lens, source: Source) -> np.ndarray:
-    """Return light, phase, fx and fy of many rays through the lens without errors, (4, rays)."""
-    found = fly(lens, source, *whole_disc(*FINE)[:2])
-    weight = whole_disc(*FINE)[2] * found.weight
-    return np.stack([weight / weight.sum(), found.phase, found.fx, found.fy])
+def _open_rays(lens: Lens, source: Source) -> OpenRays:
+    """Return many rays through the lens without errors and the mask in its stop."""
+    mask = mask_seen(lens, source)
+    nodes = mask_nodes(mask, *(FINEST if mask.shaded or mask.phased else FINE)).unfolded()
+    found = fly(lens, source, nodes.xi, nodes.eta)
+    weight = nodes.weight * nodes.amplitude * found.weight
+    phase = found.phase + nodes.path_um / source.wavelength_um
+    return OpenRays(nodes.xi, nodes.eta, weight / weight.sum(), phase, found.fx, found.fy)
 
 
 def _columns(parts: list[tuple[np.ndarray, ...]]) -> list[tuple[list[np.ndarray], int]]:

@@ -66,12 +66,6 @@ def test_a_file_that_cannot_be_is_refused(tmp_path, text, said, line):
     assert line is None or error.value.line == line
 
 
-def test_a_mask_that_builds_leave_out_is_said(capsys):
-    for name, said in (("hubble", True), ("double_gauss_28", False)):
-        assert main(["tolerance", name, "--builds", "20", "--field-deg", "0"]) == 0
-        assert ("those of the clear stop" in capsys.readouterr().err) == said
-
-
 def test_a_field_beside_the_plane_is_named_by_both_angles(capsys):
     assert main(["tolerance", "singlet_f6", "--builds", "20", "--field-x-deg", "3"]) == 0
     assert "fields (3°, 0°)," in capsys.readouterr().out

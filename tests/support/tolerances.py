@@ -10,7 +10,7 @@ from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.pencil import diffraction_phase, pencil
 from p2sf.raytrace.ray_field import ray_data
 
-NODES = 16, 40
+NODES, GRID = (16, 40), 300
 
 
 def exact_quality(lens: Lens, sources: Sequence[Source]) -> tuple[np.ndarray, np.ndarray]:
@@ -26,4 +26,24 @@ def exact_quality(lens: Lens, sources: Sequence[Source]) -> tuple[np.ndarray, np
         left = waves - terms @ np.linalg.lstsq(terms, waves, rcond=None)[0]
         rms.append(np.sqrt((left**2).sum()))
         strehl.append(abs((light * np.exp(2j * np.pi * left / np.sqrt(light))).sum()) ** 2)
+    return np.array(rms), np.array(strehl)
+
+
+def masked_quality(lens: Lens, sources: Sequence[Source]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the same behind the mask in the stop, by rays on a square grid that it lets pass."""
+    axis = (np.arange(GRID) + 0.5) * 2 / GRID - 1
+    xi, eta = (each.ravel() for each in np.meshgrid(axis, axis))
+    open_ = (xi**2 + eta**2 < 1) & lens.mask.opens(xi, eta)
+    xi, eta = xi[open_], eta[open_]
+    rms, strehl = [], []
+    for source in sources:
+        assert not source.azimuth_deg, "the mask would be seen turned"
+        rays = pencil(lens, source, xi, eta)
+        data, field = ray_data(rays), rays.weight * lens.mask.amplitude(xi, eta)
+        field = field / field.sum()
+        waves = diffraction_phase(rays) + lens.mask.path_um(xi, eta) / source.wavelength_um
+        terms = np.stack([np.ones_like(xi), data.fx, data.fy])
+        left = waves - np.linalg.solve(terms * field @ terms.T, terms * field @ waves) @ terms
+        rms.append(np.sqrt(field @ left**2))
+        strehl.append(abs(field @ np.exp(2j * np.pi * left)) ** 2)
     return np.array(rms), np.array(strehl)

@@ -27,10 +27,6 @@ SET_STRAIGHT: dict[str, Message] = {
     ),
 }
 """What panels leave out of a misaligned lens."""
-CLEAR_STOP: dict[str, Message] = {
-    "tolerances": Message("For the clear stop: builds leave out the mask in it."),
-}
-"""What panels leave out of a lens with a mask in its stop."""
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 TOGETHER = Message("bring focus and source together to see waves")
 NEARER = Message("stop down or go nearer the axis to see waves")
@@ -101,8 +97,7 @@ def _set_straight(setup: ParaxialSetup) -> Message | None:
 
 def left_out(live_lens: Lens, panel: str) -> Message | None:
     """Return what a panel leaves out of a lens; None where it leaves out nothing."""
-    straight = SET_STRAIGHT.get(panel) if live_lens.misaligned else None
-    return straight or (None if live_lens.mask.clear else CLEAR_STOP.get(panel))
+    return SET_STRAIGHT.get(panel) if live_lens.misaligned else None
 
 
 def _image_at_infinity(setup: ParaxialSetup) -> Message | None:

@@ -9,7 +9,6 @@ from p2sf.lensfile.library import find_lens
 from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.compute.warnings import left_out
 from p2sf_explorer.panels.tolerances import TolerancesPanel
 from p2sf_explorer.state.state import ToleranceView, changed, new_state
 from p2sf_explorer.tolerance_view.arrangement import TolerancesBody
@@ -62,12 +61,6 @@ def test_errors_yield_and_worst_builds_are_shown(panel):
     assert harms == sorted(harms, reverse=True) and harms[0] > 0
     data = data_of(panel.widget)
     assert "decentre y, surface 1" in data and "build" in data and "yield, %" in data
-
-
-def test_a_mask_that_builds_leave_out_is_said():
-    hubble = find_lens("hubble")
-    assert left_out(hubble, "tolerances") and not left_out(hubble, "profiles")
-    assert not left_out(find_lens(LENS), "tolerances")
 
 
 def test_a_criterion_or_a_limit_is_another_look_at_the_same_builds(panel, window, qtbot):
