@@ -34,6 +34,16 @@ def test_a_yield_is_said_with_its_error(capsys):
     assert "% keep RMS ≤ 0.3 and Strehl ratio ≥ 0.5 in all fields" in said and "±" in said
 
 
+def test_the_percentiles_are_of_the_criterion_too(answer, capsys):
+    asked = (*LENS, "--builds", 200, "--criterion", "boresight_um", "--field-x-deg", 2)
+    found = answer(*asked)
+    assert found["azimuths_deg"] == [pytest.approx(21.7592, abs=1e-3)]  # arctan(tan 2° / tan 5°)
+    capsys.readouterr()
+    assert main([str(word) for word in asked]) == 0
+    said = capsys.readouterr().out
+    assert "largest shift of the image, µm" in said and f"{found['percentiles']['90']['boresight_um']:.6g}" in said
+
+
 def test_a_file_of_ones_own(tmp_path):
     lens, path = find_lens("double_gauss_28"), tmp_path / "own.toml"
     path.write_text(OWN.format(grade="none", more='[[compensator]]\nkind = "tilt_x"\nfirst = 8'), encoding="utf-8")
