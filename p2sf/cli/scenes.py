@@ -227,8 +227,8 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray
 def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
     from p2sf.image import Forming, form_image, plan_lattice, preview
 
-    if scene.camera(glass).misaligned:
-        return _misaligned(glass, scene, values, shown)
+    if scene.clip and scene.camera(glass).misaligned:
+        return _by_exact_rays(glass, scene, values, shown)
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
@@ -242,16 +242,16 @@ def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tupl
     return _sharpened(lattice, formed, shown), {**facts, "deblur": shown.deblur}
 
 
-def _misaligned(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
-    """Return the picture through a misaligned lens, for which no plan is made."""
+def _by_exact_rays(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
+    """Return the picture through a misaligned lens whose rims clip, for which no plan is made."""
     from p2sf.image import Forming
     from p2sf.image.misaligned import form_misaligned
 
     for name, given in (("preview", shown.preview), ("method", shown.method != "patches")):
         if given:
             raise RequestError(
-                "{parameter} needs a lens of rotational symmetry, and parts of this one are tilted or decentred; leave "
-                "it out",
+                "{parameter} of a scene whose rims clip needs a lens of rotational symmetry, and parts of this one are "
+                "tilted or decentred; leave it out",
                 parameter=name,
             )
     made = form_misaligned(glass, scene, values, Forming(surround=shown.surround))

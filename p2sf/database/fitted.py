@@ -30,7 +30,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, rows_of
-from p2sf.raytrace.ray_field import Steepness
+from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import mapped, one_blas_thread
 
@@ -221,15 +221,16 @@ def _turned(form: np.ndarray, order: int, turn: float) -> np.ndarray:
 
 
 def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> Steepness:
-    """Return how steep looked-up polynomials are, at the points of the level's rays."""
+    """Return how steep looked-up polynomials are, at the points of the level's rays, as `ray_field.steepness` does."""
     xi, eta, _ = level_rays(level)
+    rho, sine = np.hypot(xi, eta), np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
     slopes, (_, odd, even) = _rows_at_rays(level)
     across, along = (phase @ part[: phase.size] for part in slopes)
     return Steepness(
-        radial=float(np.abs((xi * across + eta * along) / np.hypot(xi, eta)).max()),
+        radial=float(np.abs((xi * across + eta * along) / rho).max()),
         angular=float(np.abs(eta * across - xi * along).max()),
-        across=float(np.abs(across).max()),
-        along=float(np.abs(along).max()),
+        across=COARSE * float((np.abs(across) * np.sqrt(np.maximum(1 - rho * rho, 0))).max()),
+        along=COARSE * float(np.abs(across * (xi * eta / sine) - along * sine).max()),
         spread=float(np.hypot(fx @ odd, fy @ even).max()),
     )
 

@@ -17,11 +17,21 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, with_reach
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, basis_by_powers, gradient
+from p2sf.pupil.quadrature import disc_nodes, whole_disc
+from p2sf.pupil.zernike import basis, basis_by_powers
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.clear_pieces import CLIPPED
-from p2sf.raytrace.fit import Gradient, Level, PencilForms, determinant, fit, level_rays, pencil_forms
+from p2sf.raytrace.fit import (
+    Gradient,
+    Level,
+    PencilForms,
+    determinant,
+    fit,
+    level_rays,
+    map_slopes,
+    pencil_forms,
+    rows_of,
+)
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.seen_mask import mask_seen
@@ -140,32 +150,43 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     What rims clip is described only as far as the clear part allows.
     """
     where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
-    nodes, at = disc_nodes(*where), _at_nodes(where, level.wave_order, level.map_order)
-    phase, fy, weight = (form @ at.even[: form.shape[-1]] for form in (fits.phase, fits.fy, fits.weight))
-    fx, eta = fits.fx @ at.odd, np.broadcast_to(nodes.eta, phase.shape)
-    clear = (rims > NEARLY_CLEAR).all(1) if rims.shape[1] else np.ones(phase.shape, bool)
-    centre = (np.where(clear, fy, -np.inf).max(1) + np.where(clear, fy, np.inf).min(1))[:, None] / 2
-    radius = 1.02 * np.where(clear, np.hypot(fx, fy - centre), 0.0).max(1)
-    u, v = fx / radius[:, None], (fy - centre) / radius[:, None]
+    at = _at_nodes(where, level)
+    phase, fy, weight = fits.phase @ at.phase, fits.fy @ at.fy, fits.weight @ at.fy[: fits.weight.shape[-1]]
+    fx, eta = fits.fx @ at.fx, np.broadcast_to(at.eta, phase.shape)
+    clear = np.asarray((rims > NEARLY_CLEAR).all(1)) if rims.shape[1] else np.ones(phase.shape, bool)
+    fy = fy - _middle(fy, clear)
+    fx = fx - _middle(fx, clear) if level.skew else fx
+    radius = 1.02 * np.where(clear, np.hypot(fx, fy), 0.0).max(1)
+    u, v = fx / radius[:, None], fy / radius[:, None]
     share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))[:, None]
     columns = np.stack([phase, eta, *([weight] if level.weighted else [])], axis=1)
     if rims.shape[1]:
         columns = np.concatenate([columns, rims], axis=1)
     even, odd = _terms_over(order, u, v)
+    if level.skew:
+        even = odd = np.concatenate([even, odd], axis=1)
     found = _solve(even * share, columns * share)
-    xi = _solve(odd * share, share * nodes.xi)[:, 0]
+    xi = _solve(odd * share, share * at.xi)[:, 0]
     waves, miss = ((found[:, k, None] @ even)[:, 0] - true for k, true in enumerate((phase, eta)))
-    area = np.where(clear, nodes.weight, 0.0)
+    area = np.where(clear, at.weight, 0.0)
     residual = np.sqrt((area * waves**2).sum(1) / area.sum(1))
     excess = max(float(residual.max()) / PHASE_RESIDUAL, float(np.abs(miss * clear).max()) / POINT_RESIDUAL)
     first = 2 + level.weighted  # of the rims
     weight_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
     # By Parseval ∫|field|²dx = ∫weight²/|∂f/∂(ξ, η)| dξ dη.
-    light = weight**2 / np.abs(determinant(fits.fx, fits.fy, at.odd_slopes, at.even_slopes))
-    energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ nodes.weight
+    light = weight**2 / np.abs(determinant(fits.fx, fits.fy, *at.slopes))
+    energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ at.weight
     forms = found[:, 0], found[:, 1], xi, weight_of, found[:, first:]
     unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
-    return PupilStack(order, radius, *forms, energy, unknown, left, unknown, "fitted", level.numbers), excess
+    sizes = energy, unknown, left, unknown
+    return PupilStack(order, radius, *forms, *sizes, "fitted", level.numbers, skew=bool(level.skew)), excess
+
+
+def _middle(frequency: np.ndarray, clear: np.ndarray) -> np.ndarray:
+    """Return the middle between the least and the greatest frequency of each pupil, (pupils, 1)."""
+    ends = np.where(clear, frequency, -np.inf).max(1) + np.where(clear, frequency, np.inf).min(1)
+    middle: np.ndarray = ends[:, None] / 2
+    return middle
 
 
 def _terms_over(order: int, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -176,22 +197,26 @@ def _terms_over(order: int, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, n
 
 @dataclass(frozen=True, eq=False)
 class _FitTerms:
-    """Even and odd terms of a fit at fixed nodes, and the gradients of those of its maps."""
+    """Fixed nodes, the terms of a fit's phase, fx and fy at them, (terms, nodes), and the gradients of its maps'.
 
-    even: np.ndarray
-    odd: np.ndarray
-    even_slopes: Gradient
-    odd_slopes: Gradient
+    The nodes are those of half the disc, or of all of it for a fit without symmetry.
+    """
+
+    xi: np.ndarray
+    eta: np.ndarray
+    weight: np.ndarray
+    phase: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+    slopes: tuple[Gradient, Gradient]
 
 
 @lru_cache(maxsize=16)
-def _at_nodes(where: tuple[int, int], wave_order: int, map_order: int) -> _FitTerms:
+def _at_nodes(where: tuple[int, int], level: Level) -> _FitTerms:
     nodes = disc_nodes(*where)
-    even, odd = (
-        basis(order, nodes.xi, nodes.eta, flag)
-        for order, flag in ((max(wave_order, map_order), False), (map_order, True))
-    )
-    return _FitTerms(even, odd, *(gradient(map_order, nodes.xi, nodes.eta, flag) for flag in (False, True)))
+    xi, eta, weight = whole_disc(*where) if level.skew else (nodes.xi, nodes.eta, nodes.weight)
+    even, odd = (basis(order, xi, eta, flag) for order, flag in zip(level.orders, (False, True), strict=True))
+    return _FitTerms(xi, eta, weight, *rows_of(level, even, odd), map_slopes(level, xi, eta))
 
 
 def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:

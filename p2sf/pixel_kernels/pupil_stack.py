@@ -12,7 +12,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.pupil.mask import CLEAR, PupilMask, mask_slopes
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.quadrature import disc_nodes, whole_disc
 from p2sf.pupil.zernike import basis, gradient, powers, terms
 from p2sf.raytrace.fit import Gradient
 
@@ -54,7 +54,11 @@ class FrequencyPupil:
 
 @dataclass(frozen=True, eq=False)
 class PupilStack:
-    """Several pupils of one order: every array of `FrequencyPupil` with an axis of pupils first, numbers (pupils,)."""
+    """Several pupils of one order: every array of `FrequencyPupil` with an axis of pupils first, numbers (pupils,).
+
+    ``skew``: of a lens without symmetry; phase, η, ξ and weight then have all even terms, and behind them all odd ones,
+    in the axes of the sensor.
+    """
 
     order: int
     radius: np.ndarray
@@ -70,6 +74,7 @@ class PupilStack:
     method: str
     numbers: int
     mask: PupilMask = CLEAR
+    skew: bool = False
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -92,6 +97,12 @@ class PupilStack:
         wider: dict[str, Any] = {
             name: _widened(getattr(self, name), lacking) for name in ("phase", "eta", "weight", "rims")
         }
+        if self.skew:
+            own = len(terms(self.order))
+            for name in ("phase", "eta", "xi", "weight"):
+                even, odd = np.split(getattr(self, name), [own], axis=-1)
+                wider[name] = np.concatenate([_widened(even, lacking), _widened(odd, lacking_odd)], axis=-1)
+            return replace(self, order=order, **wider)
         return replace(self, order=order, xi=_widened(self.xi, lacking_odd), **wider)
 
 
@@ -126,7 +137,7 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
     they come back there, and would let light through that does not exist.
     """
-    at = _terms_at(pupils.order)
+    at = _terms_at(pupils.order, pupils.skew)
     (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
         (form @ across, form @ along)
         for form, (across, along) in zip((pupils.phase, pupils.eta, pupils.xi), at.slopes, strict=True)
@@ -168,7 +179,7 @@ def cutting_rims(pupils: PupilStack) -> np.ndarray:
     """Return which surfaces' rims clip any part of any of the pupils, (surfaces,)."""
     if not pupils.rims.size:
         return np.zeros(pupils.rims.shape[1], bool)
-    at = _terms_at(pupils.order)
+    at = _terms_at(pupils.order, pupils.skew)
     inside = (pupils.eta @ at.even) ** 2 + (pupils.xi @ at.odd) ** 2 <= 1
     nearest = np.where(inside[:, None], pupils.rims @ at.even, np.inf).min(2)
     cutting: np.ndarray = (nearest < SURELY_CLEAR).any(0)
@@ -177,7 +188,10 @@ def cutting_rims(pupils: PupilStack) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class _TermsAt:
-    """Even and odd terms at REACH_NODES over u, the nodes' weights, and gradients as phase, η and ξ take them."""
+    """Even and odd terms at REACH_NODES over u, the nodes' weights, and gradients as phase, η and ξ take them.
+
+    Without symmetry both are all terms, at nodes of the whole disc.
+    """
 
     even: np.ndarray
     odd: np.ndarray
@@ -186,7 +200,13 @@ class _TermsAt:
 
 
 @lru_cache(maxsize=16)
-def _terms_at(order: int) -> _TermsAt:
+def _terms_at(order: int, skew: bool) -> _TermsAt:
+    if skew:
+        xi, eta, weight = whole_disc(*REACH_NODES)
+        every = np.concatenate([basis(order, xi, eta, odd=flag) for flag in (False, True)])
+        of_even, of_odd = (gradient(order, xi, eta, odd=flag) for flag in (False, True))
+        slopes = np.concatenate([of_even[0], of_odd[0]]), np.concatenate([of_even[1], of_odd[1]])
+        return _TermsAt(every, every, weight, (slopes, slopes, slopes))
     nodes = disc_nodes(*REACH_NODES)
     even, odd = (basis(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
     slopes, slopes_odd = (gradient(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
@@ -215,8 +235,19 @@ class Turned:
 def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
     """Return the pupils of fields ``angles`` (pupils,) radians from +y towards +x: θ becomes θ − angle in every term.
 
-    Rotation needs no interpolation: it turns cosine terms into sine terms of the same order.
+    Rotation needs no interpolation: it turns cosine terms into sine terms of the same order. Those of a lens without
+    symmetry stand in the axes of the sensor and are not turned.
     """
+    if pupils.skew:
+        own = len(terms(pupils.order))
+        phase, eta, xi, weight = (
+            _plain(pupils.order, form[:, :own], form[:, own:]) if form.size else None
+            for form in (pupils.phase, pupils.eta, pupils.xi, pupils.weight)
+        )
+        assert phase is not None and eta is not None and xi is not None
+        return Turned(
+            pupils.radius, phase, eta, xi, weight, np.array([]), pupils.mask, pupils.wavelength_um, 0 * angles
+        )
     even, odd = _harmonics(pupils.order)
     keep = even > 0  # the odd terms are the even ones without m = 0, in the same order
     cosine, sine = np.cos(np.multiply.outer(angles, even)), np.sin(np.multiply.outer(angles, even[keep]))

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.scene.study import Place, Study, distance, oblique, weighted
+from p2sf.scene.study import Place, Study, distance, weighted
 
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
 DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
 TRIED = (0.5, 0.5), (0.5, 0.2), (0.2, 0.5)  # down and right in a cell
-CELLS = 3  # nearest to the axis, between, and farthest from it; behind a mask that is not round those in the corners
+CELLS = 3  # nearest to the axis, between, and farthest from it; without symmetry those in the corners too
 EVERY = 8  # up to so many intervals of depth are all tried
 
 
@@ -53,7 +53,7 @@ def field_places(study: Study) -> list[FieldPlace]:
     axis, _, corner = study.sharpest(blue)
     far, between, near = CELLS - 1, CELLS // 2, 0
     places = [(blue, corner, far), (blue, corner, between), (blue, corner, near), (blue, axis, near), (blue, axis, far)]
-    if not study.lens.mask.round:
+    if study.lens.misaligned or not study.lens.mask.round:
         places += [(blue, corner, CELLS + quarter) for quarter in range(4)]
     places += [(blue, v, far) for v in study.scan] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
     return list(dict.fromkeys(places))
@@ -115,14 +115,14 @@ def between_depth_nodes(study: Study, number: int, place: DepthPlace) -> list[Be
     wave, height, vergence = place
     nodes = study.scene.vergences(DEPTH_COUNTS[number])
     if len(nodes) == 1:
-        return [Between(oblique(height, vergence, wave), (oblique(height, float(nodes[0]), wave),), (1.0,))]
+        return [Between(study.oblique(height, vergence, wave), (study.oblique(height, float(nodes[0]), wave),), (1.0,))]
     last = len(nodes) - 2
     about = np.clip(np.searchsorted(nodes, vergence) + np.array([-2, -1, 0]), 0, last)
     chosen = sorted(set(about.tolist()) | set(range(last + 1) if last < EVERY else ()))
     return [
         Between(
-            oblique(height, float(nodes[n : n + 2].mean()), wave),
-            tuple(oblique(height, float(v), wave) for v in nodes[n : n + 2]),
+            study.oblique(height, float(nodes[n : n + 2].mean()), wave),
+            tuple(study.oblique(height, float(v), wave) for v in nodes[n : n + 2]),
             (0.5, 0.5),
         )
         for n in chosen

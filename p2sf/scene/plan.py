@@ -7,12 +7,14 @@ from math import hypot
 
 import numpy as np
 
+from p2sf.database.fitted import FittedDatabase
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.scene.bounds import check_blur, check_colours
 from p2sf.scene.cost import Cost, predicted_cost
+from p2sf.scene.field_points import FieldMap
 from p2sf.scene.nodes import (
     DEPTH_COUNTS,
     NODE_COUNTS,
@@ -26,6 +28,7 @@ from p2sf.scene.nodes import (
 from p2sf.scene.pricing import mirrored, naive_work, plan_work
 from p2sf.scene.scene import Channel, Scene, depth_of
 from p2sf.scene.sharing import seidel_table, share_pupils
+from p2sf.scene.skew import SkewKernels, SkewStudy, database_map
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import (
     FINE_SAMPLING,
@@ -36,7 +39,6 @@ from p2sf.scene.study import (
     distance,
     first_allowed,
     from_phase,
-    oblique,
     pupil_at,
     weighted,
 )
@@ -69,7 +71,8 @@ class Plan:
     ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared errors of
     the decisions, times TOGETHER. ``naive``: what the full grid would cost (`pricing.naive_work`).
     ``norm``: the largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance.
-    ``table``: the pupils that all others are interpolated from; None where each is fitted.
+    ``table``: the pupils that all others are interpolated from; None where each is fitted. Of a misaligned lens the
+    database of its fields along x and along y.
     """
 
     lens: Lens
@@ -83,7 +86,7 @@ class Plan:
     predicted_error: float
     cost: Cost
     naive: Cost
-    table: PupilTable | None = None
+    table: PupilTable | FittedDatabase | None = None
     norm: float = 1.0
 
     def __repr__(self) -> str:
@@ -108,13 +111,19 @@ class Plan:
         """Return whether the quarters of the picture are mirror images of each other."""
         return mirrored(self.lens, self.scene)
 
-    def kernels(self, channel: int, vergence: float) -> Kernels:
+    def kernels(self, channel: int, vergence: float) -> Kernels | SkewKernels:
         """Return the kernels of one channel at one depth."""
-        seen, colour = self.sensor_map(vergence), self.colours[channel]
-        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe, table=self.table)
+        seen, colour, pixel = self.sensor_map(vergence), self.colours[channel], self.scene.sensor.pixel_um
+        if isinstance(seen, FieldMap):
+            assert isinstance(self.table, FittedDatabase)
+            return SkewKernels(seen, colour, pixel, self.recipe, self.table)
+        assert not isinstance(self.table, FittedDatabase)
+        return Kernels(seen, colour, pixel, self.recipe, table=self.table)
 
-    def sensor_map(self, vergence: float) -> SensorMap:
+    def sensor_map(self, vergence: float) -> SensorMap | FieldMap:
         """Return where the points of one depth land."""
+        if isinstance(self.table, FittedDatabase):
+            return _field_map(self.table, self.lens, depth_of(vergence), self.reference_um, self.scene)
         corner = self.scene.sensor.corners_mm()[1]
         return _sensor_map(self.lens, depth_of(vergence), self.reference_um, corner, self.scene.clip)
 
@@ -122,6 +131,9 @@ class Plan:
 @lru_cache(maxsize=32)
 def _sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float, clip: bool) -> SensorMap:
     return sensor_map(lens, depth_mm, wavelength_um, height_mm, clip)
+
+
+_field_map = lru_cache(maxsize=32)(database_map)
 
 
 @one_blas_thread
@@ -134,9 +146,10 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     """
     camera = scene.camera(lens)
     check_colours(camera, scene)
-    study = Study(camera, scene, check or (lambda: None))
+    study = (SkewStudy if camera.misaligned else Study)(camera, scene, check or (lambda: None))
     check_blur(study)
-    share_pupils(study)
+    if not isinstance(study, SkewStudy):
+        share_pupils(study)
     norm = _norm(study)
     budget = scene.relative_error(norm)
     sampling, sampled = _sampling(study, budget)
@@ -144,7 +157,11 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     counts, field = _field(study, budget)
     vergences, depth = _depths(study, budget)
     colours, colour = _colours(study, budget)
-    table = seidel_table(study, study.table) if study.table and recipe.method == "seidel" else study.table
+    table: PupilTable | FittedDatabase | None = study.table
+    if isinstance(study, SkewStudy):
+        table = study.database
+    elif study.table and recipe.method == "seidel":
+        table = seidel_table(study, study.table)
     decisions = (method, sampled, field, depth, *colour, _pupils(study))
     errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
     error = TOGETHER * hypot(*errors)
@@ -185,6 +202,8 @@ def _first(
 
 def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
     """Return the cheapest description of a pupil: six Seidel coefficients, else the fewest fitted numbers."""
+    if isinstance(study, SkewStudy):
+        return _skew_method(study, sampling)
     allowed, places = SHARES["method"] * budget, study.places(study.waves_um[0])
     error = SAFETY * _seidel_error(study, places[:1])
     if error <= allowed:
@@ -204,6 +223,14 @@ def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple
     )
     choice = Message("{method}", method="fitted")
     return Recipe("fitted", level.numbers, *sampling), Decision(what, choice, why, error, "method")
+
+
+def _skew_method(study: SkewStudy, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
+    """Return the fits of a misaligned lens, of which the six coefficients know nothing."""
+    numbers, error = study.database.level.numbers, SAFETY * from_phase(study.database.residual_waves)
+    why = Message("{numbers} fitted numbers; the six Seidel coefficients know no tilts and decentres", numbers=numbers)
+    choice = Message("{method}", method="fitted")
+    return Recipe("fitted", numbers, *sampling), Decision(Message("method"), choice, why, error, "method")
 
 
 def _seidel_error(study: Study, places: Sequence[Place]) -> float:
@@ -237,11 +264,13 @@ def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[float,
     """Return the errors of fewer wavelengths, one more than each try's number, against all, at (height, vergence)."""
     every = reduced(channel, len(channel.wavelengths_nm))
     pairs = [(reduced(channel, number + 1), places[k]) for number, k in tries]
-    asked = [oblique(*place, wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um]
+    asked = [
+        study.oblique(*place, wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um
+    ]
     kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one hides the change
 
     def mixed(colour: Colour, place: tuple[float, float]) -> np.ndarray:
-        return weighted([kernels[oblique(*place, wave)] for wave in colour.wavelengths_um], colour.weights)
+        return weighted([kernels[study.oblique(*place, wave)] for wave in colour.wavelengths_um], colour.weights)
 
     return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
 
@@ -309,6 +338,8 @@ def _depths(study: Study, budget: float) -> tuple[tuple[float, ...], Decision]:
 def _pupils(study: Study) -> Decision:
     """Return the decision on how many pupils are fitted."""
     what = Message("pupils")
+    if isinstance(study, SkewStudy):
+        return _skew_pupils(study)
     if study.table is None:
         return Decision(
             what, Message("all"), Message("interpolation between a few of them does not give the others"), 0.0, "pupils"
@@ -320,3 +351,20 @@ def _pupils(study: Study) -> Decision:
         waves=len(study.table.waves_um),
     )
     return Decision(what, Message("{count} fits", count=study.table.fits), why, study.table_error, "pupils")
+
+
+def _skew_pupils(study: SkewStudy) -> Decision:
+    """Return the decision on how many pupils of a misaligned lens are fitted."""
+    depths, up, across, waves, _ = study.database.series.shape
+    why = Message(
+        "depths × fields y × fields x × wavelengths: {depths} × {up} × {across} × {waves}; all others lie on "
+        "polynomials through them",
+        depths=depths,
+        up=up,
+        across=across,
+        waves=waves,
+    )
+    error = from_phase(study.database.errors["phase"])
+    return Decision(
+        Message("pupils"), Message("{count} fits", count=depths * up * across * waves), why, error, "pupils"
+    )

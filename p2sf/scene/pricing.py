@@ -17,7 +17,7 @@ NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), a
 
 def mirrored(lens: Lens, scene: Scene) -> bool:
     """Return whether one quarter of a scene's kernels gives the others, as mirror images."""
-    return scene.sensor.centred and lens.mask.quartered
+    return scene.sensor.centred and lens.mask.quartered and not lens.misaligned
 
 
 def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:

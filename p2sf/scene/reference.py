@@ -16,6 +16,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import ray_data, steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.raytrace.vignetting import pupil_nodes
+from p2sf.scene.field_points import FieldMap, landing_mm
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36
@@ -23,17 +24,36 @@ LEAST_POINTS = 4
 
 
 def reference_kernel(
-    seen: SensorMap, channel: Channel, x_mm: float, y_mm: float, half: int, pixel_um: float
+    seen: SensorMap | FieldMap, channel: Channel, x_mm: float, y_mm: float, half: int, pixel_um: float
 ) -> np.ndarray:
     """Return the light per pixel of the point that lands at (x, y) in all its wavelengths, unit sum, row 0 the top."""
     height, angle = float(np.hypot(x_mm, y_mm)), float(np.arctan2(x_mm, y_mm))
     size = 2 * half + 1
     total = np.zeros((size, size))
     for wavelength, share in zip(channel.wavelengths_um, channel.shares, strict=True):
+        if isinstance(seen, FieldMap):
+            total = total + share * landed_pixels(seen, x_mm, y_mm, float(wavelength), half, pixel_um)
+            continue
         source = seen.source(height, float(wavelength))
         shift = seen.shift_mm(height, float(wavelength)) * UM_PER_MM
         total = total + share * exact_pixels(seen.lens, source, angle, half, pixel_um, shift, seen.clip)
     return total
+
+
+def landed_pixels(
+    seen: FieldMap, x_mm: float, y_mm: float, wavelength_um: float, half: int, pixel_um: float
+) -> np.ndarray:
+    """Return `exact_pixels` of the object point that lands at a place through a misaligned lens."""
+    source, aside, shift = landed_point(seen, x_mm, y_mm, wavelength_um)
+    return exact_pixels(seen.lens, source, np.deg2rad(source.azimuth_deg), half, pixel_um, shift, seen.clip, aside)
+
+
+def landed_point(seen: FieldMap, x_mm: float, y_mm: float, wavelength_um: float) -> tuple[Source, float, float]:
+    """Return the object point for a wavelength, and how far it lands from the place, µm across and along its field."""
+    source = seen.source(x_mm, y_mm, wavelength_um)
+    right, up = (UM_PER_MM * (a - b) for a, b in zip(landing_mm(seen.lens, source), (x_mm, y_mm), strict=True))
+    sine, cosine = np.sin(np.deg2rad(source.azimuth_deg)), np.cos(np.deg2rad(source.azimuth_deg))
+    return source, float(right * cosine - up * sine), float(right * sine + up * cosine)
 
 
 def exact_pixels(

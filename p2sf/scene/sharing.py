@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
-from p2sf.scene.study import DIGITS, Place, PupilAt, Study, distance, oblique, pupil_at
+from p2sf.scene.study import DIGITS, Place, PupilAt, Study, distance, pupil_at
 
 COUNTS = 2, 3, 5, 9, 17  # of fits over the radius, the depths or the colours: each one's nodes are among the next one's
 TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # relative error of a kernel that interpolation along one axis may cause
@@ -67,11 +67,11 @@ def _between(study: Study, axis: int, finer: np.ndarray) -> list[Place]:
     sharp = study.sharpest(wave)
     depths = list(dict.fromkeys((sharp[-1], *study.ends)))
     if axis == 0:
-        return [oblique(h, v, wave) for h in middles for v in depths]
+        return [study.oblique(h, v, wave) for h in middles for v in depths]
     if axis == 1:
         tried = dict.fromkeys((*middles, *sharp))
-        return [oblique(h, v, wave) for h in (study.farthest_mm, study.nearest_mm) for v in tried]
-    return [oblique(study.farthest_mm, v, w) for v in depths for w in middles]
+        return [study.oblique(h, v, wave) for h in (study.farthest_mm, study.nearest_mm) for v in tried]
+    return [study.oblique(study.farthest_mm, v, w) for v in depths for w in middles]
 
 
 def _error(study: Study, table: PupilTable, places: list[Place]) -> float:

@@ -117,8 +117,12 @@ class Study:
         At depths between these, what a description of the pupil leaves out shows less.
         """
         axis, _, corner = self.sharpest(wave)
-        found = [oblique(self.farthest_mm, v, wave) for v in (corner, *self.ends)]
-        return list(dict.fromkeys((*found, oblique(self.nearest_mm, axis, wave))))
+        found = [self.oblique(self.farthest_mm, v, wave) for v in (corner, *self.ends)]
+        return list(dict.fromkeys((*found, self.oblique(self.nearest_mm, axis, wave))))
+
+    def oblique(self, height_mm: float, vergence: float, wave_um: float) -> Place:
+        """Return a place at this height in a direction that no pixel grid shares."""
+        return Place(0.6 * height_mm, 0.8 * height_mm, vergence, wave_um)
 
     @cached_property
     def level(self) -> Level:
@@ -193,9 +197,13 @@ class Study:
         missing = [place for place in dict.fromkeys(places) if (place, sampling) not in self._kernels]
         if missing:
             self.check()
-            made = self.rendered(missing, *self.lights([pupil_at(place) for place in missing]), sampling)
+            made = self.made(missing, sampling)
             self._kernels.update(zip(((place, sampling) for place in missing), made, strict=True))
         return [self._kernels[place, sampling] for place in places]
+
+    def made(self, places: Sequence[Place], sampling: Sampling) -> list[np.ndarray]:
+        """Return the kernels of places."""
+        return self.rendered(places, *self.lights([pupil_at(place) for place in places]), sampling)
 
     def rendered(
         self, places: Sequence[Place], pupils: PupilStack, shifts_mm: np.ndarray, sampling: Sampling = COARSE_SAMPLING
@@ -210,11 +218,6 @@ class Study:
 def pupil_at(place: Place) -> PupilAt:
     """Return the pupil of a place."""
     return PupilAt(round(hypot(place.x_mm, place.y_mm), DIGITS), place.vergence, place.wave_um)
-
-
-def oblique(height_mm: float, vergence: float, wave_um: float) -> Place:
-    """Return a place at this height in a direction that no pixel grid shares."""
-    return Place(0.6 * height_mm, 0.8 * height_mm, vergence, wave_um)
 
 
 Tries = Sequence[tuple[int, int]]

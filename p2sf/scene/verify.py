@@ -57,7 +57,7 @@ def _place(planned: Plan, random: np.random.Generator) -> tuple[float, float, fl
 def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> tuple[float, float]:
     """Return the relative L2 error of the plan's kernel at one place, and the reference's CPU seconds."""
     kernel = planned_kernel(planned, x_mm, y_mm, vergence, channel)
-    own = planned.kernels(channel, vergence).half_width(float(np.hypot(x_mm, y_mm)))
+    own = int(planned.kernels(channel, vergence).points([x_mm], [y_mm]).half_widths()[0])
     half = max(own, kernel.shape[-1] // 2)
     sensor, channels = planned.scene.sensor, planned.scene.channels
     started = thread_time()

@@ -15,7 +15,8 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.fitted import fitted_psf
+from p2sf.psf.fitted import fitted_intensity, fitted_psf, summed
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, fit, levels
 from p2sf.raytrace.pencil import pencil
 from tests.support.waves import relative_l2
@@ -128,3 +129,12 @@ def test_a_database_of_the_real_stop_knows_the_weights_of_its_rays(lens, tmp_pat
                 )
                 <= 6e-3
             )
+
+
+@pytest.mark.parametrize("source", [Source(3000.0, 0.2, 0.53), Source(np.inf, 0.24, 0.5), Source(4000.0, 0.0, 0.6)])
+def test_the_settled_sum_of_what_is_looked_up_is_settled(database, source):
+    """Against the plain sum over many nodes; the rows are chosen by the steepness of the looked-up polynomials."""
+    found, (pixels, pixel_um) = database.fit_at(source), (48, 2.0)
+    settled, _ = summed(found, pixels, pixel_um)
+    dense = fitted_intensity(found, (300, 800), pixels, pixel_um)
+    assert np.linalg.norm(settled - dense) <= SETTLED_TOLERANCE * np.linalg.norm(dense)

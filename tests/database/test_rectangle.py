@@ -13,7 +13,6 @@ from p2sf.database_files import Stored, load_database, provenance, save_database
 from p2sf.database_files.stack import open_stack, read_psfs
 from p2sf.database_files.stack_write import write_stack
 from p2sf.errors import DatabaseError, GeometryError
-from p2sf.image.misaligned import landing_mm
 from p2sf.interchange import open_cube, write_csv
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.misalignment import displaced
@@ -23,6 +22,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 from p2sf.pupil.mask import PupilMask
+from p2sf.scene.field_points import landing_mm
 
 ACROSS, UP = slope_from_degrees([-5.0, 0.0, 6.0]), slope_from_degrees([-6.0, 0.0, 7.0])
 SPACE = Space([5000.0, np.inf], UP, [0.5, 0.6], ACROSS)

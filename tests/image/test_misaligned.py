@@ -9,13 +9,14 @@ import pytest
 from p2sf.errors import RequestError
 from p2sf.image import Forming, form_image
 from p2sf.image.geometry import illumination
-from p2sf.image.misaligned import channel_kernels, field_map, form_misaligned, landing_mm, shading
+from p2sf.image.misaligned import channel_kernels, form_misaligned
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.psf.pixel_integrals import render_integrated
+from p2sf.scene.field_points import field_map, landing_mm
 from p2sf.scene.plan import plan
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
@@ -86,7 +87,7 @@ def test_without_misalignment_it_is_the_picture_of_the_symmetric_lens(gauss):
     planned = plan(lens, scene)
     found, expected = form_misaligned(turned, scene, values), form_image(planned, values)
     assert np.linalg.norm(found.values - expected) < 0.01 * np.linalg.norm(expected)
-    own = shading(field_map(turned, inf, WAVE, WIDE), scene)
+    own = illumination(field_map(turned, inf, WAVE, WIDE), WIDE)
     assert own == pytest.approx(illumination(planned.sensor_map(0.0), WIDE), abs=1e-4)
     assert own.min() < 0.99
 
@@ -96,16 +97,20 @@ def test_several_depths_are_refused(bad):
         form_misaligned(bad, replace(SCENE, near_mm=1000.0), np.zeros((25, 37, 1)))
 
 
-def test_the_command_line_forms_it(bad, tmp_path, answer, refused):
+def test_the_command_line_plans_and_forms_it(bad, tmp_path, answer, refused):
     lens, scene, out = tmp_path / "bad.toml", tmp_path / "scene.toml", tmp_path / "out.png"
     lens.write_text(lens_to_toml(bad), encoding="utf-8")
     scene.write_text(
-        "tolerance = 0.5\nf_number = 11\n[sensor]\nrows = 8\ncolumns = 8\npixel_um = 20\n[[channel]]\nname = 'green'\n"
-        "wavelengths_nm = [540]\nweights = [1]\n",
+        "tolerance = 0.5\nf_number = 11\nclip = true\n[sensor]\nrows = 8\ncolumns = 8\npixel_um = 20\n[[channel]]\n"
+        "name = 'green'\nwavelengths_nm = [540]\nweights = [1]\n",
         encoding="utf-8",
     )
     found = answer("image", lens, scene, "chart:text", "-o", out)
     assert found["measured_error"] <= 0.5 and out.exists()
-    assert "--preview needs a lens of rotational symmetry" in refused(
+    assert "--preview of a scene whose rims clip needs a lens of rotational symmetry" in refused(
         "image", lens, scene, "chart:text", "-o", out, "--preview"
     )
+    assert "clip needs a lens of rotational symmetry" in refused("plan", lens, scene)
+    scene.write_text(scene.read_text(encoding="utf-8").replace("clip = true\n", ""), encoding="utf-8")
+    assert answer("plan", lens, scene, "--check", "1")["measured"]["kept"]
+    assert answer("image", lens, scene, "chart:text", "-o", out)["predicted_error"] <= 0.5

@@ -19,17 +19,18 @@ from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
 from p2sf.image.deblur import estimated_noise, psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
-from p2sf.image.misaligned import field_map, settled_lattice
+from p2sf.image.misaligned import settled_lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.pixel_kernels import RAYS, Recipe
+from p2sf.pixel_kernels import RAYS, Kernels, Recipe
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
+from p2sf.scene.field_points import field_map
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.photos import MOST_PIXELS, NOISE, channels_of, cut_away, full_shape, own_shape, scene_values
 
@@ -479,6 +480,8 @@ def fine_enough(answer: ImageResult) -> bool:
 def no_plan(plan: Plan) -> Message | None:
     """Return why a plan is not worth its time, `TOO_WIDE` or `TOO_LARGE`; None where it is."""
     kernels = plan.kernels(len(plan.colours) // 2, plan.vergences[0])
+    if not isinstance(kernels, Kernels):  # of a misaligned lens, whose database refuses what no fit describes
+        return None
     middle, _ = kernels.lights(plan.scene.sensor.corners_mm()[0])[0]
     if 2 * middle.radius * kernels.pixel_um > MOST_SAMPLES:
         return TOO_LARGE

@@ -1114,6 +1114,7 @@
 <message><source>depth {depth:.6g} mm lies between the last finite node, {last:.6g} mm, and infinity, where table1 has no rule; add nodes or build with the exact interpolant</source><translation>der Objektabstand {depth:.6g} mm liegt zwischen dem letzten endlichen Knoten, {last:.6g} mm, und unendlich, wo table1 keine Regel hat; Knoten hinzufügen oder mit der Interpolation exact bauen</translation></message>
 <message><source>depth {depth:g} mm is not in front of the lens; give positive depths</source><translation>der Objektabstand {depth:g} mm liegt nicht vor dem Objektiv; positive Abstände angeben</translation></message>
 <message><source>depth, even in 1/depth</source><translation>Abstand, gleichmäßig in 1/Abstand</translation></message>
+<message><source>depths × fields y × fields x × wavelengths: {depths} × {up} × {across} × {waves}; all others lie on polynomials through them</source><translation>Tiefen × Felder y × Felder x × Wellenlängen: {depths} × {up} × {across} × {waves}; alle anderen liegen auf Polynomen durch sie</translation></message>
 <message><source>diameter</source><translation>Durchmesser</translation></message>
 <message><source>did you mean {glasses}?</source><translation>ist {glasses} gemeint?</translation></message>
 <message><source>did you mean {name}?</source><translation>ist {name} gemeint?</translation></message>
@@ -1719,7 +1720,6 @@
 <message><source>the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer</source><translation>der Kontrast bei {frequency:g} Perioden je mm ist zu klein, um summiert zu werden, bei {field:.4g}°; weniger wählen</translation></message>
 <message><source>the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor</source><translation>das Dunkel- oder Hellbild hat die Form {shape} und das Bild {wanted}; beide mit demselben Sensor aufnehmen</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
-<message><source>the database of {lens} has fields along x and along y, and this format one axis of fields; write a stack</source><translation>die Datenbank von {lens} hat Felder längs x und längs y, dieses Format aber nur eine Achse der Felder; einen Stapel schreiben</translation></message>
 <message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
 <message><source>the depth map holds depths that are not positive; give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält Abstände, die nicht positiv sind; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
@@ -2151,6 +2151,7 @@
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
+<message><source>{numbers} fitted numbers; the six Seidel coefficients know no tilts and decentres</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen keine Kippungen und Dezentrierungen</translation></message>
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
@@ -2182,8 +2183,8 @@
 <message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
-<message><source>{parameter} is {value}; give angles between −90 and 90 degrees</source><translation>{parameter} ist {value}; Winkel zwischen −90 und 90 Grad angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
+<message><source>{parameter} needs a lens of rotational symmetry, and parts of this one are tilted or decentred; leave it out</source><translation>{parameter} braucht ein Objektiv mit Rotationssymmetrie, und Teile dieses Objektivs sind gekippt oder dezentriert; weglassen</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
 <message><source>{path} cannot be read as a picture; it is damaged, or of another kind than its ending says</source><translation>{path} lässt sich nicht als Bild lesen; es ist beschädigt oder von anderer Art, als seine Endung sagt</translation></message>

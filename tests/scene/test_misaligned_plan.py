@@ -1,0 +1,130 @@
+"""Plans of misaligned lenses: kernels by a database over field x and field y against exact rays of each point."""
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+
+from p2sf.image import Forming, form_image, preview
+from p2sf.image.misaligned import form_misaligned
+from p2sf.lens.lens import with_f_number, with_mask
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lensfile.library import find_lens
+from p2sf.pupil.mask import PupilMask
+from p2sf.scene import Channel, Scene, Sensor, plan, verify
+from p2sf.scene.field_points import field_map, landing_mm
+
+GREEN = (Channel("green", (520.0, 560.0), (1.0, 1.0)),)
+SCENE = Scene(Sensor(40, 60, 60.0, (3.0, 6.0)), GREEN, tolerance=0.05)
+
+
+@pytest.fixture(scope="module")
+def straight():
+    return with_f_number(find_lens("double_gauss_28"), 5.6)
+
+
+@pytest.fixture(scope="module")
+def bad(straight):
+    return displaced(straight, 3, 5, Placement(0.15, 0.1, 0.02, 0.2, 0.3))
+
+
+@pytest.fixture(scope="module")
+def planned(bad):
+    return plan(bad, SCENE)
+
+
+@pytest.fixture(scope="module")
+def values():
+    return np.random.default_rng(0).random((40, 60, 1)).astype(np.float32)
+
+
+def distance(found, wanted):
+    return np.linalg.norm(found - wanted) / np.linalg.norm(wanted)
+
+
+def test_a_plan_promises_what_exact_rays_find(planned):
+    """Against sums over the rays of each point alone, at random places."""
+    assert planned.meets
+    assert planned.predicted_error <= SCENE.tolerance
+    verdict = verify(planned, 4)
+    assert verdict.kept
+    assert {str(decision.what) for decision in planned.decisions} >= {"method", "field", "sampling", "depth", "pupils"}
+
+
+NEAR = 15000.0
+
+
+@pytest.fixture(scope="module")
+def deep(bad):
+    return plan(bad, replace(SCENE, near_mm=NEAR, tolerance=0.2))
+
+
+def test_depths_have_nodes_between_which_the_promise_holds(deep):
+    assert deep.meets
+    assert len(deep.vergences) > 2
+    assert verify(deep, 3, seed=1).kept
+
+
+def test_the_picture_is_that_of_exact_kernels(planned, bad, values):
+    """What a kernel may be wrong by bounds the picture of white noise; both roads have their own errors."""
+    exact = form_misaligned(bad, SCENE, values)
+    found = form_image(planned, values)
+    assert distance(found, exact.values) <= planned.predicted_error + exact.error
+    straight = form_image(plan(set_straight(bad), SCENE), values)
+    assert distance(straight, exact.values) > 2 * (planned.predicted_error + exact.error)
+
+
+def set_straight(lens):
+    return replace(lens, surfaces=tuple(replace(s, before=(), after=()) for s in lens.surfaces))
+
+
+def test_a_lens_turned_about_its_centres_has_the_picture_of_the_straight_one(straight, values):
+    """A sphere turned about its own centre is no other lens, but takes the road through the database."""
+    turned = displaced(straight, 1, 1, Placement(tilt_x_deg=2.0, pivot=(0.0, 0.0, straight.surfaces[0].radius)))
+    both = plan(turned, SCENE), plan(straight, SCENE)
+    one, other = (form_image(each, values) for each in both)
+    assert distance(one, other) <= sum(each.predicted_error for each in both)
+
+
+def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
+    mirrored = displaced(straight, 3, 5, Placement(-0.15, 0.1, 0.02, 0.2, -0.3))
+    scene = replace(SCENE, sensor=replace(SCENE.sensor, centre_mm=(-3.0, 6.0)))
+    other = plan(mirrored, scene)
+    one, two = form_image(planned, values), form_image(other, np.ascontiguousarray(values[:, ::-1]))
+    assert distance(two[:, ::-1], one) <= planned.predicted_error + other.predicted_error
+    unlike = form_image(planned, np.ascontiguousarray(values[:, ::-1]))
+    assert distance(two, unlike) > 2 * planned.predicted_error
+
+
+def test_layers_of_depth_have_their_own_kernels(deep, values):
+    """Two halves at the ends of the depths; away from their seam each is the picture of its depth alone."""
+    depth = np.full((40, 60), inf)
+    depth[:, :30] = NEAR
+    both = form_image(deep, values, depth, Forming(geometry=False))
+    for part, mm in ((slice(0, 12), NEAR), (slice(48, 60), inf)):
+        alone = form_image(deep, values, np.full((40, 60), mm), Forming(geometry=False))
+        assert distance(both[:, part], alone[:, part]) < 1e-3
+
+
+def test_chief_rays_of_the_database_place_the_picture(planned, bad):
+    """In hundredths of a pixel, in the reference wavelength, against a chief ray traced by itself."""
+    seen = planned.sensor_map(0.0)
+    for place in ((2.0, 5.5), (4.5, 7.0)):
+        source = seen.source(*place, planned.reference_um)
+        assert landing_mm(bad, source) == pytest.approx(place, abs=0.01 * SCENE.sensor.pixel_mm)
+    traced = field_map(bad, inf, planned.reference_um, SCENE.sensor)
+    assert seen.slopes(3.0, 6.0) == pytest.approx(traced.slopes(3.0, 6.0), abs=1e-6)
+
+
+def test_behind_a_mask_that_is_not_round(bad):
+    masked = with_mask(bad, PupilMask(vanes=1, vane_width=0.3))
+    made = plan(masked, replace(SCENE, tolerance=0.2, channels=(Channel("green", (540.0,), (1.0,)),)))
+    assert verify(made, 3).kept
+
+
+def test_a_preview_is_near_the_picture(bad, planned, values):
+    """Its database is good to 0.01 waves, 4π·0.01 of a kernel at most, and its kernels stand at nine places."""
+    found = preview(bad, SCENE, values)
+    assert distance(found, form_image(planned, values)) < 0.2
