@@ -250,8 +250,8 @@ def _by_exact_rays(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) 
     for name, given in (("preview", shown.preview), ("method", shown.method != "patches")):
         if given:
             raise RequestError(
-                "{parameter} of a scene whose rims clip needs a lens of rotational symmetry, and parts of this one are "
-                "tilted or decentred; leave it out",
+                "{parameter} of a scene whose rims clip needs a lens of rotational symmetry, and this one has none; "
+                "leave it out",
                 parameter=name,
             )
     made = form_misaligned(glass, scene, values, Forming(surround=shown.surround))

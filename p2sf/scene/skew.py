@@ -46,8 +46,7 @@ def scene_database(
     """
     if scene.clip:
         raise RequestError(
-            "{parameter} needs a lens of rotational symmetry, and parts of this one are tilted or decentred; leave it "
-            "out",
+            "{parameter} needs a lens of rotational symmetry, and this one has none; leave it out",
             parameter="clip",
         )
     waves = np.unique([wave for channel in scene.channels for wave in channel.wavelengths_um])

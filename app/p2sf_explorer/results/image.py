@@ -54,7 +54,7 @@ def psf_counts(plan: Plan) -> tuple[Message, Message]:
     """Return how many PSFs make the picture, and the product that it is."""
     rows, columns = plan.counts
     waves = sum(len(colour.wavelengths_um) for colour in plan.colours)
-    mirrored = plan.scene.sensor.centred and rows * columns > 1
+    mirrored = plan.mirrored and rows * columns > 1
     places = (-(-rows // 2)) * (-(-columns // 2)) if mirrored else rows * columns
     product = {"rows": rows, "columns": columns, "waves": waves}
     return Message("{count} PSFs", count=places * waves), (

@@ -2151,7 +2151,7 @@
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
-<message><source>{numbers} fitted numbers; the six Seidel coefficients know no tilts and decentres</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen keine Kippungen und Dezentrierungen</translation></message>
+<message><source>{numbers} fitted numbers; the six Seidel coefficients know rotational symmetry only</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen nur Rotationssymmetrie</translation></message>
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
@@ -2184,7 +2184,7 @@
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
-<message><source>{parameter} needs a lens of rotational symmetry, and parts of this one are tilted or decentred; leave it out</source><translation>{parameter} braucht ein Objektiv mit Rotationssymmetrie, und Teile dieses Objektivs sind gekippt oder dezentriert; weglassen</translation></message>
+<message><source>{parameter} needs a lens of rotational symmetry, and this one has none; leave it out</source><translation>{parameter} braucht ein rotationssymmetrisches Objektiv, und dieses ist keines; weglassen</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
 <message><source>{path} cannot be read as a picture; it is damaged, or of another kind than its ending says</source><translation>{path} lässt sich nicht als Bild lesen; es ist beschädigt oder von anderer Art, als seine Endung sagt</translation></message>
