@@ -1,6 +1,6 @@
 """`p2sf measure` and `p2sf compare`: from pictures of points back to the wavefronts that made them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any
@@ -16,11 +16,10 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import left_out, write_as_built
-from p2sf.measure.comparison import Comparison, compared
 from p2sf.measure.frame import Frame, Noise
 from p2sf.measure.frame_fit import FrameFit
 from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
-from p2sf.measure.measurement import Measurement, measured, write_measurement
+from p2sf.measure.measurement import Comparison, Measurement, compared, measured, write_measurement
 from p2sf.measure.point_model import Optics
 from p2sf.measure.reading import read_frame
 from p2sf.measure.target import TargetMatch, read_target
@@ -36,7 +35,8 @@ Numbers = Annotated[str, Parameter(help="What each point is fitted by: seidel, 2
 Unknown = Annotated[
     list[str],
     Parameter(
-        help="What of the whole frame: sensor_shift_um, tilt_x_deg, tilt_y_deg, w40, w31, w22, w20, spacing_um:K."
+        help="What of the whole frame: sensor_shift_um, tilt_x_deg, tilt_y_deg, w40, w31, w22, w20; or what is off in "
+        "the lens: decentre_x, decentre_y, tilt_x, tilt_y, radius, thickness or index, and its surfaces: tilt_x:3-4."
     ),
 ]
 TargetFile = Annotated[
@@ -44,6 +44,10 @@ TargetFile = Annotated[
     Parameter(
         help="Text file of the points' places: lines of number, x and y under a line number x_mm y_mm, or x_deg."
     ),
+]
+Light = Annotated[
+    list[str],
+    Parameter(help="Light of several wavelengths: each in nm and how much it brings, as --light 530:1 --light 550:2."),
 ]
 Built = Annotated[
     Path | None,
@@ -98,6 +102,7 @@ def measure(
     request: Asked = AS_IN_THE_FILE,
     camera: Annotated[Camera, Parameter(name="*")] = ANY_CAMERA,
     focus_um: FocusUm | None = None,
+    light: Light | None = None,
     target: TargetFile = None,
     model: Numbers = "seidel",
     unknowns: Unknown | None = None,
@@ -118,7 +123,7 @@ def measure(
     design, optics = _scale(lens, request, frames[0])
     found = measured(
         frames,
-        optics,
+        replace(optics, light=tuple(_colour(text) for text in light or ())),
         focus_um=focus_um or [0.0] * len(frames),
         model=model,
         lens=design,
@@ -134,6 +139,19 @@ def measure(
     if as_json:
         return print_json({"file": None if output is None else str(output), **record(found)})
     return _show(found)
+
+
+def _colour(text: str) -> tuple[float, float]:
+    """Return a wavelength in µm and how much of the light it brings, of text such as 550:2."""
+    wavelength, _, share = text.partition(":")
+    try:
+        return float(wavelength) / NM_PER_UM, float(share)
+    except ValueError as error:
+        raise RequestError(
+            '{parameter} "{text}" is no wavelength in nm and its share; write such as 550:2',
+            parameter="light",
+            text=text,
+        ) from error
 
 
 def _write_built(found: Measurement, path: Path) -> None:

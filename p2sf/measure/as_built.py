@@ -15,8 +15,9 @@ from p2sf.lens.misalignment import with_tilted_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.writing import write_lens
 from p2sf.measure.frame_fit import FrameFit
-from p2sf.measure.frame_terms import FIELD, SPACING
+from p2sf.measure.frame_terms import FIELD
 from p2sf.messages import Message
+from p2sf.tolerance.errors_of_build import build
 
 NEAR_MM, LIGHT_UM = 500.0, (0.4, 0.7)  # of a database's depths and wavelengths, if the measurement is within
 NODES = 20, 21, 31  # depths, fields and wavelengths
@@ -24,7 +25,7 @@ CERTAIN = 3.0  # standard deviations from which a number differs from 0
 
 
 def lens_as_built(whole: FrameFit, tilted: bool = True) -> Lens:
-    """Return the lens as designed with its spacings and its sensor where the frame tells that they are.
+    """Return the lens as designed with the errors and the sensor that the frame tells.
 
     ``tilted``: tilt the sensor too. Field polynomials are no part of a lens (`left_out`). Raises RequestError for a
     frame that was measured without a lens.
@@ -33,12 +34,9 @@ def lens_as_built(whole: FrameFit, tilted: bool = True) -> Lens:
     if lens is None:
         raise RequestError("the lens as built is the designed lens with its departures; measure relative to the lens")
     told = dict(zip(whole.model.unknowns, whole.values.tolist(), strict=True))
-    surfaces = list(lens.surfaces)
-    for name, value in told.items():
-        if name.startswith(SPACING):
-            k = int(name.removeprefix(SPACING)) - 1
-            surfaces[k] = replace(surfaces[k], thickness=surfaces[k].thickness + value / UM_PER_MM)
-    moved = replace(lens, surfaces=tuple(surfaces), title=f"{lens.title or lens.name}, as built")
+    errors = whole.model.errors
+    moved = build(lens, tuple(errors.values()), [told[name] for name in errors])
+    moved = replace(moved, title=f"{lens.title or lens.name}, as built")
     moved = with_sensor(moved, lens.sensor_mm + told.get("sensor_shift_um", 0.0) / UM_PER_MM)
     # Right-handed angles: one about x takes +y along z, one about y takes +x against it.
     tilt = Placement(tilt_x_deg=told.get("tilt_y_deg", 0.0), tilt_y_deg=-told.get("tilt_x_deg", 0.0))

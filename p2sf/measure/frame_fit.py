@@ -14,8 +14,8 @@ import numpy as np
 
 from p2sf.errors import Cancelled, RequestError
 from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, PointPupil, six_of_unknowns
-from p2sf.measure.point_fit import chi2_warning, fit_point
-from p2sf.measure.point_model import PixelSum
+from p2sf.measure.point_fit import chi2_warning, fit_point, most_chi2
+from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import seen
 from p2sf.messages import Message
@@ -27,6 +27,8 @@ FIRST_DAMPING, WEAKER, STRONGER, MOST_DAMPING = 1e-3, 0.2, 5.0, 1e8
 MOST_INFLATION = 30.0  # of an error by what else is unknown
 LEAST_SINGULAR = 1e-10  # of the information of unknowns in units of what each alone is known to
 SHIFT, FOCUS_STEP, TRIED_POINTS = FOCUS[0], 0.25, 4  # waves of Wd from one shift tried to the next; points
+TRIED, TRIED_WAVES = 64, 0.5  # starts, where the lens as designed is too far away
+FOLLOWED, FEW_STEPS = 4, 8
 SUGGESTING = 8  # points whose single fits suggest where a fit without a lens starts
 
 Part: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -45,6 +47,8 @@ class FrameFit:
         Of the model's unknowns, for the stated noise.
     frames : numpy.ndarray
         x and y in µm from the window's middle pixel, light and background of every point, (points, 4).
+    landed_um : numpy.ndarray
+        How far errors of the lens move every point's chief ray, x and y in µm, (points, 2).
     modelled : tuple of numpy.ndarray
         The windows as fitted.
     r2, chi2s : numpy.ndarray
@@ -60,6 +64,7 @@ class FrameFit:
     values: np.ndarray
     covariance: np.ndarray
     frames: np.ndarray
+    landed_um: np.ndarray
     modelled: tuple[np.ndarray, ...]
     r2: np.ndarray
     chi2s: np.ndarray
@@ -80,10 +85,20 @@ class FrameFit:
         return ratio
 
     @property
+    def freedom(self) -> int:
+        """Return how many more pixels count than there are unknowns."""
+        usable = sum(int(point.picture.usable.sum()) for point in self.points)
+        return max(1, usable - self.frames.size - self.values.size)
+
+    @property
+    def explains(self) -> bool:
+        """Return whether the model leaves no more than the noise."""
+        return self.chi2 <= most_chi2(self.freedom)
+
+    @property
     def warnings(self) -> tuple[Message, ...]:
         """Return what a reader has to know before using the values."""
-        usable = sum(int(point.picture.usable.sum()) for point in self.points)
-        out = chi2_warning(self.chi2, max(1, usable - self.frames.size - self.values.size))
+        out = chi2_warning(self.chi2, self.freedom)
         alike = tuple(
             name for name, ratio in zip(self.model.unknowns, self.inflation, strict=True) if ratio > MOST_INFLATION
         )
@@ -102,6 +117,22 @@ class FrameFit:
         return enlarged
 
 
+class _Colour:
+    """One point's sum over its pupil in one colour."""
+
+    def __init__(self, pupil: PointPupil, focus_um: float, shape: tuple[int, ...], optics: Optics):
+        self.pupil, nodes = pupil, pupil.nodes
+        self.phase = pupil.phase + focus_um * pupil.focus
+        self.columns = np.concatenate([pupil.terms, -nodes.fx[None], -nodes.fy[None]]).astype(np.float32)
+        self.sum = PixelSum(nodes, (shape[0], shape[1]), optics)
+
+    def phase_at(self, values: np.ndarray, x: float, y: float) -> np.ndarray:
+        """Return W at the nodes, waves, with the tilt that puts the chief ray at x and y."""
+        nodes = self.pupil.nodes
+        phase: np.ndarray = self.phase + values @ self.pupil.terms - (nodes.fx * x + nodes.fy * y)
+        return phase
+
+
 class PointSum:
     """One point's residuals over the noise and their derivatives by the frame's unknowns and by its own four."""
 
@@ -111,41 +142,71 @@ class PointSum:
         self.data = np.where(self.good, picture.values, 0.0)
         self.root = np.where(self.good, 1 / np.sqrt(np.broadcast_to(picture.variance, self.data.shape)), 0.0)
         self.half_um = max(self.data.shape) / 2 * model.optics.pixel_um
-        self.pupil: PointPupil = model.pupil(point.x_mm, point.y_mm, self.half_um)
-        nodes = self.pupil.nodes
-        self.phase = self.pupil.phase + point.focus_um * self.pupil.focus
-        self.columns = np.concatenate([self.pupil.terms, -nodes.fx[None], -nodes.fy[None]]).astype(np.float32)
-        self.sum = PixelSum(nodes, self.data.shape, model.optics)
+        self.colours = [
+            (share, _Colour(pupil, point.focus_um, self.data.shape, optics))
+            for share, pupil, optics in zip(
+                model.optics.shares,
+                model.pupils(point.x_mm, point.y_mm, self.half_um),
+                model.optics.colours,
+                strict=True,
+            )
+        ]
+        self.pupil = self.colours[0][1].pupil
 
-    def light(self, values: np.ndarray, x: float, y: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return the share of all light on each pixel and its derivatives by the unknowns, x and y."""
-        nodes = self.pupil.nodes
-        phase = self.phase + values @ self.pupil.terms - (nodes.fx * x + nodes.fy * y)
-        return self.sum.light_and_slopes(phase, self.columns)
+    def light(self, values: np.ndarray, x: float, y: float) -> np.ndarray:
+        """Return the share of all light on each pixel, (y, x)."""
+        light: np.ndarray = sum(
+            (share * one.sum.light(one.phase_at(values, x, y)) for share, one in self.colours), np.zeros(())
+        )
+        return light
 
-    def unlikeness(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> float:
-        """Return the sum of squares that these values leave of a picture, its place, light and background fitted."""
-        x, y, _, _ = self.start(point, model, values)
-        nodes = self.pupil.nodes
-        light = self.sum.light(self.phase + values @ self.pupil.terms - (nodes.fx * x + nodes.fy * y))
-        columns = np.column_stack([(light * self.root).ravel(), self.root.ravel()])
-        data = (self.data * self.root).ravel()
-        rest = data - columns @ np.linalg.lstsq(columns, data, rcond=None)[0]
-        return float(rest @ rest)
+    def light_and_slopes(self, values: np.ndarray, x: float, y: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return the light and its derivatives by the unknowns, x and y, (unknowns + 2, y, x)."""
+        light: np.ndarray | float = 0.0
+        slopes: np.ndarray | float = 0.0
+        for share, one in self.colours:
+            found, moved = one.sum.light_and_slopes(one.phase_at(values, x, y), one.columns)
+            light, slopes = light + share * found, slopes + share * moved
+        return np.asarray(light), np.asarray(slopes)
+
+    def landed_um(self, values: np.ndarray) -> np.ndarray:
+        """Return how far the chief ray is moved by errors of the lens, (2,)."""
+        still, slopes = self.pupil.landing_um
+        landed: np.ndarray = still + values @ slopes
+        return landed
 
     def start(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> np.ndarray:
         """Return x, y, light and background to start from: where the centroids of picture and model agree."""
         found = seen(point.picture, model.optics)
-        light = self.sum.light(self.phase + values @ self.pupil.terms)
+        light = self.light(values, 0.0, 0.0)
         across, up = ((np.arange(n) - n // 2) * model.optics.pixel_um for n in light.shape[::-1])
         total = light.sum()
         x, y = found.x - light.sum(0) @ across / total, found.y - light.sum(1) @ up / total
         return np.array([x, y, found.flux, found.background])
 
+    @property
+    def blur_per_unit(self) -> np.ndarray:
+        """Return the RMS wavefront, waves, that each unknown adds per unit, beside piston and tilts, (unknowns,)."""
+        nodes = self.pupil.nodes
+        root = np.sqrt(np.abs(nodes.weight))
+        planes = np.stack([np.ones_like(nodes.fx), nodes.fx, nodes.fy]) * root
+        terms = (self.pupil.terms * root).T
+        rest = terms - planes.T @ np.linalg.lstsq(planes.T, terms, rcond=None)[0]
+        blur: np.ndarray = np.sqrt(np.sum(rest**2, axis=0))
+        return blur
+
+    def unlikeness(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> float:
+        """Return the sum of squares over the noise that these values leave, place, light and background fitted."""
+        light = self.light(values, *self.start(point, model, values)[:2])
+        columns = np.stack([(light * self.root).ravel(), self.root.ravel()], 1)
+        wanted = (self.data * self.root).ravel()
+        rest = wanted - columns @ np.linalg.lstsq(columns, wanted, rcond=None)[0]
+        return float(rest @ rest)
+
     def residuals(self, values: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return residuals (pixels,), and their derivatives by the frame's unknowns and by x, y, light, background."""
         x, y, flux, background = own
-        light, slopes = self.light(values, x, y)
+        light, slopes = self.light_and_slopes(values, x, y)
         rest = ((flux * light + background - self.data) * self.root).ravel()
         moved = (flux * slopes * self.root).reshape(len(slopes), -1).T
         count = values.size
@@ -169,13 +230,32 @@ def fit_frame(
     if not points:
         raise RequestError("there is no usable point in the frame; look at what its points are flagged for")
     sums = [PointSum(point, model) for point in points]
-    if start is None:
-        start = _focused(sums, points, model) if model.lens is not None else _suggested(points, model)
+    guess = start
+    if guess is None:
+        guess = _focused(sums, points, model) if model.lens is not None else _suggested(points, model)
+    found = _descended(points, model, sums, guess, STEPS, progress, cancelled)
+    if start is not None or model.lens is None or found.explains:
+        return found
+    other = _elsewhere(sums, points, model, guess, cancelled)
+    again = _descended(points, model, sums, other, STEPS, None, cancelled)
+    return min(found, again, key=lambda one: one.chi2)
+
+
+def _descended(
+    points: Sequence[FramePoint],
+    model: FrameModel,
+    sums: Sequence[PointSum],
+    start: np.ndarray,
+    steps: int,
+    progress: Callable[[float], None] | None,
+    cancelled: Callable[[], bool] | None,
+) -> FrameFit:
+    """Return the minimum that is reached from these values in so many steps at most."""
     values = np.array(start, float)
     own = np.array([one.start(point, model, values) for one, point in zip(sums, points, strict=True)])
     parts = [one.residuals(values, mine) for one, mine in zip(sums, own, strict=True)]
     cost, damping = _cost(parts), FIRST_DAMPING
-    for step in range(STEPS):
+    for step in range(steps):
         if cancelled and cancelled():
             raise Cancelled("the fit was cancelled before it was done")
         if progress:
@@ -216,6 +296,32 @@ def _focused(sums: Sequence[PointSum], points: Sequence[FramePoint], model: Fram
     left = [sum(one.unlikeness(point, model, trial) for one, point in some) for trial in trials]
     best: np.ndarray = trials[int(np.argmin(left))]
     return best
+
+
+def _elsewhere(
+    sums: Sequence[PointSum],
+    points: Sequence[FramePoint],
+    model: FrameModel,
+    near: np.ndarray,
+    cancelled: Callable[[], bool] | None,
+) -> np.ndarray:
+    """Return values to start from where those ``near`` the answer are not near enough: of many, what explains most.
+
+    They are drawn so that each unknown changes the wavefront by `TRIED_WAVES` RMS. Some points far apart decide.
+    """
+    places = {(point.x_mm, point.y_mm) for point in _far_apart(points)}
+    some = [k for k, point in enumerate(points) if (point.x_mm, point.y_mm) in places]
+    chosen, few = [points[k] for k in some], [sums[k] for k in some]
+    scale = TRIED_WAVES / np.maximum(np.max([one.blur_per_unit for one in few], axis=0), 1e-12)
+    tried = near + np.random.default_rng(0).normal(size=(TRIED, scale.size)) * scale
+    costs = []
+    for values in tried:
+        if cancelled and cancelled():
+            raise Cancelled("the fit was cancelled before it was done")
+        costs.append(sum(one.unlikeness(point, model, values) for one, point in zip(few, chosen, strict=True)))
+    best = np.argsort(costs)[:FOLLOWED]
+    ends = [_descended(chosen, model, few, tried[k], FEW_STEPS, None, cancelled) for k in best]
+    return min(ends, key=lambda one: one.chi2).values
 
 
 def _suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
@@ -293,8 +399,9 @@ def _result(
     normals = [_normal(part, 0.0) for part in parts]
     information = np.asarray(sum(a - b @ c @ b.T for a, b, c, _, _ in normals))
     modelled = tuple(
-        mine[2] * one.light(values, mine[0], mine[1])[0] + mine[3] for one, mine in zip(sums, own, strict=True)
+        mine[2] * one.light(values, mine[0], mine[1]) + mine[3] for one, mine in zip(sums, own, strict=True)
     )
+    landed = np.array([one.landed_um(values) for one in sums])
     freedom = [max(1, int(one.good.sum()) - 4) for one in sums]
     squares = np.array([rest @ rest for rest, _, _ in parts])
     r2 = np.array([_r2(one, light) for one, light in zip(sums, modelled, strict=True)])
@@ -303,7 +410,9 @@ def _result(
     odd = np.array([name == "w31" for name in model.unknowns])
     twin = np.where(odd, values, -values) if one_focus else None
     chi2s = squares / np.array(freedom)
-    return FrameFit(model, tuple(points), values, _inverse(information), own, modelled, r2, chi2s, all_chi2, twin)
+    return FrameFit(
+        model, tuple(points), values, _inverse(information), own, landed, modelled, r2, chi2s, all_chi2, twin
+    )
 
 
 def _inverse(information: np.ndarray) -> np.ndarray:

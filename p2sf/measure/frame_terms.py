@@ -1,8 +1,7 @@
 """What is unknown of a whole frame: a few numbers that change the wavefront of every point (handbook 11.3)."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from math import pi
 
 import numpy as np
@@ -12,6 +11,7 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.measure.lens_pupil import clear_part, lens_nodes
+from p2sf.measure.perturbation import Perturbed, perturbation, perturbed, unit_of
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import turned
@@ -22,11 +22,11 @@ from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.tolerance.errors_of_build import UNITS, Tolerance
 
 FOCUS = ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg")
 FIELD = ("w40", "w31", "w22", "w20")
-SPACING = "spacing_um:"
-SHIFT_MM, SPACING_MM = 0.01, 0.005  # steps of differences of rays, so small that W changes linearly
+SHIFT_MM = 0.01  # step of differences of rays, so small that W changes linearly
 RESIDUAL_WAVES = 1e-3  # of fits to the lens's rays
 UM_PER_DEGREE_MM = pi / 180 * UM_PER_MM  # by which a place 1 mm away recedes when tilted by 1°
 UNIT = {"sensor_shift_um": "µm", "tilt_x_deg": "°", "tilt_y_deg": "°", **dict.fromkeys(FIELD, "waves")}
@@ -49,13 +49,15 @@ class FramePoint:
 class PointPupil:
     """The pupil of one point of a frame: nodes, its wavefront in waves, (nodes,), and what each unknown adds.
 
-    ``terms``: (unknowns, nodes), waves per unit. ``focus``: waves per µm by which the sensor recedes.
+    ``terms``: (unknowns, nodes), waves per unit. ``focus``: waves per µm by which the sensor recedes. ``landing_um``:
+    how far the chief ray moves, (2,), and per unit of each unknown, (unknowns, 2); 0 for those that bend none.
     """
 
     nodes: PupilNodes
     phase: np.ndarray
     terms: np.ndarray
     focus: np.ndarray
+    landing_um: tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -63,10 +65,11 @@ class FrameModel:
     """Which unknowns a frame is explained by, and the lens, if any, that they are departures from.
 
     ``unknowns``: of ``sensor_shift_um``, ``tilt_x_deg``, ``tilt_y_deg`` (by which the sensor recedes towards +x, +y);
-    ``w40``, ``w31``, ``w22``, ``w20``, waves at ``height_mm``, growing with the field as 1, h, h² and h²; and
-    ``spacing_um:k``, of the space behind surface k, the sensor staying at its distance from the last surface. Without a
-    lens the pupil is the paraxial one of the numerical aperture, and W has no other terms. ``alone``: the model is of
-    one point, and field polynomials are waves at it, wherever it lies. ``clip``: the lens's rims end pupils.
+    ``w40``, ``w31``, ``w22``, ``w20``, waves at ``height_mm``, growing with the field as 1, h, h² and h²; and errors of
+    the lens such as ``decentre_y:3-4`` (`perturbation`), the sensor staying at its distance from the last surface.
+    Without a lens the pupil is the paraxial one of the numerical aperture, and W has no other terms. ``about``: values
+    of all unknowns near which those errors are taken to be linear, 0 when not given. ``alone``: the model is of one
+    point, and field polynomials are waves at it, wherever it lies. ``clip``: the lens's rims end pupils.
     """
 
     optics: Optics
@@ -74,19 +77,26 @@ class FrameModel:
     unknowns: tuple[str, ...] = (*FOCUS, *FIELD)
     lens: Lens | None = None
     depth_mm: float = float("inf")
+    about: tuple[float, ...] = ()
     alone: bool = False
     clip: bool = False
 
     def __post_init__(self) -> None:
         surfaces = len(self.lens.surfaces) if self.lens is not None else 0
-        spacings = tuple(f"{SPACING}{k}" for k in range(1, surfaces))
         for name in self.unknowns:
-            if name not in (*FOCUS, *FIELD, *spacings):
+            if name not in (*FOCUS, *FIELD) and not (surfaces and perturbation(name, surfaces)):
                 raise RequestError(
                     '"{name}" is nothing that a frame tells here; choose from {choices}',
                     name=name,
-                    choices=(*FOCUS, *FIELD, *spacings),
+                    choices=(*FOCUS, *FIELD, *(f"{kind}:1" for kind in UNITS if surfaces)),
                 )
+
+    @property
+    def errors(self) -> dict[str, Tolerance]:
+        """Return the errors of the lens among the unknowns, by name."""
+        surfaces = len(self.lens.surfaces) if self.lens is not None else 0
+        every = {name: perturbation(name, surfaces) for name in self.unknowns}
+        return {name: error for name, error in every.items() if error is not None}
 
     @property
     def focus_waves_per_um(self) -> float:
@@ -95,57 +105,79 @@ class FrameModel:
 
     def unit(self, name: str) -> str:
         """Return the unit of an unknown."""
-        return UNIT.get(name, "µm")
+        unit = unit_of(name)
+        return UNIT[name] if unit is None else unit
 
-    def pupil(self, x_mm: float, y_mm: float, half_um: float) -> PointPupil:
-        """Return the pupil of a point whose chief ray lands at (x, y); its nodes serve a window of ±``half_um``."""
+    def pupils(self, x_mm: float, y_mm: float, half_um: float) -> tuple[PointPupil, ...]:
+        """Return the pupil in every colour of a point whose chief ray lands at (x, y); for a window of ±``half_um``."""
         azimuth, height = float(np.arctan2(x_mm, y_mm)), float(np.hypot(x_mm, y_mm))
-        if self.lens is None:
-            return self._paraxial(x_mm, y_mm, azimuth, height, half_um)
-        return self._of_lens(x_mm, y_mm, azimuth, height, half_um)
+        place = x_mm, y_mm, height
+        return tuple(self._pupil(colour, place, azimuth, half_um) for colour in self.optics.colours)
 
-    def _paraxial(self, x: float, y: float, azimuth: float, height: float, half_um: float) -> PointPupil:
-        counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
-        nodes = paraxial_nodes(counts, self.optics.cycles, self.optics.mask, self.optics.wavelength_um)
-        square = nodes.xi**2 + nodes.eta**2
-        focus = square * self.focus_waves_per_um
-        across, along = turned(nodes.xi, nodes.eta, azimuth)
-        return self._with_terms(nodes, np.zeros_like(nodes.xi), focus, (x, y, height), (across, along), {})
+    def _pupil(self, colour: Optics, place: tuple[float, float, float], azimuth: float, half_um: float) -> PointPupil:
+        counts = counts_for(1.2 * colour.cycles * half_um, colour.cycles, half_um)
+        if self.lens is not None:
+            return self._of_lens(colour, place, azimuth, counts)
+        nodes = paraxial_nodes(counts, colour.cycles, colour.mask, colour.wavelength_um)
+        focus = (nodes.xi**2 + nodes.eta**2) * (colour.na**2 / (2 * colour.wavelength_um))
+        return self._with_terms(
+            colour, nodes, (np.zeros_like(nodes.xi), focus), place, turned(nodes.xi, nodes.eta, azimuth)
+        )
 
-    def _of_lens(self, x: float, y: float, azimuth: float, height: float, half_um: float) -> PointPupil:
+    def _of_lens(
+        self, colour: Optics, place: tuple[float, float, float], azimuth: float, counts: tuple[int, int]
+    ) -> PointPupil:
         assert self.lens is not None
-        found, moved = self.fits(height)
-        counts = counts_for(1.2 * self.optics.cycles * half_um, self.optics.cycles, half_um)
-        clear = clear_part(self.lens, self.source(height, azimuth), counts) if self.clip else None
+        height = place[-1]
+        found, moved = self.pencil(height, colour.wavelength_um)
+        source = self.source(height, azimuth, colour.wavelength_um)
+        clear = clear_part(self.lens, source, counts) if self.clip else None
         nodes = lens_nodes(found, azimuth, counts, clear)
-        forms = np.stack([found.phase, *(change for change in moved.values())])
-        phase, focus, *others = -(forms @ basis(found.level.wave_order, nodes.xi, nodes.eta))
-        spacings = dict(zip(tuple(moved)[1:], others, strict=True))
-        return self._with_terms(nodes, phase, focus, (x, y, height), (nodes.xi, nodes.eta), spacings)
+        phase, focus = -(np.stack([found.phase, moved]) @ basis(found.level.wave_order, nodes.xi, nodes.eta))
+        if len(self.optics.light):
+            shift = UM_PER_MM * self._map().shift_mm(height, colour.wavelength_um)  # lateral colour, along the field
+            phase = phase - shift * (np.sin(azimuth) * nodes.fx + np.cos(azimuth) * nodes.fy)
+        if not self.errors:
+            return self._with_terms(colour, nodes, (phase, focus), place, (nodes.xi, nodes.eta))
+        seen, values = self._perturbed(source)
+        change, slopes = seen.at(nodes)
+        phases = phase + change - values @ slopes, focus
+        made = self._with_terms(colour, nodes, phases, place, (nodes.xi, nodes.eta), slopes)
+        each = dict(zip(self.errors, seen.landing_slopes, strict=True))
+        landing = np.array([each.get(name, np.zeros(2)) for name in self.unknowns])
+        return replace(made, landing_um=(seen.landing_um - values @ seen.landing_slopes, landing))
+
+    def _perturbed(self, source: Source) -> tuple[Perturbed, np.ndarray]:
+        """Return what the lens's errors do to a point near the values that they are about, and those values."""
+        assert self.lens is not None
+        about = dict(zip(self.unknowns, self.about, strict=False))
+        values = np.array([about.get(name, 0.0) for name in self.errors])
+        return perturbed(self.lens, source, tuple(self.errors.values()), values), values
 
     def _with_terms(
         self,
+        colour: Optics,
         nodes: PupilNodes,
-        phase: np.ndarray,
-        focus: np.ndarray,
+        phases: tuple[np.ndarray, np.ndarray],
         place: tuple[float, float, float],
         meridional: tuple[np.ndarray, np.ndarray],
-        spacings: dict[str, np.ndarray],
+        slopes: np.ndarray | Sequence[np.ndarray] = (),
     ) -> PointPupil:
-        x, y, height = place
-        across, along = meridional
+        (x, y, height), (phase, focus), (across, along) = place, phases, meridional
         square, h = across**2 + along**2, 1.0 if self.alone else height / self.height_mm
+        ratio = self.optics.wavelength_um / colour.wavelength_um  # of waves here to those that the unknowns are in
         made = {
             "sensor_shift_um": focus,
             "tilt_x_deg": focus * (x * UM_PER_DEGREE_MM),
             "tilt_y_deg": focus * (y * UM_PER_DEGREE_MM),
-            "w40": square**2,
-            "w31": h * square * along,
-            "w22": h * h * along**2,
-            "w20": h * h * square,
-            **spacings,
+            "w40": ratio * square**2,
+            "w31": ratio * h * square * along,
+            "w22": ratio * h * h * along**2,
+            "w20": ratio * h * h * square,
+            **dict(zip(self.errors, slopes, strict=True)),
         }
-        return PointPupil(nodes, phase + nodes.waves, np.stack([made[name] for name in self.unknowns]), focus)
+        terms = np.stack([made[name] for name in self.unknowns])
+        return PointPupil(nodes, phase + nodes.waves, terms, focus, (np.zeros(2), np.zeros((len(terms), 2))))
 
     def six_of_lens(self, height_mm: float) -> np.ndarray:
         """Return W40, W31, W22 and W20 + Wd of the lens where a chief ray lands at a height; 0 without a lens."""
@@ -155,39 +187,21 @@ class FrameModel:
         c = coefficients(self.lens, source.depth_mm, source.field_slope, source.wavelength_um)
         return np.array([c.w40, c.w31, c.w22, c.w20 + c.wd], float)
 
-    def fits(self, height_mm: float) -> tuple[FittedPencil, dict[str, np.ndarray]]:
-        """Return the fit of a point at a height, and how its phase's coefficients change per µm of what moves.
-
-        The first change is the sensor's.
-        """
+    def pencil(self, height_mm: float, wavelength_um: float) -> tuple[FittedPencil, np.ndarray]:
+        """Return the fit of a point at a height, and by what its phase's coefficients change per µm of the sensor."""
         assert self.lens is not None
-        source = self._map().source(height_mm, self.optics.wavelength_um)
+        source = self._map().source(height_mm, wavelength_um)
         found = fit(self.lens, source, residual_waves=RESIDUAL_WAVES)
-        numbers = found.numbers
-        moves: dict[str, Callable[[float], Lens]] = {"sensor_shift_um": self._shifted}
-        for name in self.unknowns:
-            if name.startswith(SPACING):
-                moves[name] = partial(self._respaced, int(name.removeprefix(SPACING)))
-        changes = {}
-        for name, moved in moves.items():
-            step = SPACING_MM if name.startswith(SPACING) else SHIFT_MM
-            more, less = (fit(moved(sign * step), source, numbers).phase for sign in (1, -1))
-            changes[name] = (more - less) / (2 * step * UM_PER_MM)
-        return found, changes
+        places = (self.lens.sensor_mm + sign * SHIFT_MM for sign in (1, -1))
+        more, less = (fit(with_sensor(self.lens, place), source, found.numbers).phase for place in places)
+        return found, (more - less) / (2 * SHIFT_MM * UM_PER_MM)
 
-    def _shifted(self, step_mm: float) -> Lens:
-        assert self.lens is not None
-        return with_sensor(self.lens, self.lens.sensor_mm + step_mm)
+    def source(self, height_mm: float, azimuth: float, wavelength_um: float | None = None) -> Source:
+        """Return the source whose chief ray lands at a height, at ``azimuth`` radians from +y towards +x.
 
-    def _respaced(self, surface: int, step_mm: float) -> Lens:
-        assert self.lens is not None
-        surfaces = list(self.lens.surfaces)
-        surfaces[surface - 1] = replace(surfaces[surface - 1], thickness=surfaces[surface - 1].thickness + step_mm)
-        return replace(self.lens, surfaces=tuple(surfaces))
-
-    def source(self, height_mm: float, azimuth: float) -> Source:
-        """Return the source whose chief ray lands at a height, at ``azimuth`` radians from +y towards +x."""
-        seen = self._map().source(height_mm, self.optics.wavelength_um)
+        In another wavelength it is the same point, which lands elsewhere.
+        """
+        seen = self._map().source(height_mm, wavelength_um or self.optics.wavelength_um)
         return replace(seen, azimuth_deg=float(np.rad2deg(azimuth)))
 
     def _map(self) -> SensorMap:
@@ -196,7 +210,7 @@ class FrameModel:
 
 
 def six_of_unknowns(x_mm: float, y_mm: float, model: FrameModel) -> np.ndarray:
-    """Return W40, W31, W22 and W20 + Wd of a point per unit of every unknown, (4, unknowns); 0 for a spacing."""
+    """Return W40, W31, W22 and W20 + Wd of a point per unit of every unknown, (4, unknowns); 0 for errors of a lens."""
     h = float(np.hypot(x_mm, y_mm)) / model.height_mm
     focus = model.focus_waves_per_um
     tilt = focus * UM_PER_DEGREE_MM

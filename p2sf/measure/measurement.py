@@ -1,4 +1,7 @@
-"""From a frame to a measurement: its points, the wavefront of each, and what explains all of them (handbook 11.3)."""
+"""From a frame to a measurement: its points, the wavefront of each, and what explains all of them (handbook 11.3).
+
+Measurements are kept in files, and two of them compared.
+"""
 
 import json
 import os
@@ -29,6 +32,7 @@ FEWEST = 5  # points of a frame whose field is fitted too
 STRAIGHT = 0.017  # radians by which a field may miss an axis of the sensor
 LEAST_HEIGHT_MM = 1e-3  # of the farthest point
 WHOLE = 0.5  # of the time, as progress is told
+NEAR_MM = 0.05  # points of two measurements that lie as near are the same
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +109,7 @@ def measured(
     match = None
     if target is not None:
         points, match = _on_target(points, target, lens, depth_mm, optics.wavelength_um)
-    taken = [_Taken(frames, point, half, focus_um, optics) for point in points]
+    taken = [_Taken(frames, point, points, half, focus_um, optics) for point in points]
     height = max([one.height_mm for one in taken if one.pictures] + [LEAST_HEIGHT_MM])
     design = FrameModel(optics, height, tuple(unknowns), lens, depth_mm, clip=clip)
     whole = _whole(taken, design, progress, cancelled)
@@ -150,14 +154,20 @@ class _Taken:
     """
 
     def __init__(
-        self, frames: Sequence[Frame], point: FoundPoint, half: int, focus_um: Sequence[float], optics: Optics
+        self,
+        frames: Sequence[Frame],
+        point: FoundPoint,
+        others: Sequence[FoundPoint],
+        half: int,
+        focus_um: Sequence[float],
+        optics: Optics,
     ):
         self.point, self.focus_um = point, focus_um
         pitch = frames[0].geometry.pixel_um / UM_PER_MM
         right, down = (place - round(place) for place in (point.column, point.row))
         self.place = point.known_mm or (point.x_mm - right * pitch, point.y_mm + down * pitch)
         waves = [shift * optics.na**2 / (2 * optics.wavelength_um) for shift in focus_um]
-        found = [window_of(frame, point, half, wave) for frame, wave in zip(frames, waves, strict=True)]
+        found = [window_of(frame, point, half, wave, others) for frame, wave in zip(frames, waves, strict=True)]
         self.pictures = [one for one in found if one is not None]
         if not point.good or None in found:
             self.pictures = []
@@ -191,10 +201,12 @@ def _whole(
     told = (lambda share: progress(WHOLE * share)) if progress else None
     placed = [point for one in taken for point in one.placed]
     found = fit_frame(placed, design, progress=told, cancelled=cancelled)
-    if design.lens is None or any(one.point.known_mm for one in taken):
+    known = any(one.point.known_mm for one in taken)
+    if design.lens is None or (known and not design.errors):
         return found
     # Centroids lie a pixel or so from where chief rays land, which coma moves them by.
-    return fit_frame(_replaced(found), design, found.values, cancelled=cancelled)
+    about = replace(design, about=tuple(found.values.tolist())) if design.errors else design
+    return fit_frame(placed if known else _replaced(found), about, found.values, cancelled=cancelled)
 
 
 def _single(one: _Taken, whole: FrameFit | None, design: FrameModel, model: str) -> PointFit:
@@ -217,8 +229,8 @@ def _single(one: _Taken, whole: FrameFit | None, design: FrameModel, model: str)
 
 
 def _replaced(whole: FrameFit) -> list[FramePoint]:
-    """Return the points of a fit where their chief rays land, as it found."""
-    pairs = zip(whole.points, whole.frames[:, :2] / UM_PER_MM, strict=True)
+    """Return the points of a fit where their chief rays would land, as it found, if the lens had no errors."""
+    pairs = zip(whole.points, (whole.frames[:, :2] - whole.landed_um) / UM_PER_MM, strict=True)
     return [replace(point, x_mm=point.x_mm + x, y_mm=point.y_mm + y) for point, (x, y) in pairs]
 
 
@@ -306,3 +318,62 @@ def read_measurement(path: str | os.PathLike[str]) -> tuple[dict[str, np.ndarray
             "{path} is not a measurement that this program wrote; make it with p2sf measure -o", path=str(path)
         ) from error
     return arrays, meta
+
+
+@dataclass(frozen=True)
+class ComparedNumber:
+    """One number in both, of the frame or as the mean over common points; ``sigmas``: by which it differs."""
+
+    name: str
+    first: float
+    second: float
+    sigmas: float
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Two measurements: how many points they have in common, and their numbers."""
+
+    points: int
+    rows: tuple[ComparedNumber, ...]
+
+
+def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> Comparison:
+    """Return two files of `write_measurement` beside each other; numbers of points as RMS-weighted means.
+
+    Raises RequestError for other files, and where they have no number in common.
+    """
+    (one, named), (two, also) = (read_measurement(path) for path in (first, second))
+    pairs = _pairs(one["places_mm"], two["places_mm"])
+    rows = []
+    if pairs and named.get("names") == also.get("names") and "numbers" in one and "numbers" in two:
+        here, there = (np.array(k) for k in zip(*pairs, strict=True))
+        for k, name in enumerate(named["names"]):
+            a, b = one["numbers"][here, k], two["numbers"][there, k]
+            error = np.hypot(one["errors"][here, k], two["errors"][there, k])
+            rows.append(ComparedNumber(str(name), float(a.mean()), float(b.mean()), _rms((b - a) / error)))
+    both = [name for name in named.get("unknowns", ()) if name in also.get("unknowns", ())]
+    for name in both:
+        i, j = list(named["unknowns"]).index(name), list(also["unknowns"]).index(name)
+        a, b = float(one["whole"][i]), float(two["whole"][j])
+        error = float(np.hypot(one["whole_errors"][i], two["whole_errors"][j]))
+        rows.append(ComparedNumber(str(name), a, b, abs(b - a) / error))
+    if not rows:
+        raise RequestError(
+            "{first} and {second} have no number in common; measure the same points by the same model",
+            first=str(first),
+            second=str(second),
+        )
+    return Comparison(len(pairs), tuple(rows))
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _pairs(one: np.ndarray, two: np.ndarray) -> list[tuple[int, int]]:
+    """Return the numbers of points that lie near each other, (in the first, in the second)."""
+    if not len(one) or not len(two):
+        return []
+    away = np.hypot(*(one[:, None] - two[None]).transpose(2, 0, 1))
+    return [(k, int(np.argmin(row))) for k, row in enumerate(away) if row.min() < NEAR_MM]

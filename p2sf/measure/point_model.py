@@ -6,11 +6,13 @@ term −f, a number m of the map the term x·∂f/∂m. The nodes lie in rows of
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from math import ceil, pi
+from dataclasses import dataclass, replace
+from math import ceil, inf, pi
 
 import numpy as np
 
+from p2sf.conventions import NM_PER_UM
+from p2sf.errors import RequestError
 from p2sf.measure.pupil_nodes import PupilNodes
 from p2sf.measure.scattered_sum import ScatteredNodes, grid_rows
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -25,7 +27,10 @@ class Optics:
     """What is known of a picture's scale: numerical aperture in air or image space, wavelength in µm, pixel in µm.
 
     ``fill``: side of a pixel's sensitive square over the pitch; 0 takes the intensity at the pixel's centre.
-    ``mask``: what stands in the pupil, its ξ along +x and its η along +y of the sensor.
+    ``mask``: what stands in the pupil, its ξ along +x and its η along +y of the sensor. ``light``: wavelengths in µm
+    and how much of the light each brings, for light of several; waves are those of ``wavelength_um`` all the same.
+
+    Raises RequestError for light that cannot be.
     """
 
     na: float
@@ -33,6 +38,32 @@ class Optics:
     pixel_um: float
     fill: float = 1.0
     mask: PupilMask = CLEAR
+    light: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        for wavelength, share in self.light:
+            if not (0 < wavelength < inf and 0 < share < inf):
+                raise RequestError(
+                    "a wavelength of {nm:g} nm that brings {share:g} of the light; give two positive numbers",
+                    nm=wavelength * NM_PER_UM,
+                    share=share,
+                )
+
+    @property
+    def colours(self) -> tuple["Optics", ...]:
+        """Return the scale in every colour."""
+        return tuple(replace(self, wavelength_um=wave, light=()) for wave, _ in self.light) or (self,)
+
+    @property
+    def shares(self) -> tuple[float, ...]:
+        """Return the share of all light of every colour."""
+        total = sum(share for _, share in self.light)
+        return tuple(share / total for _, share in self.light) or (1.0,)
+
+    @property
+    def finest(self) -> "Optics":
+        """Return the scale in the colour of the shortest wavelength, which asks for most samples."""
+        return min(self.colours, key=lambda colour: colour.wavelength_um)
 
     @property
     def cycles(self) -> float:
@@ -42,7 +73,7 @@ class Optics:
     @property
     def parts(self) -> int:
         """Return how many points across a pixel average the light, to 1e-3 of the peak."""
-        return 1 if self.fill == 0 else max(3, ceil(4 * self.cycles * self.pixel_um * self.fill) + 1)
+        return 1 if self.fill == 0 else max(3, ceil(4 * self.finest.cycles * self.pixel_um * self.fill) + 1)
 
     @property
     def coarse_parts(self) -> int:
@@ -170,3 +201,27 @@ class PixelSum:
         slopes[:, end - along :] *= (self.y - place[1]).astype(np.float32)[:, None, None]
         found = self.scale * self.binned(slopes).astype(float)
         return found[0], found[1:]
+
+
+class SpectralSum:
+    """`PixelSum` in every colour of the light: optical paths are the same in all, and so W in waves is not."""
+
+    def __init__(self, nodes: PupilNodes, shape: tuple[int, int], optics: Optics, parts: int | None = None):
+        self.ratios = [optics.wavelength_um / colour.wavelength_um for colour in optics.colours]
+        self.shares = optics.shares
+        parts = parts or optics.parts
+        self.sums = [
+            PixelSum(replace(nodes, fx=ratio * nodes.fx, fy=ratio * nodes.fy), shape, colour, parts)
+            for ratio, colour in zip(self.ratios, optics.colours, strict=True)
+        ]
+
+    def light_and_slopes(
+        self, phase: np.ndarray, terms: np.ndarray, maps: tuple[int, int] = (0, 0), place: tuple[float, float] = (0, 0)
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return what `PixelSum.light_and_slopes` does; ``phase`` in waves of the wavelength that the nodes are of."""
+        light: np.ndarray | float = 0.0
+        slopes: np.ndarray | float = 0.0
+        for ratio, share, one in zip(self.ratios, self.shares, self.sums, strict=True):
+            found, moved = one.light_and_slopes(ratio * phase, terms, maps, place)
+            light, slopes = light + share * found, slopes + share * ratio * moved
+        return np.asarray(light), np.asarray(slopes)

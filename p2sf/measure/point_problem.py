@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import Optics, SpectralSum
 from p2sf.measure.pupil_model import PupilModel
 from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
 from p2sf.pupil.mask import mask_slopes
@@ -110,14 +110,19 @@ class Problem:
     def prepare(self, unknowns: np.ndarray) -> None:
         """Take as many nodes as the wavefront at these unknowns needs, and light all over the windows."""
         slope = max(self._slope(unknowns), 0.5 * self.optics.cycles * self.half_um)
-        self.counts, self._at = counts_for(MARGIN * slope, self.optics.cycles, self.half_um), np.empty(0)
+        self.counts, self._at = self._counts(MARGIN * slope), np.empty(0)
         if not self.model.mapped:
             optics = self.optics
             self._take(paraxial_nodes(self.counts, optics.cycles, optics.mask, optics.wavelength_um, self.clear))
 
     def needs_more(self, unknowns: np.ndarray) -> bool:
         """Return whether the wavefront has become too steep for its nodes."""
-        return counts_for(self._slope(unknowns), self.optics.cycles, self.half_um)[0] > self.counts[0]
+        return self._counts(self._slope(unknowns))[0] > self.counts[0]
+
+    def _counts(self, slope: float) -> tuple[int, int]:
+        """Return rows and columns of nodes that carry a slope, in waves per unit radius, in every colour."""
+        finest = self.optics.finest
+        return counts_for(slope * self.optics.wavelength_um / finest.wavelength_um, finest.cycles, self.half_um)
 
     def _slope(self, unknowns: np.ndarray) -> float:
         """Return about the steepest slope of the wavefront over the pupil, waves per unit radius."""
@@ -138,7 +143,7 @@ class Problem:
     def _take(self, nodes: PupilNodes) -> None:
         """Compute what does not change while the nodes stay."""
         self.nodes = nodes
-        self.sums = [PixelSum(nodes, p.values.shape, self.optics, self.parts) for p in self.pictures]
+        self.sums = [SpectralSum(nodes, p.values.shape, self.optics, self.parts) for p in self.pictures]
         self.terms = self.model.waves(nodes.xi, nodes.eta, self.azimuth)
         self.square = nodes.xi**2 + nodes.eta**2
         maps = self.model.maps(nodes.xi, nodes.eta) if self.model.mapped else ()

@@ -208,12 +208,23 @@ def window_half(points: Sequence[FoundPoint]) -> int:
     return min(int(np.ceil(np.quantile(halves, 0.9))) + MARGIN_PIXELS, LARGEST_HALF)
 
 
-def window_of(frame: Frame, point: FoundPoint, half: int, defocus_waves: float = 0.0) -> PointPicture | None:
-    """Return the window about a point's pixel, (2·half + 1)², rows towards +y; None where it leaves the frame."""
+def window_of(
+    frame: Frame, point: FoundPoint, half: int, defocus_waves: float = 0.0, others: Sequence[FoundPoint] = ()
+) -> PointPicture | None:
+    """Return the window about a point's pixel, (2·half + 1)², rows towards +y; None where it leaves the frame.
+
+    Pixels with light of ``others`` do not count.
+    """
     row, column = round(point.row), round(point.column)
     if not (half <= row < frame.geometry.rows - half and half <= column < frame.geometry.columns - half):
         return None
     part = slice(row - half, row + half + 1), slice(column - half, column + half + 1)
     values = frame.values[part][::-1]
     light = np.where(np.isfinite(values), values, frame.background)
-    return PointPicture(values, frame.variance(light), defocus_waves, frame.usable[part][::-1])
+    good = frame.usable[part].copy()
+    for other in others:
+        down, right = round(other.row) - row + half, round(other.column) - column + half
+        reach = other.half + 1
+        if other is not point and min(down, right) > -reach and max(down, right) <= 2 * half + reach:
+            good[max(down - reach, 0) : down + reach + 1, max(right - reach, 0) : right + reach + 1] = False
+    return PointPicture(values, frame.variance(light), defocus_waves, good[::-1])

@@ -38,6 +38,15 @@ def test_a_picture_beside_its_lens(picture, answer, tmp_path, capsys):
     assert "6 points in common" in out and "sensor_shift_um" in out
 
 
+def test_light_of_several_wavelengths_is_taken(picture, answer, tmp_path):
+    """The picture is of 550 nm; light within a nanometre of it tells the same. Five standard deviations."""
+    command = ("measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um")
+    found = answer(*command, "--light", "549:1", "--light", "551:1", "-o", str(tmp_path / "found.npz"))
+    shift = found["frame"]["unknowns"]["sensor_shift_um"]
+    assert abs(shift["value"] - 20.0) < 5 * shift["error"]
+    assert read_measurement(tmp_path / "found.npz")[1]["optics"]["light"] == [[0.549, 1.0], [0.551, 1.0]]
+
+
 def test_points_are_those_of_a_target(picture, answer, tmp_path, capsys):
     """Places on the sensor, far away: the lens's focal length of 50 mm makes angles of them, to its distortion."""
     places, target, file = grid_of_points(3, 2, 1.2, 0.6), tmp_path / "target.csv", tmp_path / "found.npz"
@@ -67,6 +76,8 @@ def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
         (("--pixel-um", "3.45", "--lens", "cooke_triplet", "--model", "27"), "choose seidel"),
         ((*SCALE, "--wavelength-nm", "550", "--focus-um", "0", "--focus-um", "5"), "1 frames and 2 focus positions"),
         ((*SCALE, "--wavelength-nm", "550", "-o", "x.csv"), "choose .npz"),
+        ((*SCALE, "--wavelength-nm", "550", "--light", "550"), '--light "550" is no wavelength'),
+        ((*SCALE, "--wavelength-nm", "550", "--light", "550:-1"), "550 nm that brings -1"),
     ):
         assert main(["measure", str(picture), *wrong]) == 2
         error = capsys.readouterr().err

@@ -1,5 +1,8 @@
 """Measuring what was simulated: ``python -m tests.long.measure points 200``, and others of ``main``.
 
+The long ones run in parts: ``points 50 2`` takes 50 trials from the seed 2, and so do ``free``, ``frames``,
+``coverage`` and ``misaligned``; give each part a seed of its own and pool what they print.
+
 Pictures of points come from a sum over other pupil nodes, with other points across a pixel, than a fit takes; frames go
 the whole way from the picture: points are found, cut out and fitted. Every table states its counts. CPU seconds.
 """
@@ -37,10 +40,12 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf.studies import validate
+from p2sf.tolerance.errors_of_build import Tolerance, build
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.measuring.measurement import answer, dated, into_image, question
 from p2sf_explorer.results import image
 from p2sf_explorer.state.state import State, changed, new_state
+from tests.support.huygens_frames import cross_of_points, huygens_frame
 
 OPTICS = Optics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 PIXELS = 40
@@ -109,10 +114,10 @@ def random_six(rng: np.random.Generator) -> np.ndarray:
             return six
 
 
-def six_coefficients(trials: int) -> None:
+def six_coefficients(trials: int, seed: int) -> None:
     """Print errors of the six model, with one focus and with two, beside the Cramér–Rao bound."""
     for foci in ((0.0,), (0.0, SECOND_FOCUS)):
-        rng, errors, bounds, seconds, wrong = np.random.default_rng(1), [], [], [], 0
+        rng, errors, bounds, seconds, wrong = np.random.default_rng(1 + seed), [], [], [], 0
         for trial in range(trials):
             six, place = random_six(rng), rng.uniform(-1, 1, 2) * OPTICS.pixel_um
             taken = pictures(pupil_model("seidel"), six, place, foci, rng)
@@ -139,9 +144,9 @@ def report(title: str, errors: np.ndarray, bounds: np.ndarray, seconds: list[flo
     )
 
 
-def free_pupils(trials: int) -> None:
+def free_pupils(trials: int, seed: int) -> None:
     """Print RMS wavefront errors of 26 numbers at two foci, over directions: what a picture tells."""
-    model, rng, errors, seconds, bounds = pupil_model("26"), np.random.default_rng(2), [], [], []
+    model, rng, errors, seconds, bounds = pupil_model("26"), np.random.default_rng(2 + seed), [], [], []
     orders = np.array([int(name[2]) for name in model.wave_names])
     for trial in range(trials):
         waves = rng.normal(0, 0.25, orders.size) / (orders - 1) ** 2
@@ -221,17 +226,17 @@ def listing() -> None:
     print(f"  RMS difference {(waves - listed).std():.4f} waves, of the opposite sign {(waves + listed).std():.4f}")
 
 
-def frames(trials: int, columns: int = 9, rows: int = 7, size_mm: tuple[float, float] = (12.0, 9.0)) -> None:
+def frames(trials: int, seed: int, columns: int = 9, rows: int = 7, size_mm: tuple[float, float] = (12.0, 9.0)) -> None:
     """Print what points through the Cooke triplet at f/4 tell of the sensor and the field, 1 % noise."""
     lens, pitch = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45
     optics = lens_optics(lens, np.inf, lens.reference_wavelength_um, pitch)
     width, height = size_mm
     places = grid_of_points(columns, rows, width, height)
     geometry = FrameGeometry(round(1000 * height / pitch) + 290, round(1000 * width / pitch) + 320, pitch)
-    rng, misses, sizes, stated, seconds = np.random.default_rng(3), [], [], [], []
+    rng, misses, sizes, stated, seconds = np.random.default_rng(3 + seed), [], [], [], []
     for trial in range(trials):
         shift, tilt = rng.uniform(-30, 30), rng.uniform(-0.1, 0.1, 2)
-        exposure = Exposure(sensor_shift_um=shift, tilt_deg=tuple(tilt.tolist()), seed=trial)
+        exposure = Exposure(sensor_shift_um=shift, tilt_deg=tuple(tilt.tolist()), seed=trial + 1000 * seed)
         frame = simulated_frame(lens, places, geometry, exposure)
         began = process_time()
         found = measured([frame], optics, lens=lens, singly=False).whole
@@ -261,7 +266,7 @@ def masked() -> None:
     cases = {"clear": clear, "blades": iris, "vanes": with_mask(clear, spider), "rims": clear}
     for name, lens in cases.items():
         optics = lens_optics(lens, np.inf, 0.55, 3.45)
-        pupil = FrameModel(optics, 6.0, lens=lens, clip=name == "rims").pupil(3.0, 5.0, 70.0)
+        pupil = FrameModel(optics, 6.0, lens=lens, clip=name == "rims").pupils(3.0, 5.0, 70.0)[0]
         columns = np.concatenate([pupil.terms, -pupil.nodes.fx[None], -pupil.nodes.fy[None]]).astype(np.float32)
         took = []
         for scattered in (point_model.SCATTERED, inf):
@@ -274,6 +279,28 @@ def masked() -> None:
         print(
             f"{name}: {pupil.nodes.xi.size} nodes, {1000 * took[0]:.0f} ms, node by node {1000 * took[1]:.0f} ms of CPU"
         )
+
+
+def misaligned(trials: int, seed: int) -> None:
+    """Print what nine points through the Cooke triplet at f/4 tell of its second element, decentred, and the sensor.
+
+    The pictures are sums over other rays and nodes than the fit's.
+    """
+    lens, pitch = with_f_number(find_lens("cooke_triplet"), 4.0), 3.45
+    errors = [Tolerance("decentre_x", 3, 0.1, 4), Tolerance("decentre_y", 3, 0.1, 4)]
+    truth = np.array([15.0, 0.0, 0.0, 0.04, -0.06])
+    built = with_sensor(build(lens, errors, truth[3:].tolist()), lens.sensor_mm + truth[0] / 1000)
+    optics = lens_optics(lens, np.inf, lens.reference_wavelength_um, pitch)
+    unknowns = (*FOCUS, "decentre_x:3-4", "decentre_y:3-4")
+    geometry = FrameGeometry(2100, 2100, pitch)
+    for trial in range(seed, seed + trials):
+        frame = huygens_frame(built, cross_of_points(1.5, 3.0) / 50, geometry, seed=trial)
+        began = process_time()
+        found = measured([frame], optics, lens=lens, unknowns=unknowns, singly=False).whole
+        took = process_time() - began
+        print(f"misaligned triplet, seed {trial}: reduced χ² {found.chi2:.3f}, CPU {took:.1f} s")
+        for name, value, wanted, error in zip(unknowns, found.values, truth, found.errors, strict=True):
+            print(f"  {name:16} {value:.5f} ± {error:.5f}, put in {wanted}, {(value - wanted) / error:+.1f}σ")
 
 
 def deblur() -> None:
@@ -314,14 +341,15 @@ def levels(state: State, truth: np.ndarray) -> tuple[float, float]:
 
 def main(arguments: list[str]) -> None:
     """Run one trial, or all with few counts."""
-    count = int(arguments[1]) if len(arguments) > 1 else 20
+    count, seed = (int(arguments[k]) if len(arguments) > k else usual for k, usual in ((1, 20), (2, 0)))
     trials = {
-        "points": lambda: six_coefficients(count),
-        "free": lambda: free_pupils(count),
+        "points": lambda: six_coefficients(count, seed),
+        "free": lambda: free_pupils(count, seed),
         "rdmpy": rdmpy,
         "listing": listing,
-        "frames": lambda: frames(count),
-        "coverage": lambda: frames(count, 3, 3, (6.0, 4.5)),
+        "frames": lambda: frames(count, seed),
+        "coverage": lambda: frames(count, seed, 3, 3, (6.0, 4.5)),
+        "misaligned": lambda: misaligned(count if len(arguments) > 1 else 1, seed),
         "masked": masked,
         "deblur": deblur,
     }

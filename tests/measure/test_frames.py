@@ -138,6 +138,29 @@ def test_what_cannot_be_used_is_flagged():
     assert not any(abs(p.row - 60) < 3 and abs(p.column - 140) < 3 for p in points)
 
 
+def test_light_of_a_neighbour_in_the_window_does_not_count(triplet):
+    """Points 17 pixels apart that do not touch, in windows as wide as others of the frame may need."""
+    places = np.array([(-0.5 * 17 * PITCH / 1000, 0.0), (0.5 * 17 * PITCH / 1000, 0.0)])
+    frame = simulated_frame(triplet, places, FrameGeometry(100, 120, PITCH), Exposure(sensor_shift_um=25.0))
+    points = find_points(frame)
+    assert len(points) == 2 and all(point.good for point in points)
+    alone, beside = (window_of(frame, points[0], 18, others=others) for others in ((), points))
+    assert beside.values[~beside.good].max() > 0.9 * points[1].peak
+    assert beside.values[beside.good & ~np.pad(np.ones((13, 13), bool), 12)].max() < 50 + 6 * 10
+    assert beside.good[12:25, 12:25].all() and alone.good.all()
+
+
+def test_points_that_overlap_are_flagged_and_not_used(triplet):
+    """Two defocused points 11 pixels apart are one group of pixels, wider than the others."""
+    places = np.append(grid_of_points(3, 2, 1.5, 0.9), [(0.375 - 11 * PITCH / 1000, 0.0), (0.375, 0.0)], axis=0)
+    frame = simulated_frame(triplet, places, FrameGeometry(380, 560, PITCH), Exposure(sensor_shift_um=60.0))
+    optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
+    found = measured([frame], optics, lens=triplet, unknowns=("sensor_shift_um",), singly=False)
+    overlapping = [point for point in found.points if abs(point.y_mm) < 0.1]
+    assert overlapping and all(point.flags for point in overlapping)
+    assert len(found.whole.points) == 6 and min(abs(point.y_mm) for point in found.whole.points) > 0.4
+
+
 def test_a_frame_gives_back_how_the_sensor_stands(triplet, frame):
     """Five standard deviations, of some 0.2 µm and 0.01°."""
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
@@ -160,7 +183,7 @@ def model_points(model, truth, noise, places, focus=(0.0,), pixels=25, seed=0):
     for x, y in places:
         for shift in focus:
             empty = FramePoint(PointPicture(np.zeros((pixels, pixels))), x, y, shift)
-            light, _ = PointSum(empty, model).light(truth, 0.3, 0.2)
+            light = PointSum(empty, model).light(truth, 0.3, 0.2)
             counts = light * (1000 / light.max()) + 50 + rng.normal(0, noise, light.shape)
             points.append(FramePoint(PointPicture(counts, noise**2), x, y, shift))
     return points
@@ -195,8 +218,8 @@ def test_unknowns_that_no_picture_tells_apart_have_huge_errors_and_a_warning():
 def test_a_spacing_is_told_from_a_shift_by_its_field(triplet):
     """A point model of the lens with its third space longer by 40 µm, fitted by one without."""
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    model = FrameModel(optics, 8.0, ("sensor_shift_um", "spacing_um:2"), triplet)
-    truth = np.array([5.0, 40.0])
+    model = FrameModel(optics, 8.0, ("sensor_shift_um", "thickness:2"), triplet)
+    truth = np.array([5.0, 0.040])
     points = model_points(model, truth, 5.0, [(0.0, 0.0), (0.0, 7.5), (-5.0, 3.0)], pixels=21)
     found = fit_frame(points, model)
     assert np.abs((found.values - truth) / found.bounds).max() < 5
@@ -205,10 +228,10 @@ def test_a_spacing_is_told_from_a_shift_by_its_field(triplet):
 def test_the_lens_as_built_has_what_differs(triplet, tmp_path):
     """A sensor that recedes towards +x and +y: where its points lie, from its axes; and a database without the tilt."""
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    model = FrameModel(optics, 8.0, ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg", "w40", "spacing_um:2"), triplet)
-    values = np.array([25.0, 0.2, -0.1, 0.3, 40.0])
+    model = FrameModel(optics, 8.0, ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg", "w40", "thickness:2"), triplet)
+    values = np.array([25.0, 0.2, -0.1, 0.3, 0.040])
     none = np.empty((0, 4))
-    whole = FrameFit(model, (), values, np.diag(0.01 * values**2), none, (), none[0:0], none[0:0], 1.0)
+    whole = FrameFit(model, (), values, np.diag(0.01 * values**2), none, none, (), none[0:0], none[0:0], 1.0)
     built = lens_as_built(whole)
     assert built.surfaces[1].thickness == pytest.approx(triplet.surfaces[1].thickness + 0.040, abs=1e-12)
     *_, sensor = built.frames

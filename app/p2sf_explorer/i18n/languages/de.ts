@@ -9,6 +9,7 @@
 <message><source>"{line}" is not an entry of the header; give {names}</source><translation>"{line}" ist kein Eintrag des Kopfes; {names} angeben</translation></message>
 <message><source>"{name}" is not a slider; move one of {names}</source><translation>"{name}" ist kein Regler; einen von {names} bewegen</translation></message>
 <message><source>"{name}" is nothing that a frame tells here; choose from {choices}</source><translation>"{name}" ist nichts, was eine Aufnahme hier sagt; wählen aus {choices}</translation></message>
+<message><source>"{name}": the lens has surfaces 1 to {count}; decentres and tilts take one, or the ends of a piece as in tilt_x:3-4; radius and index take one, and thickness any but the last</source><translation>"{name}": Das Objektiv hat die Flächen 1 bis {count}; Dezentrierungen und Kippungen nehmen eine oder die Enden eines Stücks wie in tilt_x:3-4, radius und index eine, thickness jede außer der letzten</translation></message>
 <message><source>"{name}:" is not an entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
 <message><source>"{text}" in a claim is not a number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is no error of a build; write such as decentre_y 3-4 0.2</source><translation>"{text}" ist kein Fehler eines Exemplars; etwa decentre_y 3-4 0.2 schreiben</translation></message>
@@ -952,6 +953,7 @@
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
 <message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist kein Licht; Mikrometer angeben</translation></message>
 <message><source>a wavelength is not that of light; give nanometres</source><translation>eine Wellenlänge ist kein Licht; Nanometer angeben</translation></message>
+<message><source>a wavelength of {nm:g} nm that brings {share:g} of the light; give two positive numbers</source><translation>eine Wellenlänge von {nm:g} nm, die {share:g} des Lichts bringt; zwei positive Zahlen angeben</translation></message>
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
 <message><source>a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; 8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
@@ -2114,6 +2116,7 @@
 <message><source>{names}: no part of the lens as built; measure spacings in their place</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{names}: the picture determines only a combination of these, hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
+<message><source>{names}: the picture tells a combination of these only, and hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
 <message><source>{name} are {count} numbers; write x and y</source><translation>{name} sind {count} Zahlen; x und y schreiben</translation></message>
 <message><source>{name} are {count} numbers; write x, y and z</source><translation>{name} sind {count} Zahlen; x, y und z schreiben</translation></message>
@@ -2155,6 +2158,7 @@
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
+<message><source>{parameter} "{text}" is no wavelength in nm and its share; write such as 550:2</source><translation>{parameter} "{text}" ist keine Wellenlänge in nm mit ihrem Anteil; etwa 550:2 schreiben</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} has {count} terms; give up to {most} numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} Zahlen angeben</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
@@ -2220,6 +2224,7 @@
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
 <message><source>{path} lists a wavefront, not a PSF; list the PSF of the same point</source><translation>{path} listet eine Wellenfront, keine PSF; die PSF desselben Punktes ausgeben</translation></message>
+<message><source>{path}, line {line}: "{text}" is no point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
 <message><source>{path}, line {line}: "{text}" is not a point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
 <message><source>{path}, line {line}: name the columns first, number x_mm y_mm or number x_deg y_deg</source><translation>{path}, Zeile {line}: zuerst die Spalten nennen, number x_mm y_mm oder number x_deg y_deg</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
