@@ -12,13 +12,24 @@ import numpy as np
 from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.measure.point_model import Optics
 from p2sf.measure.pupil_model import PupilModel, turned
-from p2sf.measure.pupil_nodes import FEWEST, PupilNodes, PupilRows, counts_for, counts_of, open_nodes, placed_nodes
+from p2sf.measure.pupil_nodes import (
+    FEWEST,
+    NO_SLOPES,
+    PupilNodes,
+    PupilRows,
+    counts_for,
+    counts_of,
+    mapped_nodes,
+    open_nodes,
+    placed_nodes,
+)
 from p2sf.psf.disc_rows import scaled
 from p2sf.pupil.mask_nodes import ClearNodes, throughput
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.zernike import basis, gradient
-from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.fit import FittedPencil, Level, fit
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.vignetting import pupil_nodes
 
@@ -118,6 +129,32 @@ def lens_nodes(
     nodes = open_nodes(found.mask, found.wavelength_um, counts, disc, place)
     xi, eta = turned(nodes.xi, nodes.eta, azimuth)
     return replace(nodes, xi=xi, eta=eta)
+
+
+def model_nodes(
+    model: PupilModel,
+    numbers: np.ndarray,
+    optics: Optics,
+    azimuth: float,
+    counts: tuple[int, int],
+    clear: ClearNodes | None = None,
+) -> PupilNodes | None:
+    """Return nodes for the pupil map of a model's numbers, ξ and η those of its field; None where the map folds over.
+
+    ``clear``: the nodes to take, of a pupil that ends at rims.
+    """
+    if not azimuth:
+        return mapped_nodes(model, numbers, counts, optics.cycles, optics.mask, optics.wavelength_um, clear)
+    _, across, along = model.split(numbers)
+    level = Level(model.wave_order, model.map_order, 1, 2)
+    phase = np.zeros(len(model.wave_names) + 2)
+    # The frequencies of a fit run the other way.
+    fx, fy = -optics.cycles * across, -optics.cycles * np.append(0.0, along)
+    whole = FittedPencil(level, phase, fx, fy, 0.0, NO_SLOPES, 0.0, 0)
+    try:
+        return lens_nodes(replace(whole, mask=optics.mask, wavelength_um=optics.wavelength_um), azimuth, counts, clear)
+    except SamplingError:
+        return None
 
 
 def _disc(seen: TurnedMap, radius: float, counts: tuple[int, int]) -> PupilRows:

@@ -22,14 +22,13 @@ from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint, six_o
 from p2sf.measure.lens_pupil import designed_pupil
 from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point
 from p2sf.measure.point_model import Optics
-from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, window_half, window_of
 from p2sf.measure.pupil_model import SIX, pupil_model
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 
 FEWEST = 5  # points of a frame whose field is fitted too
-STRAIGHT = 0.017  # radians by which a field may miss an axis of the sensor
+STRAIGHT = 0.017  # radians off +y within which the fast rows of a map are taken
 LEAST_HEIGHT_MM = 1e-3  # of the farthest point
 WHOLE = 0.5  # of the time, as progress is told
 NEAR_MM = 0.05  # points of two measurements that lie as near are the same
@@ -210,22 +209,17 @@ def _whole(
 
 
 def _single(one: _Taken, whole: FrameFit | None, design: FrameModel, model: str) -> PointFit:
-    """Return the fit of a point; for a model with a map its window is turned so that the field lies along +y."""
+    """Return the fit of a point."""
     if whole is not None and design.lens is not None and model == SIX:
         return _departure(whole, one)
-    pictures, optics, azimuth = one.pictures, design.optics, one.azimuth
-    if model == SIX:
-        return fit_point(pictures, optics, model, float(np.rad2deg(azimuth)), near=_expected(whole, one))
-    quarter = round(azimuth / (np.pi / 2))
-    if abs(azimuth - quarter * np.pi / 2) > STRAIGHT:
-        raise RequestError("a model with a pupil map is fitted to points straight above, below or beside the axis only")
-    turned = replace(optics, mask=optics.mask.turned(-90.0 * quarter))
-    own = None
-    if design.lens is not None:
+    pictures, optics, own = one.pictures, design.optics, None
+    if model != SIX and design.lens is not None:
         half_um = max(pictures[0].values.shape) / 2 * optics.pixel_um
-        source = design.source(one.height_mm, azimuth)
+        source = design.source(one.height_mm, one.azimuth)
         own = designed_pupil(design.lens, source, pupil_model(model), optics.cycles, half_um, design.clip)
-    return fit_point([_turned(picture, quarter) for picture in pictures], turned, model, design=own)
+    near = _expected(whole, one) if model == SIX else None
+    azimuth = 0.0 if model != SIX and abs(one.azimuth) < STRAIGHT else float(np.rad2deg(one.azimuth))
+    return fit_point(pictures, optics, model, azimuth, near=near, design=own)
 
 
 def _replaced(whole: FrameFit) -> list[FramePoint]:
@@ -261,14 +255,6 @@ def _expected(whole: FrameFit | None, one: _Taken) -> np.ndarray | None:
     of_frame = six_of_unknowns(*one.place, whole.model) @ whole.values
     expected: np.ndarray = whole.model.six_of_lens(one.height_mm) + of_frame
     return expected
-
-
-def _turned(picture: PointPicture, quarter: int) -> PointPicture:
-    """Return a window turned so that a field along azimuth 90°·quarter, from +y towards +x, lies along +y."""
-    # Rows run towards +y, so that rot90 of the array turns the picture from +y towards −x.
-    variance = np.broadcast_to(picture.variance, picture.values.shape)
-    values, noise, good = (np.rot90(part, -quarter) for part in (picture.values, variance, picture.usable))
-    return replace(picture, values=values, variance=noise, good=good)
 
 
 def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:

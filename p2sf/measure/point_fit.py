@@ -10,7 +10,7 @@ from p2sf.errors import RequestError
 from p2sf.measure.lens_pupil import DesignedPupil
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PER_FRAME, PointPicture, Problem
-from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model
+from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model, turned
 from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import Start, starts
 from p2sf.messages import Message
@@ -100,8 +100,8 @@ class PointFit:
         waves, across, along = self.model.split(self.numbers)
         fx, fy = xi, eta
         if self.model.mapped:
-            odd, even = self.model.maps(xi, eta)
-            fx, fy = across @ odd, along @ even
+            odd, even = self.model.maps(*turned(xi, eta, self.azimuth))
+            fx, fy = turned(across @ odd, along @ even, -self.azimuth)  # back to the sensor's axes
         x, y = self.frames[0, :2] * self.optics.cycles
         found: np.ndarray = waves @ self.model.waves(xi, eta, self.azimuth) - fx * x - fy * y
         return found
@@ -128,7 +128,7 @@ def fit_point(
     """Return the wavefront that explains one or several pictures of one point, taken at known differences of focus.
 
     ``model``: "seidel" (W40, W31, W22, W20 + Wd), "26" or "46" numbers, which fit the pupil map too. ``azimuth_deg``:
-    the field's direction on the sensor from +y towards +x; models with a map take 0 only, so turn the picture.
+    the field's direction on the sensor from +y towards +x, about which wavefront and map are even.
     ``loss``: other than "linear", outliers count less (`scipy.optimize.least_squares`). ``near``: W40, W31, W22 and
     W20 + Wd expected, such as those of the lens as designed: tried too, and of solutions that explain the pictures as
     well the nearest is taken. ``design``: where the fit of a model with a map starts, and where rims end the pupil.
@@ -137,20 +137,18 @@ def fit_point(
     """
     azimuth = float(np.deg2rad(azimuth_deg))
     wanted = pupil_model(model)
-    _check(pictures, wanted, azimuth, loss)
+    _check(pictures, wanted, loss)
     if wanted.six:
         return _result(Problem(pictures, optics, wanted, azimuth), _six(pictures, optics, azimuth, loss, near), near)
-    problem = Problem(pictures, optics, wanted, 0.0, clear=design.clear if design else None)
+    problem = Problem(pictures, optics, wanted, azimuth, clear=design.clear if design else None)
     return _result(problem, _with_map(problem, loss, design), design.numbers if design else None)
 
 
-def _check(pictures: Sequence[PointPicture], model: PupilModel, azimuth: float, loss: str) -> None:
+def _check(pictures: Sequence[PointPicture], model: PupilModel, loss: str) -> None:
     if not pictures:
         raise RequestError("there is no picture to fit; give at least one")
     if loss not in LOSSES:
         raise RequestError('{parameter} is "{value}"; choose {choices}', parameter="loss", value=loss, choices=LOSSES)
-    if model.mapped and azimuth:
-        raise RequestError("a model with a pupil map needs the field along +y; turn the picture first")
     unknowns = model.even.size + PER_FRAME * len(pictures)
     pixels = sum(int(picture.usable.sum()) for picture in pictures)
     if pixels <= unknowns:
@@ -245,18 +243,18 @@ def _descended(
 
 def _with_map(problem: Problem, loss: Loss, design: DesignedPupil | None) -> list[_Minimum]:
     """Return minima of a model with a map: its wavefront is fitted first, with the paraxial map, unless designed."""
-    pictures, optics, model = problem.pictures, problem.optics, problem.model
+    pictures, optics, model, azimuth = problem.pictures, problem.optics, problem.model, problem.azimuth
     waves, count = replace(model, map_order=1), len(model.wave_names)
-    six, free = (Problem(pictures, optics, part, 0.0, True, problem.clear) for part in (pupil_model(SIX), waves))
-    every = starts(pictures, optics, 0.0, 1 if design else WIDE[-1])
+    six, free = (Problem(pictures, optics, part, azimuth, True, problem.clear) for part in (pupil_model(SIX), waves))
+    every = starts(pictures, optics, azimuth, 1 if design else WIDE[-1])
     if design is not None:
         frames = every[0].frames.copy()
-        frames[:, :2] = 0.0, -design.tilt / optics.cycles
+        frames[:, :2] = _along(azimuth, -design.tilt / optics.cycles)
         return [_descended(problem, np.concatenate([design.numbers, frames.ravel()]), loss, rtol=MAP_RTOL)]
     out: list[_Minimum] = []
     for some in (slice(0, WIDE[0]), slice(*WIDE)):
         near = [_descended(six, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
-        began = [_with_waves(m, optics.cycles, waves) for m in _distinct(sorted(near, key=_cost), 4)]
+        began = [_with_waves(m, optics.cycles, waves, azimuth) for m in _distinct(sorted(near, key=_cost), 4)]
         near = [_descended(free, start, loss, WAVES_STEPS, COARSE_RTOL) for start in began]
         for minimum in _distinct(sorted(near, key=_cost), count)[:FOLLOWED]:
             start = np.concatenate([minimum.unknowns[:count], model.paraxial_map, minimum.unknowns[count:]])
@@ -266,15 +264,20 @@ def _with_map(problem: Problem, loss: Loss, design: DesignedPupil | None) -> lis
     return sorted(out, key=_cost)
 
 
+def _along(azimuth: float, distance: float) -> tuple[float, float]:
+    """Return x and y of a distance along a field's direction."""
+    return distance * float(np.sin(azimuth)), distance * float(np.cos(azimuth))
+
+
 def _cost(minimum: _Minimum) -> float:
     return minimum.cost
 
 
-def _with_waves(minimum: _Minimum, cycles: float, model: PupilModel) -> np.ndarray:
+def _with_waves(minimum: _Minimum, cycles: float, model: PupilModel, azimuth: float) -> np.ndarray:
     """Return unknowns of Zernike's terms that describe the same light as those of the six model."""
     waves, tilt = model.of_six(minimum.unknowns[:4])
     frames = minimum.unknowns[4:].reshape(-1, PER_FRAME).copy()
-    frames[:, 1] -= tilt / cycles  # its terms have no tilt, that of the six's coma is a shift
+    frames[:, :2] -= _along(azimuth, tilt / cycles)  # its terms have no tilt, that of the six's coma is a shift
     return np.concatenate([waves, frames.ravel()])
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
+from p2sf.measure.pupil_model import turned
 from p2sf.measure.pupil_nodes import PupilNodes
 from p2sf.measure.scattered_sum import ScatteredNodes, grid_rows
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -182,12 +183,17 @@ class PixelSum:
         return self.scale * light
 
     def light_and_slopes(
-        self, phase: np.ndarray, terms: np.ndarray, maps: tuple[int, int] = (0, 0), place: tuple[float, float] = (0, 0)
+        self,
+        phase: np.ndarray,
+        terms: np.ndarray,
+        maps: tuple[int, int] = (0, 0),
+        place: tuple[float, float] = (0, 0),
+        azimuth: float = 0.0,
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return the light (y, x) and its derivatives (terms, y, x) by the factors of terms of the phase.
 
-        ``maps``: how many of the last terms are of the map across, times x − x₀, and along, times y − y₀; ``place``
-        is (x₀, y₀), µm.
+        ``maps``: how many of the last terms are of the map across the field, times how far from (x₀, y₀) light lands
+        across it, and along it, times how far along; ``place`` is (x₀, y₀), µm, ``azimuth`` the field's, radians.
         """
         field = self.fields(phase, terms)
         one, rest = field[:, :1], field[:, 1:]
@@ -197,8 +203,11 @@ class PixelSum:
         slopes[:, 1:] -= one.real * rest.imag
         slopes[:, 1:] *= 4 * pi
         (across, along), end = maps, field.shape[1]
-        slopes[:, end - across - along : end - along] *= (self.x - place[0]).astype(np.float32)
-        slopes[:, end - along :] *= (self.y - place[1]).astype(np.float32)[:, None, None]
+        if across or along:
+            x, y = (self.x - place[0])[None, None], (self.y - place[1])[:, None, None]
+            aside, out = turned(x.astype(np.float32), y.astype(np.float32), azimuth)
+            slopes[:, end - across - along : end - along] *= aside
+            slopes[:, end - along :] *= out
         found = self.scale * self.binned(slopes).astype(float)
         return found[0], found[1:]
 
@@ -216,12 +225,17 @@ class SpectralSum:
         ]
 
     def light_and_slopes(
-        self, phase: np.ndarray, terms: np.ndarray, maps: tuple[int, int] = (0, 0), place: tuple[float, float] = (0, 0)
+        self,
+        phase: np.ndarray,
+        terms: np.ndarray,
+        maps: tuple[int, int] = (0, 0),
+        place: tuple[float, float] = (0, 0),
+        azimuth: float = 0.0,
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return what `PixelSum.light_and_slopes` does; ``phase`` in waves of the wavelength that the nodes are of."""
         light: np.ndarray | float = 0.0
         slopes: np.ndarray | float = 0.0
         for ratio, share, one in zip(self.ratios, self.shares, self.sums, strict=True):
-            found, moved = one.light_and_slopes(ratio * phase, terms, maps, place)
+            found, moved = one.light_and_slopes(ratio * phase, terms, maps, place, azimuth)
             light, slopes = light + share * found, slopes + share * ratio * moved
         return np.asarray(light), np.asarray(slopes)

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.measure.lens_pupil import model_nodes
 from p2sf.measure.point_model import Optics, SpectralSum
 from p2sf.measure.pupil_model import PupilModel
-from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
 from p2sf.pupil.mask import mask_slopes
 from p2sf.pupil.mask_nodes import ClearNodes
 
@@ -144,7 +145,8 @@ class Problem:
         """Compute what does not change while the nodes stay."""
         self.nodes = nodes
         self.sums = [SpectralSum(nodes, p.values.shape, self.optics, self.parts) for p in self.pictures]
-        self.terms = self.model.waves(nodes.xi, nodes.eta, self.azimuth)
+        # Nodes of a map are given in the field's own axes.
+        self.terms = self.model.waves(nodes.xi, nodes.eta, 0.0 if self.model.mapped else self.azimuth)
         self.square = nodes.xi**2 + nodes.eta**2
         maps = self.model.maps(nodes.xi, nodes.eta) if self.model.mapped else ()
         scaled = [self.optics.cycles * part for part in maps]
@@ -156,16 +158,15 @@ class Problem:
         x, y = self.frame(unknowns, number)[:2]
         phase = waves @ self.terms + self.pictures[number].defocus_waves * self.square + self.nodes.waves
         phase -= self.nodes.fx * x + self.nodes.fy * y
-        return self.sums[number].light_and_slopes(phase, self.columns, (len(across), len(along)), (x, y))
+        return self.sums[number].light_and_slopes(phase, self.columns, (len(across), len(along)), (x, y), self.azimuth)
 
     def evaluate(self, unknowns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return residuals, (pixels,), and their derivatives, (pixels, unknowns)."""
         if np.array_equal(unknowns, self._at):
             return self._found
         if self.model.mapped:
-            optics, numbers = self.optics, unknowns[: self.numbers]
-            known = optics.mask, optics.wavelength_um, self.clear
-            nodes = mapped_nodes(self.model, numbers, self.counts, optics.cycles, *known)
+            numbers = unknowns[: self.numbers]
+            nodes = model_nodes(self.model, numbers, self.optics, self.azimuth, self.counts, self.clear)
             if nodes is None:  # a step that no pupil follows: refused, as it makes all worse
                 return np.full_like(self._found[0], FOLDED), self._found[1]
             self._take(nodes)

@@ -920,8 +920,6 @@
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
-<message><source>a model with a pupil map is fitted to points straight above, below or beside the axis only</source><translation>ein Modell mit Pupillenabbildung wird nur an Punkte genau über, unter oder neben der Achse angepasst</translation></message>
-<message><source>a model with a pupil map needs the field along +y; turn the picture first</source><translation>ein Modell mit Pupillenabbildung braucht das Feld entlang +y; das Bild vorher drehen</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
 <message><source>a number is too long or lists are nested too deep; this is not a lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
