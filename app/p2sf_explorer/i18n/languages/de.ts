@@ -2114,7 +2114,6 @@
 <message><source>{names}: no part of the lens as built; measure spacings in their place</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{names}: the picture determines only a combination of these, hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
-<message><source>{names}: the picture tells a combination of these only, and hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
 <message><source>{name} are {count} numbers; write x and y</source><translation>{name} sind {count} Zahlen; x und y schreiben</translation></message>
 <message><source>{name} are {count} numbers; write x, y and z</source><translation>{name} sind {count} Zahlen; x, y und z schreiben</translation></message>
@@ -2222,7 +2221,6 @@
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
 <message><source>{path} lists a wavefront, not a PSF; list the PSF of the same point</source><translation>{path} listet eine Wellenfront, keine PSF; die PSF desselben Punktes ausgeben</translation></message>
-<message><source>{path}, line {line}: "{text}" is no point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
 <message><source>{path}, line {line}: "{text}" is not a point of a target; give a whole number, x and y</source><translation>{path}, Zeile {line}: "{text}" ist kein Punkt einer Zielkarte; eine ganze Zahl, x und y angeben</translation></message>
 <message><source>{path}, line {line}: name the columns first, number x_mm y_mm or number x_deg y_deg</source><translation>{path}, Zeile {line}: zuerst die Spalten nennen, number x_mm y_mm oder number x_deg y_deg</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
