@@ -144,9 +144,11 @@ def test_extrapolation_is_refused(database, source, words):
 
 
 def test_a_misaligned_lens_needs_fields_along_both_axes(bad, database, tmp_path):
-    with pytest.raises(GeometryError, match="give fields along x as well, or set it straight"):
+    with pytest.raises(GeometryError, match="give fields along x as well, or align it"):
         build_fitted(bad, SPACE.line)
-    with pytest.raises(GeometryError, match="the six coefficients knows rotational symmetry only; build a fitted one"):
+    with pytest.raises(
+        GeometryError, match="the six coefficients supports only rotational symmetry; build a fitted one"
+    ):
         build_database(bad, SPACE.line)
     stored = Stored(database, provenance(database, bad))
     with pytest.raises(DatabaseError, match="one axis of fields"):
