@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import pi
 
 import numpy as np
@@ -11,7 +12,7 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.measure.lens_pupil import clear_part, lens_nodes
-from p2sf.measure.perturbation import Perturbed, perturbation, perturbed, unit_of
+from p2sf.measure.perturbation import perturbation, perturbed, unit_of
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import turned
@@ -91,7 +92,7 @@ class FrameModel:
                     choices=(*FOCUS, *FIELD, *(f"{kind}:1" for kind in UNITS if surfaces)),
                 )
 
-    @property
+    @cached_property
     def errors(self) -> dict[str, Tolerance]:
         """Return the errors of the lens among the unknowns, by name."""
         surfaces = len(self.lens.surfaces) if self.lens is not None else 0
@@ -139,20 +140,18 @@ class FrameModel:
             phase = phase - shift * (np.sin(azimuth) * nodes.fx + np.cos(azimuth) * nodes.fy)
         if not self.errors:
             return self._with_terms(colour, nodes, (phase, focus), place, (nodes.xi, nodes.eta))
-        seen, values = self._perturbed(source)
-        change, slopes = seen.at(nodes)
-        phases = phase + change - values @ slopes, focus
-        made = self._with_terms(colour, nodes, phases, place, (nodes.xi, nodes.eta), slopes)
-        each = dict(zip(self.errors, seen.landing_slopes, strict=True))
-        landing = np.array([each.get(name, np.zeros(2)) for name in self.unknowns])
-        return replace(made, landing_um=(seen.landing_um - values @ seen.landing_slopes, landing))
-
-    def _perturbed(self, source: Source) -> tuple[Perturbed, np.ndarray]:
-        """Return what the lens's errors do to a point near the values that they are about, and those values."""
-        assert self.lens is not None
         about = dict(zip(self.unknowns, self.about, strict=False))
         values = np.array([about.get(name, 0.0) for name in self.errors])
-        return perturbed(self.lens, source, tuple(self.errors.values()), values), values
+        seen, landed = (
+            perturbed(self.lens, point, tuple(self.errors.values()), tuple(values.tolist()))
+            for point in (source, self.source(height, azimuth))
+        )
+        change, slopes = seen.at(nodes, landed)
+        phases = phase + change - values @ slopes, focus
+        made = self._with_terms(colour, nodes, phases, place, (nodes.xi, nodes.eta), slopes)
+        each = dict(zip(self.errors, landed.landing_slopes, strict=True))
+        landing = np.array([each.get(name, np.zeros(2)) for name in self.unknowns])
+        return replace(made, landing_um=(landed.landing_um - values @ landed.landing_slopes, landing))
 
     def _with_terms(
         self,

@@ -67,24 +67,30 @@ class Perturbed:
     landing_um: np.ndarray
     landing_slopes: np.ndarray
 
-    def at(self, nodes: PupilNodes) -> tuple[np.ndarray, np.ndarray]:
-        """Return the change at nodes, (nodes,), and per unit, (errors, nodes), each about where its chief ray lands."""
-        terms = _terms(nodes.xi, nodes.eta)
-        return self.change @ terms, self.slopes @ terms
+    def at(self, nodes: PupilNodes, landed: "Perturbed") -> tuple[np.ndarray, np.ndarray]:
+        """Return the change at nodes, (nodes,), and per unit, (errors, nodes), about where the ``landed`` chief ray is.
+
+        That of another colour lands elsewhere, since errors add lateral colour.
+        """
+        terms, frequencies = _terms(nodes.xi, nodes.eta), np.stack([nodes.fx, nodes.fy])
+        aside, per_unit = self.landing_um - landed.landing_um, self.landing_slopes - landed.landing_slopes
+        return self.change @ terms - aside @ frequencies, self.slopes @ terms - per_unit @ frequencies
 
 
-def perturbed(lens: Lens, source: Source, errors: Sequence[Tolerance], values: np.ndarray) -> Perturbed:
-    """Return what errors of these ``values``, (errors,), do to a point's wavefront, by exact rays, and its derivatives.
+@lru_cache(maxsize=16)
+def perturbed(lens: Lens, source: Source, errors: tuple[Tolerance, ...], values: tuple[float, ...]) -> Perturbed:
+    """Return what errors of these ``values`` do to a point's wavefront, by exact rays, and its derivatives.
 
     Those are central differences about the lens with these errors. Raises GeometryError where a ray does not reach the
     sensor.
     """
-    still, here = (_seen(lens, source, errors, some) for some in (np.zeros(len(errors)), values))
+    at = np.array(values)
+    still, here = (_seen(lens, source, errors, some) for some in (np.zeros(at.size), at))
     slopes = []
     for k, error in enumerate(errors):
-        step = np.zeros(len(errors))
+        step = np.zeros(at.size)
         step[k] = error.amount
-        more, less = (_seen(lens, source, errors, values + sign * step) for sign in (1, -1))
+        more, less = (_seen(lens, source, errors, at + sign * step) for sign in (1, -1))
         slopes.append([(a - b) / (2 * error.amount) for a, b in zip(more, less, strict=True)])
     waves, landing = (np.array(column) for column in zip(*slopes, strict=True))
     return Perturbed(here[0] - still[0], waves, here[1] - still[1], landing)
