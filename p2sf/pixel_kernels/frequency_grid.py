@@ -105,9 +105,10 @@ def _rims(lens: Lens, sources: Sources, clip: bool) -> np.ndarray:
     Of a hole or a shadow, (height/radius)² − 1. (Sources, surfaces, nodes); no surfaces unless ``clip``. Raises
     GeometryError where these clip all rays of a source.
     """
-    nodes, limits = disc_nodes(*NODES), lens_rims(lens, keep_stop=False)
+    nodes = disc_nodes(*NODES)
     if not clip:
         return np.empty((len(np.asarray(sources.depth_mm)), 0, nodes.xi.size))
+    limits = lens_rims(lens, keep_stop=False)
     rays, heights = pupil_rays(lens, sources, nodes.xi, nodes.eta), []
     beam = start(rays)
     run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))

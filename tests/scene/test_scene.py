@@ -251,6 +251,16 @@ def test_a_scene_says_whether_rims_clip(tmp_path):
         read_scene(tmp_path / "scene.toml")
 
 
+def test_a_lens_without_rims_is_planned_as_with_rims_beyond_its_beams():
+    lens = find_lens("double_gauss_28")
+    scene = Scene(Sensor(40, 60, 60.0), GREEN, f_number=5.6)
+    bare, wide = (
+        replace(lens, surfaces=tuple(replace(surface, semi_diameter=rim) for surface in lens.surfaces))
+        for rim in (np.inf, 500.0)
+    )
+    assert plan(bare, scene).predicted_error == plan(wide, scene).predicted_error
+
+
 def test_a_colour_that_no_glass_knows_is_named_as_it_was_given():
     """Not the mean of the channel, 2700 nm, which planning asks first; for a coarse picture too."""
     scene = Scene(Sensor(20, 30, 20.0), (Channel("wide", (400.0, 5000.0), (1.0, 1.0)),))
