@@ -28,16 +28,18 @@ def distorted(values: np.ndarray, seen: SensorMap | FieldMap, sensor: Sensor, or
     """
     from scipy.ndimage import map_coordinates
 
+    x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))[:, None]
     if isinstance(seen, FieldMap):
-        return _moved(values, seen, sensor, order)
-    if distortion_px(seen, sensor) <= VISIBLE_PX:
+        across, up = (seen.scale_mm * slope for slope in seen.slopes(*np.broadcast_arrays(x, y)))
+    elif distortion_px(seen, sensor) <= VISIBLE_PX:
         return values
-    x, y = sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows))
-    height = np.hypot(x, y[:, None])
-    ratio = seen.ideal_height(height) / np.maximum(height, 1e-12)
-    ratio[height < 1e-9] = 1.0
-    column = (ratio * x - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
-    row = (sensor.rows - 1) / 2 - (ratio * y[:, None] - sensor.centre_mm[1]) / sensor.pixel_mm
+    else:
+        height = np.hypot(x, y)
+        ratio = seen.ideal_height(height) / np.maximum(height, 1e-12)
+        ratio[height < 1e-9] = 1.0
+        across, up = ratio * x, ratio * y
+    column = (across - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
+    row = (sensor.rows - 1) / 2 - (up - sensor.centre_mm[1]) / sensor.pixel_mm
     places = np.stack([row, column]).astype(np.float32)
 
     def moved(plane: np.ndarray) -> np.ndarray:
@@ -83,23 +85,6 @@ def _illumination_on_grid(seen: SensorMap, sensor: Sensor, count: int) -> np.nda
     spline = RectBivariateSpline(rows, columns, light, kx=degree, ky=degree)
     light_at: np.ndarray = spline(np.arange(sensor.rows), np.arange(sensor.columns))
     return light_at.astype(np.float32)
-
-
-def _moved(values: np.ndarray, seen: FieldMap, sensor: Sensor, order: int) -> np.ndarray:
-    """Return what `distorted` does, through a misaligned lens."""
-    from scipy.ndimage import map_coordinates
-
-    x, y = np.meshgrid(sensor.x_mm(np.arange(sensor.columns)), sensor.y_mm(np.arange(sensor.rows)))
-    across, up = (seen.scale_mm * slope for slope in seen.slopes(x, y))
-    column = (across - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
-    row = (sensor.rows - 1) / 2 - (up - sensor.centre_mm[1]) / sensor.pixel_mm
-    places = np.stack([row, column])
-
-    def moved(plane: np.ndarray) -> np.ndarray:
-        found: np.ndarray = map_coordinates(plane, places, order=order, mode="nearest")
-        return found
-
-    return np.stack(mapped(moved, np.moveaxis(values, -1, 0)), axis=-1).astype(np.float32)
 
 
 def _shading(seen: FieldMap, sensor: Sensor) -> np.ndarray:

@@ -28,7 +28,6 @@ from p2sf.scene.scene import Channel, Scene
 from p2sf.threads import one_blas_thread
 
 FEWEST, MOST = 3, 17  # nodes of a lattice along each axis
-TRIED = 5  # places in the middle of cells where a lattice is tried
 RINGS = 8  # of rays that find how far a kernel reaches
 
 
@@ -106,7 +105,7 @@ def _worst_between(lattice: Lattice, kernel_at: Callable[[float, float], np.ndar
     rows, columns = len(lattice.row_nodes) - 1, len(lattice.column_nodes) - 1
     if rows < 1 or columns < 1:
         return 0.0
-    cells = [(0, 0), (0, columns - 1), (rows - 1, 0), (rows - 1, columns - 1), (rows // 2, columns // 2)][:TRIED]
+    cells = [(0, 0), (0, columns - 1), (rows - 1, 0), (rows - 1, columns - 1), (rows // 2, columns // 2)]
     worst = 0.0
     for a, b in cells:
         exact = kernel_at(float(lattice.row_nodes[a : a + 2].mean()), float(lattice.column_nodes[b : b + 2].mean()))

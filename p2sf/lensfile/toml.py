@@ -287,7 +287,7 @@ def _values(text: str, path: str) -> dict[str, Any]:
         ) from None
     except (ValueError, RecursionError):
         raise LensFileError(
-            ("a number is too long or lists are nested too deep; this is not a lens file"), path
+            "a number is too long or lists are nested too deep; this is not a lens file", path
         ) from None
 
 

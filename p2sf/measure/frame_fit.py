@@ -289,8 +289,7 @@ def _focused(sums: Sequence[PointSum], points: Sequence[FramePoint], model: Fram
     # Beyond, light of a point without aberrations lands outside its window, 2·Wd·λ/NA from the middle.
     most = min(one.half_um for one in sums) * model.optics.cycles / 2
     shifts = FOCUS_STEP * waves * np.arange(-ceil(most / FOCUS_STEP), ceil(most / FOCUS_STEP) + 1)
-    chosen = _far_apart(points)[:TRIED_POINTS]
-    some = [(one, point) for one, point in zip(sums, points, strict=True) if any(point is other for other in chosen)]
+    some = [(sums[k], points[k]) for k in _far_apart(points)[:TRIED_POINTS]]
     trials = np.repeat(values[None], shifts.size, 0)
     trials[:, place] = shifts
     left = [sum(one.unlikeness(point, model, trial) for one, point in some) for trial in trials]
@@ -309,7 +308,7 @@ def _elsewhere(
 
     They are drawn so that each unknown changes the wavefront by `TRIED_WAVES` RMS. Some points far apart decide.
     """
-    places = {(point.x_mm, point.y_mm) for point in _far_apart(points)}
+    places = {(points[k].x_mm, points[k].y_mm) for k in _far_apart(points)}
     some = [k for k, point in enumerate(points) if (point.x_mm, point.y_mm) in places]
     chosen, few = [points[k] for k in some], [sums[k] for k in some]
     scale = TRIED_WAVES / np.maximum(np.max([one.blur_per_unit for one in few], axis=0), 1e-12)
@@ -333,7 +332,8 @@ def _suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
     places: dict[tuple[float, float], list[FramePoint]] = {}
     for point in points:
         places.setdefault((point.x_mm, point.y_mm), []).append(point)
-    chosen = _far_apart([group[0] for group in places.values()])
+    firsts = [group[0] for group in places.values()]
+    chosen = [firsts[k] for k in _far_apart(firsts)]
     wanted, several = [], False
     for x, y in ((point.x_mm, point.y_mm) for point in chosen):
         pictures = [
@@ -353,15 +353,15 @@ def _suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
     return best
 
 
-def _far_apart(points: Sequence[FramePoint]) -> list[FramePoint]:
-    """Return some points, each the farthest from those before it, the first nearest the axis."""
+def _far_apart(points: Sequence[FramePoint]) -> list[int]:
+    """Return which points are far apart: each the farthest from those before it, the first nearest the axis."""
     places = np.array([(point.x_mm, point.y_mm) for point in points])
     order = [int(np.argmin(np.hypot(*places.T)))]
     away = np.hypot(*(places - places[order[0]]).T)
     while len(order) < min(SUGGESTING, len(points)):
         order.append(int(np.argmax(away)))
         away = np.minimum(away, np.hypot(*(places - places[order[-1]]).T))
-    return [points[k] for k in order]
+    return order
 
 
 def _cost(parts: Sequence[Part]) -> float:

@@ -325,7 +325,7 @@ class Comparison:
 
 
 def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> Comparison:
-    """Return two files of `write_measurement` beside each other; numbers of points as RMS-weighted means.
+    """Return two files of `write_measurement` beside each other; of points' numbers the means, and the RMS of sigmas.
 
     Raises RequestError for other files, and where they have no number in common.
     """

@@ -137,7 +137,7 @@ class PixelSum:
             yield (rows, columns), slice(start, start + rows * columns)
             start += rows * columns
 
-    def _block(self, size: tuple[int, int], some: slice) -> "Block":
+    def _block(self, size: tuple[int, int], some: slice) -> Block:
         fx, fy = self.nodes.fx[some], self.nodes.fy[some]
         if size[1] == 1 and size[0] > SCATTERED * grid_rows(fy, self.y):
             scattered = ScatteredNodes(fx, fy, self.x, self.y)

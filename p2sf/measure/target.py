@@ -127,7 +127,8 @@ def read_target(path: str | os.PathLike[str]) -> Target:
         text = Path(path).read_text("utf-8-sig") if size <= LARGEST_BYTES else ""
     except (OSError, UnicodeDecodeError) as error:
         raise RequestError("{path} cannot be read as text; check the name", path=str(path)) from error
-    unit, rows = "", dict[int, list[float]]()
+    unit, rows = "", dict[int, tuple[float, float]]()
+    owners = dict[tuple[float, float], int]()  # of places
     for line, words in enumerate((re.split(r"[\s,;]+", row.strip(" \t,;")) for row in text.splitlines()), 1):
         if words == [""] or words[0].startswith("#"):
             continue
@@ -140,17 +141,16 @@ def read_target(path: str | os.PathLike[str]) -> Target:
                     line=line,
                 )
             continue
-        number, *place = _row(words, str(path), line, unit)
-        for other, taken in rows.items():
-            if number == other or place == taken:
-                raise RequestError(
-                    "{path}, line {line}: {words} is number {other} once more; give each point one number and place",
-                    path=str(path),
-                    line=line,
-                    words=" ".join(words),
-                    other=other,
-                )
-        rows[number] = place
+        number, place = _row(words, str(path), line, unit)
+        if number in rows or place in owners:
+            raise RequestError(
+                "{path}, line {line}: {words} is number {other} once more; give each point one number and place",
+                path=str(path),
+                line=line,
+                words=" ".join(words),
+                other=number if number in rows else owners[place],
+            )
+        rows[number], owners[place] = place, number
     if len(rows) < FEWEST:
         raise RequestError(
             "{path} holds {count} points of a target; at least {least} are needed",
@@ -161,13 +161,13 @@ def read_target(path: str | os.PathLike[str]) -> Target:
     return Target(np.array([*rows]), np.array([*rows.values()], float), unit, str(path))
 
 
-def _row(words: Sequence[str], path: str, line: int, unit: str) -> tuple[int, float, float]:
-    """Return number, x and y of a line. Raises RequestError."""
+def _row(words: Sequence[str], path: str, line: int, unit: str) -> tuple[int, tuple[float, float]]:
+    """Return the number of a line and its x and y. Raises RequestError."""
     try:
         number, x, y = words
-        place = int(number), float(x), float(y)
-        if np.isfinite(place).all() and (unit == "mm" or max(abs(place[1]), abs(place[2])) < 90):
-            return place
+        place = float(x), float(y)
+        if np.isfinite(place).all() and (unit == "mm" or max(map(abs, place)) < 90):
+            return int(number), place
     except ValueError:
         pass
     raise RequestError(
@@ -205,12 +205,11 @@ def match_target(found_mm: np.ndarray, target: Target, expected: np.ndarray, kno
     `SCALE`. Of several ways that match as many points, the upright one nearest the axis is returned. Raises
     RequestError where the points are not those of the target.
     """
-    from scipy.spatial import KDTree
-
     z, w = (places[:, 0] + 1j * places[:, 1] for places in (np.asarray(found_mm, float), np.asarray(expected, float)))
     least = max(FEWEST, min(z.size, CERTAIN), ceil(SHARE * z.size))
-    tried = _best_first(z, w, known_scale) if z.size >= FEWEST else []
-    placings = [_refined(z, w, a, b, mirrored) for a, b, mirrored in tried]
+    step = _step(w)
+    tried = _best_first(z, w, step, known_scale) if z.size >= FEWEST else []
+    placings = [_refined(z, w, NEAR * step, a, b, mirrored) for a, b, mirrored in tried]
     most = max((one.count for one in placings), default=0)
     if most < least:
         raise RequestError(
@@ -226,7 +225,7 @@ def match_target(found_mm: np.ndarray, target: Target, expected: np.ndarray, kno
     best = [one for one in best if one.unseen == fewest]
     closest = min(one.rms for one in best)
     best = [one for one in best if one.rms <= 2 * closest + ROUNDING * abs(one.a)]
-    best.sort(key=lambda one: one.oddity(_step(KDTree(_plane(w)))))
+    best.sort(key=lambda one: one.oddity(step))
     ways = {one.which.tobytes() for one in best}
     first = best[0]
     places = _plane(first.seen(w) * (first.a / abs(first.a) if known_scale else first.a))
@@ -268,12 +267,14 @@ def _plane(z: np.ndarray) -> np.ndarray:
     return np.stack([z.real, z.imag], -1)
 
 
-def _step(tree: "KDTree") -> float:
+def _step(w: np.ndarray) -> float:
     """Return the median distance between neighbours."""
-    return float(np.median(tree.query(tree.data, 2)[0][:, 1]))
+    from scipy.spatial import KDTree
+
+    return float(np.median(KDTree(_plane(w)).query(_plane(w), 2)[0][:, 1]))
 
 
-def _best_first(z: np.ndarray, w: np.ndarray, known_scale: bool) -> list[tuple[complex, complex, bool]]:
+def _best_first(z: np.ndarray, w: np.ndarray, step: float, known_scale: bool) -> list[tuple[complex, complex, bool]]:
     """Return (a, b, mirrored) of the ways to lay a target on a picture that put most points near one of it."""
     from scipy.spatial import KDTree
 
@@ -290,7 +291,7 @@ def _best_first(z: np.ndarray, w: np.ndarray, known_scale: bool) -> list[tuple[c
     every = np.concatenate(ways)
     if known_scale:
         every = every[np.abs(np.log(np.abs(every[:, 0]))) < np.log(SCALE)]
-    step, some = _step(tree), z[order[:TRIED]]
+    some = z[order[:TRIED]]
     counts = np.concatenate(
         [_counts(every[i : i + TOGETHER], some, tree, step) for i in range(0, len(every), TOGETHER)]
     )
@@ -316,13 +317,10 @@ def _counts(every: np.ndarray, z: np.ndarray, tree: "KDTree", step: float) -> np
     return count
 
 
-def _refined(z: np.ndarray, w: np.ndarray, a: complex, b: complex, mirrored: bool) -> _Placing:
-    """Return a placing fitted to all points that lie near one of the target, in turns with which these are."""
-    from scipy.spatial import KDTree
-
+def _refined(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, mirrored: bool) -> _Placing:
+    """Return a placing fitted to all points that lie ``near`` one of the target, in turns with which these are."""
     places = -w.conj() if mirrored else w
     square, k, before = np.abs(places) ** 2 / (np.abs(places) ** 2).max(), 0.0, None
-    near = NEAR * _step(KDTree(_plane(w)))
     for _ in range(STEPS):
         which = _assigned(z, a * places * (1 + k * square) + b, near * abs(a))
         if before is not None and np.array_equal(which, before):

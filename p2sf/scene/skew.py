@@ -190,7 +190,9 @@ class SkewStudy(Study):
             sources = [self.field_map(self.ends[0]).source(place.x_mm, place.y_mm, wave) for place in places]
             found[wave] = []
             for source in sources:
-                pencils = [split(level, self.database.numbers_at(_at_depth(source, depth_of(v))))[0] for v in scan]
+                pencils = [
+                    split(level, self.database.numbers_at(replace(source, depth_mm=depth_of(v))))[0] for v in scan
+                ]
                 variance = [float(np.square(phase[degree > 1]).sum()) for phase in pencils]
                 found[wave].append(float(scan[int(np.argmin(variance))]))
         return found
@@ -220,7 +222,3 @@ class SkewStudy(Study):
     def _looked_up(self, places: Sequence[Place]) -> tuple[PupilStack, np.ndarray]:
         sources = [self.field_map(place.vergence).source(place.x_mm, place.y_mm, place.wave_um) for place in places]
         return looked_up(self.database, self.lens, sources, np.array([place[:2] for place in places]))
-
-
-def _at_depth(source: Source, depth_mm: float) -> Source:
-    return replace(source, depth_mm=depth_mm)

@@ -148,8 +148,8 @@ class _Form:
 
     def __init__(self, known: Differentials, frequency_per_mm: float | None = None):
         self.fields = [_Field(rays) for rays in known.fine]
-        few = [_Field(_few_rays(known, k)) for k in range(len(self.fields))]
-        self.few = few if known.lens.mask.clear else self.fields
+        clear = known.lens.mask.clear
+        self.few = [_Field(_few_rays(known, k)) for k in range(len(self.fields))] if clear else self.fields
         one, other = np.triu_indices(len(known.tolerances))
         felt = known.second[one, other].any((1, 2))
         self.pairs = one[felt], other[felt]

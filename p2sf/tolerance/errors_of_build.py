@@ -164,7 +164,7 @@ def _altered(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -
         return replace(surface, irregularity=before.added(upright, turned, radius))
     if surface.reflects:
         raise GeometryError(
-            ("surface {surface} is a mirror, which has no index that could be wrong"), surface=tolerance.first
+            "surface {surface} is a mirror, which has no index that could be wrong", surface=tolerance.first
         )
     return replace(surface, medium=ShiftedIndex(surface.medium, error))
 
