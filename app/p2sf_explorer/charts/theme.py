@@ -223,15 +223,20 @@ def _frames(t: Tokens) -> str:
 def _inputs(t: Tokens) -> str:
     """Return the look of plain buttons, choosers and text fields."""
     return f"""
-    QLineEdit, QComboBox, QPushButton, QToolButton {{
+    QLineEdit, QComboBox, QPushButton, QToolButton, QDoubleSpinBox {{
         background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 3px 8px; min-height: 20px; }}
     QComboBox#small {{ padding: 1px 6px; font-size: 12px; min-height: 18px; }}
+    QDoubleSpinBox {{ padding: 1px 0; font-size: 12px; min-height: 18px; }}
+    QDoubleSpinBox QLineEdit {{ background: transparent; border: none; padding: 0 6px; font-size: 12px;
+        min-height: 0; }}
+    QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ border: none; width: 0; }}
     QLineEdit#cell {{ padding: 1px 6px; min-height: 18px; }}
     QLineEdit#value {{ padding: 1px 6px; min-height: 18px; min-width: 82px; max-width: 82px; }}
     QLineEdit#value[short="true"] {{ min-width: 66px; max-width: 66px; }}
     QLineEdit#value[wide="true"] {{ min-width: 120px; max-width: 120px; }}
     QLineEdit#value[list="true"] {{ min-width: 60px; max-width: 1000px; }}
-    QLineEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus {{ border: 1px solid {t.accent}; }}
+    QLineEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QDoubleSpinBox:focus {{
+        border: 1px solid {t.accent}; }}
     QPushButton:hover, QToolButton:hover, QComboBox:hover {{ border: 1px solid {t.muted}; }}
     QPushButton:disabled, QToolButton:disabled {{ color: {t.muted}; background: {t.card}; }}
     QPushButton#small, QToolButton#small {{ padding: 1px 7px; font-size: 12px; min-height: 18px; }}

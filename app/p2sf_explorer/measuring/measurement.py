@@ -173,10 +173,16 @@ def point_rows(found: Measurement, number: int, own: tuple[float, ...] | None) -
 
 
 def _value(value: float, error: float, lens: float | None) -> Message:
-    said = Number(signed(value, 3)), Number(significant(error, 2))
+    said = _with_error(value, error)
     if lens is None:
-        return Message("{value} ± {error} λ", value=said[0], error=said[1])
-    return Message("{value} ± {error} λ ({own})", value=said[0], error=said[1], own=Number(signed(lens, 3)))
+        return Message("{value} ± {error} λ", **said)
+    return Message("{value} ± {error} λ ({own})", **said, own=Number(signed(lens, 3)))
+
+
+def _with_error(value: float, error: float) -> dict[str, Number]:
+    """Return an error to two digits, and its value to as many decimals."""
+    text = significant(error, 2)
+    return {"value": Number(signed(value, len(text.partition(".")[2]))), "error": Number(text)}
 
 
 def whole_rows(found: Measurement) -> tuple[Row, ...]:
@@ -188,16 +194,16 @@ def whole_rows(found: Measurement) -> tuple[Row, ...]:
     return tuple(
         (
             NAMES[name],
-            Message(
-                "{value} ± {error} {unit}",
-                value=Number(significant(value, 3)),
-                error=Number(significant(error, 2)),
-                unit="λ" if whole.model.unit(name) == "waves" else whole.model.unit(name),
-            ),
+            Message("{value} ± {error}{unit}", **_with_error(value, error), unit=_suffix(whole.model.unit(name))),
             DEFINITIONS[name],
         )
         for name, value, error in columns
     )
+
+
+def _suffix(unit: str) -> str:
+    """Return a unit as it stands behind a number."""
+    return unit if unit in ("", "°") else " λ" if unit == "waves" else f" {unit}"
 
 
 def own_six(found: Measurement, number: int) -> tuple[float, ...] | None:

@@ -319,6 +319,7 @@ class MeasuredBody(QWidget):
         self._whole = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
         self._whole.setContentsMargins(0, 0, 0, 0)
         below = QHBoxLayout()
+        below.setSpacing(12)
         below.addWidget(points, 1)
         below.addWidget(scrolled(table, at_foot=False), 1)
         self._whole.addWidget(chart, 2)

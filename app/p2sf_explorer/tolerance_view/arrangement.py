@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QWidget
 
 from p2sf.tolerance.errors_of_build import IRREGULAR, Kind
 from p2sf_explorer.charts.theme import Tokens
@@ -20,48 +20,48 @@ OF_KINDS: tuple[tuple[str, tuple[Kind, ...]], ...] = (
 )
 # Pixels at scale 1: from where parts stand side by side, below which errors are alone, and the least size.
 WIDE, LOW, LEAST = 720, 320, (120, 90)
+GAP = 8  # pixels between a value and the next name
 
 
 class KindRow(QWidget):
-    """One value for all errors of a kind, each under its name; two lines where one has no room."""
+    """One value for all errors of a kind, each behind its name, on as many lines as the width asks for."""
 
     def __init__(self, boxes: dict[str, QDoubleSpinBox], end: QWidget):
         super().__init__()
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(4)
-        self._parts: list[QWidget] = []
+        self._pairs: list[tuple[QWidget, QWidget]] = []
         for (name, kinds), box in zip(OF_KINDS, boxes.values(), strict=True):
             unit = unit_words(kinds[0])
             box.setPrefix("± ")
             box.setSuffix(f" {unit}" if unit not in ("", "°") else unit)
-            part, label = QWidget(), QLabel(tr(name))
+            label = QLabel(tr(name))
             label.setObjectName("muted")
-            line = QHBoxLayout(part)
-            line.setContentsMargins(0, 0, 0, 0)
-            line.setSpacing(4)
-            line.addWidget(label)
-            line.addWidget(box)
-            self._parts.append(part)
-        self._parts.append(end)
-        self._columns = 0
-        self._arrange(len(self._parts))
+            self._pairs.append((label, box))
+        self._end, self._columns = end, 0
+        self._arrange(len(self._pairs))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Take as many columns as fit."""
         super().resizeEvent(event)
-        widest = max(part.sizeHint().width() for part in self._parts) + self._grid.spacing()
-        self._arrange(max(1, min(len(self._parts), self.width() // widest)))
+        widest = sum(max(part.sizeHint().width() for part in parts) for parts in zip(*self._pairs, strict=True))
+        self._arrange(max(1, min(len(self._pairs), self.width() // (widest + 3 * self._grid.horizontalSpacing()))))
 
     def _arrange(self, columns: int) -> None:
         if columns == self._columns:
             return
         self._columns = columns
-        for number, part in enumerate(self._parts):
-            self._grid.addWidget(part, number // columns, number % columns, Qt.AlignmentFlag.AlignLeft)
-        for column in range(len(self._parts)):
+        for number, pair in enumerate(self._pairs):
+            for half, part in enumerate(pair):
+                self._grid.addWidget(part, number // columns, 3 * (number % columns) + half)
+        number = len(self._pairs)
+        left = Qt.AlignmentFlag.AlignLeft
+        self._grid.addWidget(self._end, number // columns, 3 * (number % columns), 1, 2, left)
+        for column in range(3 * len(self._pairs) + 3):
             self._grid.setColumnStretch(column, 0)
-        self._grid.setColumnStretch(columns, 1)
+            self._grid.setColumnMinimumWidth(column, GAP if column % 3 == 2 and column < 3 * columns - 1 else 0)
+        self._grid.setColumnStretch(3 * (columns + 1) - 1, 1)
 
 
 class TolerancesBody(QWidget):

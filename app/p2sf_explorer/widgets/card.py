@@ -132,6 +132,7 @@ class Card(QFrame):
         self.head.addLayout(self.corner)
         self.under = QHBoxLayout()  # for the tools where they do not fit beside the title
         self.tools: list[QWidget] = []
+        self._fitted = 0  # pixels that the tools needed when the line was last fitted
         self._place, self._pressed = "tabs", QPointF(-1, -1)
         self.column = QVBoxLayout(self)
         self.column.setSizeConstraint(QVBoxLayout.SizeConstraint.SetNoConstraint)  # see `minimumSizeHint`
@@ -167,11 +168,21 @@ class Card(QFrame):
         super().resizeEvent(event)
         self._fit_head()
 
+    def event(self, event: QEvent) -> bool:
+        """Fit the title's line again where a tool needs more or less of it."""
+        if event.type() == QEvent.Type.LayoutRequest and self._tools_px() != self._fitted:
+            self._fit_head()
+        return super().event(event)
+
+    def _tools_px(self) -> int:
+        """Return the width that the tools need."""
+        return sum(tool.sizeHint().width() + self.head.spacing() for tool in self.tools if not tool.isHidden())
+
     def _fit_head(self) -> None:
         """Put tools, and then the readout, on lines of their own where they do not fit beside the title."""
         gap = self.head.spacing()
         room = self._title_room() - self.corner.sizeHint().width() - self.title.sizeHint().width() - 2 * gap
-        tools = sum(tool.sizeHint().width() + gap for tool in self.tools if not tool.isHidden())
+        self._fitted = tools = self._tools_px()
         fits = tools <= room
         for tool in self.tools:
             if (self.under if fits else self.head).indexOf(tool) >= 0:
@@ -434,9 +445,9 @@ class SideCard(Card):
 
 
 class TurningCard(SideCard):
-    """A side card whose controls stand in two rows above the picture where that leaves it more room."""
+    """A side card whose controls stand in two or three rows above the picture where that leaves it more room."""
 
-    _above = False
+    _rows = 0  # of controls above the picture, 0 where they stand beside it
 
     def __init__(self, title: str, tip: str = "", parent: QWidget | None = None):
         super().__init__(title, tip, parent)
@@ -478,28 +489,35 @@ class TurningCard(SideCard):
         column = self.side_px()
         if self._strut and self._strut.width() != column:
             self._strut.setFixedSize(column, 0)
-        self._turn(min(self.width(), self.height() - self._rows_px()) > min(self.width() - column, self.height()))
-        for number in range(3):
-            groups = self._groups[2 * number : 2 * number + 2]
-            needed = max((needed_px(group) for group in groups if group.isVisibleTo(self)), default=0)
-            self.grid.setColumnStretch(number, needed if self._above else 0)
+        margins = self.column.contentsMargins()
+        rows = 2 if sum(self._columns_px(2)) <= self.width() - margins.left() - margins.right() else 3
+        above = min(self.width(), self.height() - self._rows_px(rows)) > min(self.width() - column, self.height())
+        self._turn(rows if above else 0)
+        stretches = self._columns_px(rows) if above else []
+        for number in range(len(self._groups)):
+            self.grid.setColumnStretch(number, stretches[number] if number < len(stretches) else 0)
 
-    def _rows_px(self) -> int:
-        """Return the height of title and two rows of controls."""
+    def _columns_px(self, rows: int) -> list[int]:
+        """Return the widths in which the controls can be read where so many stand above one another."""
+        needed = [needed_px(group) if group.isVisibleTo(self) else 0 for group in self._groups]
+        return [max(needed[first : first + rows]) for first in range(0, len(needed), rows)]
+
+    def _rows_px(self, rows: int) -> int:
+        """Return the height of title and rows of controls."""
         high = max((group.sizeHint().height() for group in self._groups), default=0)
-        return self.head.sizeHint().height() + 2 * high + 4 * self.grid.spacing()
+        return self.head.sizeHint().height() + rows * high + 2 * rows * self.grid.spacing()
 
     def _title_room(self) -> int:
-        return self.width() if self._above else super()._title_room()
+        return self.width() if self._rows else super()._title_room()
 
-    def _turn(self, above: bool) -> None:
-        if above == self._above:
+    def _turn(self, rows: int) -> None:
+        if rows == self._rows:
             return
-        self._above = above
+        self._rows, above = rows, bool(rows)
         self.whole.setDirection(QBoxLayout.Direction.TopToBottom if above else QBoxLayout.Direction.LeftToRight)
         for number, group in enumerate(self._groups):
             self.grid.removeWidget(group)
-            self.grid.addWidget(group, *((number % 2, number // 2) if above else (number, 0)))
+            self.grid.addWidget(group, *((number % rows, number // rows) if above else (number, 0)))
 
 
 def needed_px(group: QWidget) -> int:

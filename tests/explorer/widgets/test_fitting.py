@@ -78,9 +78,11 @@ def test_charts_stand_along_the_longer_side(qapp, size):
     assert max(first.width(), first.height()) < 1.2 * min(first.width(), first.height())
 
 
+@pytest.mark.parametrize("workspace", ["inspect", "explore"])  # on a wide stage, and on a narrow one
 @pytest.mark.parametrize(("percent", "size"), [(100.0, (1280, 800)), (200.0, (2560, 1600))])
-def test_every_choice_of_the_matrix_can_be_read(window, qtbot, percent, size):
-    state = with_workspace(window.store.state, "inspect", WORKSPACES["inspect"])
+def test_every_choice_of_the_matrix_can_be_read(window, qtbot, percent, size, workspace):
+    state = with_workspace(window.store.state, workspace, WORKSPACES[workspace])
+    state = changed(state, **on_stage(state.display, "matrix"))
     window.resize(*size)
     window.store.replace(changed(state, scale_percent=percent))
     card = window.panels["matrix"].widget

@@ -955,7 +955,7 @@
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
 <message><source>a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; 8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
-<message><source>adds, λ</source><translation>fügt hinzu, λ</translation></message>
+<message><source>adds, λ</source><translation>Beitrag, λ</translation></message>
 <message><source>agf_formula is {formula}; write a number from 1 to 13</source><translation>agf_formula ist {formula}; eine Zahl von 1 bis 13 schreiben</translation></message>
 <message><source>aim "{aim}" is unknown; choose "stop" or "paraxial"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "stop" oder "paraxial" wählen</translation></message>
 <message><source>aimed at the real stop</source><translation>auf die wahre Blende gerichtet</translation></message>
@@ -1569,7 +1569,7 @@
 <message><source>shift of the image, µm</source><translation>Verschiebung des Bildes, µm</translation></message>
 <message><source>shift ≤ {limit} µm</source><translation>Verschiebung ≤ {limit} µm</translation></message>
 <message><source>shift, µm</source><translation>Verschiebung, µm</translation></message>
-<message><source>shifts, µm</source><translation>verschiebt, µm</translation></message>
+<message><source>shifts, µm</source><translation>Versatz, µm</translation></message>
 <message><source>shown is "{side}" and nothing is pinned as B; pin a state first (Ctrl+B)</source><translation>gezeigt wird "{side}", und nichts ist als B gemerkt; zuerst einen Zustand merken (Strg+B)</translation></message>
 <message><source>side by side</source><translation>nebeneinander</translation></message>
 <message><source>sides of the photo cut off</source><translation>Foto seitlich abgeschnitten</translation></message>
@@ -2293,7 +2293,7 @@
 <message><source>{value:z.3f} mm</source><translation>{value:z.3f} mm</translation></message>
 <message><source>{value:z.4f} mm</source><translation>{value:z.4f} mm</translation></message>
 <message><source>{value} mm</source><translation>{value} mm</translation></message>
-<message><source>{value} ± {error} {unit}</source><translation>{value} ± {error} {unit}</translation></message>
+<message><source>{value} ± {error}{unit}</source><translation>{value} ± {error}{unit}</translation></message>
 <message><source>{value} ± {error} λ</source><translation>{value} ± {error} λ</translation></message>
 <message><source>{value} ± {error} λ ({own})</source><translation>{value} ± {error} λ ({own})</translation></message>
 <message><source>{value} µm</source><translation>{value} µm</translation></message>
