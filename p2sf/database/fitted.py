@@ -28,8 +28,8 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.pupil.zernike import basis, gradient, terms
-from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, rows_of
+from p2sf.pupil.zernike import basis, terms
+from p2sf.raytrace.fit import UNIFORM, FittedPencil, Gradient, Level, level_rays, phase_slopes, rows_of
 from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import mapped, one_blas_thread
@@ -236,10 +236,7 @@ def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -
 
 
 @lru_cache(maxsize=16)
-def _rows_at_rays(level: Level) -> tuple[list[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]:
+def _rows_at_rays(level: Level) -> tuple[Gradient, tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Return ∂/∂ξ and ∂/∂η of the terms of the phase, and the terms of phase, fx and fy, at a level's rays."""
-    xi, eta, _ = level_rays(level)
-    even, odd = level.orders
-    pairs = zip(gradient(even, xi, eta), gradient(odd, xi, eta, odd=True), strict=True)
-    slopes = [rows_of(level, *pair)[0] for pair in pairs]
-    return slopes, rows_of(level, basis(even, xi, eta), basis(odd, xi, eta, odd=True))
+    (xi, eta, _), (even, odd) = level_rays(level), level.orders
+    return phase_slopes(level), rows_of(level, basis(even, xi, eta), basis(odd, xi, eta, odd=True))

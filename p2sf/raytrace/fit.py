@@ -389,18 +389,16 @@ def _projection(level: Level) -> Projection:
     if not level.by_slopes:
         return Projection(rows, np.linalg.pinv(own[0].T) * root, fx, fy)
     roots = np.concatenate([root, SLOPE_WEIGHT * root, SLOPE_WEIGHT * root])
-    every = np.concatenate([rows[0][:, : weight.size], *_phase_slopes(level)], axis=1)
+    every = np.concatenate([part[:, : weight.size] for part in (rows[0], *phase_slopes(level))], axis=1)
     phase, *slopes = np.split(np.linalg.pinv((every * roots).T) * roots, 3, axis=1)
     return Projection(rows, phase, fx, fy, tuple(slopes))
 
 
-def _phase_slopes(level: Level) -> Gradient:
-    """Return (∂/∂ξ, ∂/∂η) of the terms of the phase of a level without symmetry at its own rays."""
-    xi, eta, weight = level_rays(level)
-    (own, other), (order, skew) = level.counts[0], (level.wave_order, (level.skew or (0, 0))[0])
-    even = gradient(order, xi[: weight.size], eta[: weight.size])
-    odd = gradient(skew, xi[: weight.size], eta[: weight.size], odd=True)
-    across, along = (np.concatenate([a[:own], b[:other]]) for a, b in zip(even, odd, strict=True))
+def phase_slopes(level: Level) -> Gradient:
+    """Return (∂/∂ξ, ∂/∂η) of the terms of the phase of a level at its rays, those held out included."""
+    (xi, eta, _), (even, odd) = level_rays(level), level.orders
+    both = zip(gradient(even, xi, eta), gradient(odd, xi, eta, odd=True), strict=True)
+    across, along = (rows_of(level, *pair)[0] for pair in both)
     return across, along
 
 
