@@ -1,12 +1,11 @@
 """A surface that was ground as a cylinder by mistake: Zernike's astigmatism, added to its sag."""
 
 from dataclasses import dataclass, replace
-from math import cos, hypot, isfinite, radians, sin
+from math import cos, hypot, radians, sin
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import GeometryError
 
 # A fringe is a deviation of the surface that changes the reflected wavefront by one wavelength (ISO 14999-4): half a
 # wave of sag, here of the green line of mercury.
@@ -75,16 +74,3 @@ class Irregularity:
         """Return this one and another over a disc of its own, as one."""
         share = (self.normalisation_mm / normalisation_mm) ** 2
         return replace(self, fringes=self.fringes + share * fringes, fringes_45=self.fringes_45 + share * fringes_45)
-
-    def check(self, surface: int) -> None:
-        """Raise GeometryError for numbers that cannot be; ``surface`` counts from 1."""
-        finite = isfinite(self.fringes) and isfinite(self.fringes_45)
-        if not (finite and isfinite(self.normalisation_mm) and self.normalisation_mm > 0):
-            raise GeometryError(
-                "surface {surface}: irregularity of {fringes:g} and {more:g} fringes over a radius of {radius:g} mm; "
-                "give finite numbers, and a positive radius",
-                surface=surface,
-                fringes=self.fringes,
-                more=self.fringes_45,
-                radius=self.normalisation_mm,
-            )

@@ -445,14 +445,12 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
             placement.check(number)
         if surface.rim:
             surface.rim.check(number)
-        if surface.irregularity:
-            surface.irregularity.check(number)
         _check_shape(surface, number)
 
 
 def _check_shape(surface: Surface, number: int) -> None:
-    """Raise GeometryError for numbers of a shape or of diffraction that cannot be."""
-    for part in (surface.shape, surface.diffraction):
+    """Raise GeometryError for numbers of a shape, of diffraction or of an irregularity that cannot be."""
+    for part in (surface.shape, surface.diffraction, surface.irregularity):
         if part is None:
             continue
         low, high = NORMALISATIONS_MM
@@ -466,7 +464,8 @@ def _check_shape(surface: Surface, number: int) -> None:
             )
         if not all(map(isfinite, part.numbers)):
             raise GeometryError(
-                "surface {surface}: a coefficient of its shape or its phase is not finite; correct it", surface=number
+                "surface {surface}: a number of its shape, its phase or its irregularity is not finite; correct it",
+                surface=number,
             )
     focal = surface.ideal_focal_length
     plain = surface.flat and surface.diffraction is None
