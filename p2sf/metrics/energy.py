@@ -135,13 +135,11 @@ def samples_across(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.
 def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int, aside_um: float = 0.0) -> RingSums:
     """Return the transfer function about a point on a grid of ``across`` samples, summed over rings."""
     step = 2 * max(pupil.half_x, pupil.half_y) / across
+    half = pupil.mask.clear and pupil.even
     wave, kept = (
-        _cells(pupil, centre_um, step, across)
-        if pupil.even
-        else _skew_cells(pupil, (aside_um, centre_um), step, across)
+        _cells(pupil, centre_um, step, across) if half else _whole_cells(pupil, (aside_um, centre_um), step, across)
     )
     length = fft.next_fast_len(2 * across + 4)
-    half = pupil.mask.clear and pupil.even
     both = np.concatenate([wave[:, ::-1], wave], axis=1) if half else wave
     field = fft.fft2(both, (length, length))
     transfer = fft.rfft2(field.real**2 + field.imag**2).real
@@ -153,14 +151,12 @@ def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int, aside_um: fl
 
 
 def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) -> tuple[np.ndarray, float]:
-    """Return the pupil function (y, x > 0) on the cells of a grid, and how much of the light that is.
+    """Return an even clear pupil's function (y, x > 0) on the cells of a grid, and how much of the light that is.
 
     A cell on the edge has an amplitude equal to its share inside. The square of that is less than the share: what lacks
     is light that the whole edge would send beyond half the period of the grid.
     """
     wide, high = step / pupil.half_x, step / pupil.half_y
-    if not pupil.mask.clear:
-        return _masked_cells(pupil, centre_um, (wide, high), across)
     x = (np.arange(across // 2 + 1) + 0.5) * wide
     y = (np.arange(across + 2) - (across + 1) / 2) * high
     area = np.zeros((y.size, x.size))
@@ -170,43 +166,24 @@ def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) ->
     phase, density = pupil.on_grid(x, y)
     density *= area > 0
     phase += centre_um * pupil.half_y * y[:, None]
-    amplitude = area * density
-    wave = np.empty(phase.shape, np.complex64)
-    wave.real, wave.imag = cosine_sine(phase, np.float32)
-    wave *= amplitude.astype(np.float32)
-    return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
+    return _waves(area * density, density, phase)
 
 
-def _skew_cells(
+def _whole_cells(
     pupil: FrequencyPupil, centre_um: tuple[float, float], step: float, across: int
 ) -> tuple[np.ndarray, float]:
-    """Return `_cells` of a pupil that is not even, about a point (x, y), of the whole pupil, (y, x)."""
-    wide, high = step / pupil.half_x, step / pupil.half_y
-    x, y = ((np.arange(across + 2) - (across + 1) / 2) * size for size in (wide, high))
-    area = np.zeros((y.size, x.size))
-    for strip in (np.arange(STRIPS) + 0.5) / STRIPS - 0.5:
-        low, high_end = pupil.columns(x + strip * wide)
-        top, bottom = (np.clip((end - y[:, None]) / high, -0.5, 0.5) for end in (high_end, low))
-        area += top - bottom
-    area /= STRIPS
-    phase, density = pupil.on_grid(x, y)
-    density *= area > 0
+    """Return `_cells` of any pupil about a point (x, y), of the whole pupil, (y, x)."""
+    x, y = ((np.arange(across + 2) - (across + 1) / 2) * (step / half) for half in (pupil.half_x, pupil.half_y))
+    amplitude, density, phase = masked_cells(pupil, x, y)
     phase += centre_um[0] * pupil.half_x * x + centre_um[1] * pupil.half_y * y[:, None]
-    amplitude = area * density
+    return _waves(amplitude, density, phase)
+
+
+def _waves(amplitude: np.ndarray, density: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return amplitude·exp(2πi·phase), and how much of the light the amplitude keeps of density, without shares."""
     wave = np.empty(phase.shape, np.complex64)
     wave.real, wave.imag = cosine_sine(phase, np.float32)
     wave *= amplitude.astype(np.float32)
-    return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
-
-
-def _masked_cells(
-    pupil: FrequencyPupil, centre_um: float, size: tuple[float, float], across: int
-) -> tuple[np.ndarray, float]:
-    """Return `_cells` behind a mask, of the whole pupil, (y, x)."""
-    x, y = ((np.arange(across + 2) - (across + 1) / 2) * step for step in size)
-    amplitude, density, phase = masked_cells(pupil, x, y)
-    phase = phase + centre_um * pupil.half_y * y[:, None]
-    wave = (amplitude * np.exp(2j * pi * phase)).astype(np.complex64)
     return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
 
 

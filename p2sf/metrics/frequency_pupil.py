@@ -88,7 +88,7 @@ class PupilNodes:
 
 @dataclass(frozen=True, eq=False)
 class FrequencyPupil:
-    """The pupil over spatial frequencies (fx, fy), even in fx unless ``even`` is False.
+    """The pupil over spatial frequencies (fx, fy), even in fx, its mask too, unless ``even`` is False.
 
     Attributes
     ----------
@@ -112,10 +112,8 @@ class FrequencyPupil:
         What stands in the pupil, as the source sees it; ``density`` and ``phase`` are those of the whole disc.
     wavelength_um : float
         By which the mask's path is waves.
-    turned : bool
-        Whether the box's x is −fx, which shows where a mask is not even.
-    stretch, up : numpy.ndarray
-        ξ/x and η of the ray at a point of the box, as ``phase`` is; ξ itself where the pupil is not even.
+    xi, eta : numpy.ndarray
+        ξ and η of the ray at a point of the box, as ``phase`` is.
     even : bool
         Whether fx and −fx are alike, as they are in the plane of symmetry of a lens that has one.
     centroid_x_um : float
@@ -135,9 +133,8 @@ class FrequencyPupil:
     rays: int
     mask: PupilMask = CLEAR
     wavelength_um: float = nan
-    turned: bool = False
-    stretch: np.ndarray = field(default_factory=lambda: np.ones((1, 1)))
-    up: np.ndarray = field(default_factory=lambda: np.array([[0.0], [1.0]]))
+    xi: np.ndarray = field(default_factory=lambda: np.array([[0.0, 1.0], [0.0, 0.0]]))
+    eta: np.ndarray = field(default_factory=lambda: np.array([[0.0, 0.0], [1.0, 0.0]]))
     even: bool = True
     centroid_x_um: float = 0.0
 
@@ -166,6 +163,20 @@ class FrequencyPupil:
             centroid_x_um=self.centroid_um,
         )
 
+    @property
+    def edge(self) -> np.ndarray:
+        """Return the whole edge, once around, (2, points), in the box's coordinates."""
+        outline = np.stack([self.outline_x, self.outline_y])
+        if not self.even:
+            return outline
+        return np.concatenate([outline, outline[:, -2:0:-1] * [[-1.0], [1.0]]], axis=1)
+
+    @property
+    def unfolded(self) -> "FrequencyPupil":
+        """Return the same pupil described as one that is not even, which it need not be behind a mask."""
+        outline_x, outline_y = self.edge
+        return replace(self, outline_x=outline_x, outline_y=outline_y, even=False)
+
     def chords(self, y: np.ndarray) -> np.ndarray:
         """Return the half length of the row at each y, in the box's coordinates; 0 outside the pupil."""
         half: np.ndarray = np.interp(-y, -self.outline_y, self.outline_x, left=0.0, right=0.0)
@@ -183,6 +194,10 @@ class FrequencyPupil:
     def on_grid(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return phase and density at the points (y, x) of a grid in the box's coordinates."""
         return _on_grid(self.phase, x, y), _on_grid(self.density, x, y)
+
+    def stop_on_grid(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return ξ and η at the points (y, x) of a grid in the box's coordinates."""
+        return _on_grid(self.xi, x, y), _on_grid(self.eta, x, y)
 
 
 def _ends(edge_x: np.ndarray, edge_y: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -297,7 +312,10 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
     Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
     rays of different parts of it arrive in one direction.
     """
+    mask = mask_seen(lens, source)
     whole, even = not clip and all_reach(lens, source), not (lens.misaligned or turn_deg)
+    if not (whole or mask.clear):
+        check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
     edge = _rim(RIM, even) if whole else clear_outline(lens, source, OUTLINE // 4, clip, even)
 
     def traced(sampling: Sampling) -> PupilNodes:
@@ -314,9 +332,6 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
         return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
-    mask = mask_seen(lens, source)
-    if not (whole or mask.clear):
-        check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
     return behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
 
 
@@ -373,15 +388,9 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     """Return the pupil behind a mask: centroid and RMS distance are those of the light that passes."""
     if mask.clear:
         return pupil
-    if not pupil.even:
-        raise GeometryError(
-            "a mask stands in the stop, and the transfer function of a pupil without symmetry supports only a clear "
-            "round stop; remove the mask or align the lens"
-        )
-    pupil = replace(pupil, mask=mask, wavelength_um=wavelength_um)
+    pupil = replace(pupil if mask.even else pupil.unfolded, mask=mask, wavelength_um=wavelength_um)
     axis = (np.arange(CENTROID_CELLS) + 0.5) * (2 / CENTROID_CELLS) - 1
-    along = chebvander(axis, len(pupil.up) - 1)
-    xi, eta = axis * (along @ pupil.stretch @ along.T), along @ pupil.up @ along.T
+    xi, eta = pupil.stop_on_grid(axis, axis)
     inside = mask.opens(xi, eta) & (xi * xi + eta * eta <= 1)
     phase, density = pupil.on_grid(axis, axis)
     if mask.phased:
@@ -392,9 +401,9 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     light = np.where(whole, np.square(density * mask.amplitude(xi * inside, eta * inside)), 0.0)
     light /= light.sum()
     landing_x, landing_y = -slope_x / pupil.half_x, -slope_y / pupil.half_y
-    centre = float((light * landing_y).sum())
-    square = float((light * (landing_x**2 + (landing_y - centre) ** 2)).sum())
-    return replace(pupil, centroid_um=centre, rms_um=float(np.sqrt(square)))
+    centre, aside = float((light * landing_y).sum()), 0.0 if pupil.even else float((light * landing_x).sum())
+    square = float((light * ((landing_x - aside) ** 2 + (landing_y - centre) ** 2)).sum())
+    return replace(pupil, centroid_um=centre, centroid_x_um=aside, rms_um=float(np.sqrt(square)))
 
 
 def _beside(cells: np.ndarray) -> np.ndarray:
@@ -450,7 +459,7 @@ def _through(nodes: PupilNodes, order: int, smooth: bool, even: bool) -> Frequen
     miss = least.values(phase) - nodes.phase[used]
     freedom = max(1 - least.unknowns / miss.size, 1e-3)
     share = nodes.share[used]
-    density, flat, stretch, up = least.density(nodes.xi[used], nodes.eta[used], nodes.weight[used])
+    density, flat, xi, eta = least.density(nodes.xi[used], nodes.eta[used], nodes.weight[used])
     light = share * nodes.weight[used] * least.values(density)  # D²df = D·weight·dξdη
     light /= light.sum()
     landing_x, landing_y = (-slope / half for slope, half in zip(least.slopes(phase), (half_x, half_y), strict=True))
@@ -468,9 +477,8 @@ def _through(nodes: PupilNodes, order: int, smooth: bool, even: bool) -> Frequen
         float(np.sqrt(max(square, 0.0))),  # < 0 at a fold, refused below
         float(np.sqrt(share @ miss**2 / share.sum() / freedom)) if flat else inf,
         0,
-        turned=bool(nodes.xi @ nodes.fx < 0),
-        stretch=stretch,
-        up=up,
+        xi=-xi if even and nodes.xi @ nodes.fx < 0 else xi,
+        eta=eta,
         even=even,
         centroid_x_um=aside,
     )
@@ -516,7 +524,18 @@ class LeastSquares:
         if self._even:
             stretch_x, stretch_y = self.values(stretch) + self._x * stretch_x, self._x * stretch_y
         area = stretch_x * up_y - stretch_y * up_x
-        return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0), stretch, up
+        across = _times_x(stretch) if self._even else stretch
+        return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0), across, up
+
+
+def _times_x(table: np.ndarray) -> np.ndarray:
+    """Return the coefficients of x·Σ table[b, a]·T_b(y)·T_a(x): x·T_a = (T_a₊₁ + T_|a₋₁|)/2."""
+    size = len(table)
+    product = np.zeros((size + 1, size + 1))
+    product[:size, 1:] = table / 2
+    product[:size, : size - 1] += table[:, 1:] / 2
+    product[:size, 1] += table[:, 0] / 2
+    return product
 
 
 def _outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np.ndarray]:

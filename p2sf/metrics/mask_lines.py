@@ -9,13 +9,16 @@ from math import ceil, pi
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
 
-from p2sf.metrics.frequency_pupil import FrequencyPupil
+from p2sf.errors import GeometryError
+from p2sf.metrics.frequency_pupil import UNFOLLOWED, FrequencyPupil
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import exit_distance, outline_radius
 from p2sf.pupil.quadrature import gauss_legendre
 
 CURVE = 1024  # points along an edge of the pupil: chords between them depart from it by 5e-6 of the radius
 NEWTON_STEPS, NEWTON_ENOUGH = 12, 1e-10  # of the rim's radius
+NEWTON_LEAST = 1e-5  # and above which contrast is not as exact as the handbook says
+FARTHEST = 1.05  # in the box's coordinates: farther out its polynomials are of no use
 FEWEST_PER_PANEL = 8
 STRIPS = 8  # lines through a cell
 CLOSE = 1e-8  # of the box: ends of edges no farther apart are one
@@ -23,12 +26,8 @@ CLOSE = 1e-8  # of the box: ends of edges no farther apart are one
 
 def box_edges(pupil: FrequencyPupil) -> tuple[list[np.ndarray], list[np.ndarray]]:
     """Return the closed curves in the box, (2, points), whose insides are open, and those whose insides are dark."""
-    mask, right = pupil.mask, np.stack([pupil.outline_x, pupil.outline_y])
-    left = right[:, -2:0:-1] * [[-1.0], [1.0]]
-    inner, dark = edges_of(mask)
-    return [np.concatenate([right, left], axis=1), *(to_box(pupil, *edge) for edge in inner)], [
-        to_box(pupil, *edge) for edge in dark
-    ]
+    inner, dark = edges_of(pupil.mask)
+    return [pupil.edge, *(to_box(pupil, *edge) for edge in inner)], [to_box(pupil, *edge) for edge in dark]
 
 
 def edges_of(mask: PupilMask) -> tuple[list[tuple[np.ndarray, np.ndarray]], list[tuple[np.ndarray, np.ndarray]]]:
@@ -55,19 +54,23 @@ def _vane_edge(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
 
 def to_box(pupil: FrequencyPupil, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     """Return the points of the box whose rays pass (ξ, η) of the pupil, (2, points), by Newton's method."""
-    stretch, up = pupil.stretch, pupil.up
-    low, middle, high = chebvander(np.array([-1.0, 0.0, 1.0]), len(up) - 1)
-    bottom, top = float(low @ up @ middle), float(high @ up @ middle)
-    x = np.clip(xi / float(middle[: len(stretch)] @ stretch @ middle[: len(stretch)]), -1, 1)
-    y = np.clip((2 * eta - bottom - top) / (top - bottom), -1, 1)
+    # The first guess is by the secants along the box's axes.
+    three = np.array([-1.0, 0.0, 1.0])
+    at = np.stack(pupil.stop_on_grid(three, three))
+    left, right, low, high = at[:, 1, 0], at[:, 1, 2], at[:, 0, 1], at[:, 2, 1]
+    secants, centre = np.stack([right - left, high - low], axis=1) / 2, (left + right + low + high) / 4
+    x, y = np.clip(np.linalg.solve(secants, np.stack([xi, eta]) - centre[:, None]), -1, 1)
     for _ in range(NEWTON_STEPS):
-        there, stretch_x, stretch_y = _with_slopes(stretch, x, y)
-        here, c, d = _with_slopes(up, x, y)
-        a, b = there + x * stretch_x, x * stretch_y
-        miss_x, miss_y, area = xi - x * there, eta - here, a * d - b * c
-        x, y = x + (d * miss_x - b * miss_y) / area, y + (a * miss_y - c * miss_x) / area
-        if max(np.abs(miss_x).max(), np.abs(miss_y).max()) < NEWTON_ENOUGH:
+        across, a, b = _with_slopes(pupil.xi, x, y)
+        up, c, d = _with_slopes(pupil.eta, x, y)
+        miss_x, miss_y, area = xi - across, eta - up, a * d - b * c
+        miss = max(np.abs(miss_x).max(), np.abs(miss_y).max())
+        if miss < NEWTON_ENOUGH:
             break
+        x = np.clip(x + (d * miss_x - b * miss_y) / area, -FARTHEST, FARTHEST)
+        y = np.clip(y + (a * miss_y - c * miss_x) / area, -FARTHEST, FARTHEST)
+    if not miss < NEWTON_LEAST:  # NaN too
+        raise GeometryError(UNFOLLOWED)
     return np.stack([x, y])
 
 
@@ -75,8 +78,6 @@ def _with_slopes(table: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.nd
     """Return Σ table[b, a]·T_b(y)·T_a(x) at points, and its derivatives with x and with y."""
     order = len(table) - 1
     along, across = chebvander(y, order), chebvander(x, order)
-    if not order:
-        return np.full(x.size, table[0, 0]), np.zeros(x.size), np.zeros(x.size)
     derivative = chebder(np.eye(order + 1))
     rows = along @ table
     return (
@@ -165,10 +166,7 @@ def light_on_grid(
     """Return modulus and phase in waves, (y, x), behind a mask without its edges; the modulus 0 if not ``wanted``."""
     mask, (phase, density) = pupil.mask, pupil.on_grid(x, y)
     if mask.shaded or mask.phased:
-        along, across = (chebvander(axis, len(pupil.up) - 1) for axis in (y, x))
-        size = len(pupil.stretch)
-        xi = wanted * x * (along[:, :size] @ pupil.stretch @ across[:, :size].T)
-        eta = wanted * (along @ pupil.up @ across.T)
+        xi, eta = (wanted * values for values in pupil.stop_on_grid(x, y))
         density = density * mask.amplitude(xi, eta)
         if mask.phased:
             phase = phase + mask.path_um(xi, eta) / pupil.wavelength_um

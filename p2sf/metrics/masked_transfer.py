@@ -56,7 +56,7 @@ def masked_lines(pupil: FrequencyPupil) -> tuple[MaskedLines, MaskedLines]:
             max(FEWEST_SAMPLES, SAMPLES_PER_WIDTH / (1 - mask.obscuration)) + SAMPLES_PER_WAVE * (along + more)
         )
         fewest = max(FEWEST_ROWS, ROWS_OF_RING / (1 - mask.obscuration) ** NARROW)
-        halved = along_y and mask.even  # columns at −x are the same
+        halved = along_y and pupil.even  # columns at −x are the same
         rows = ceil((fewest + ROWS_PER_WAVE * (across + more)) / (2 if halved else 1))
         if rows * samples > MOST_SAMPLES:
             raise SamplingError(
@@ -112,6 +112,7 @@ def _line_values(
         phase = phase + pupil.centroid_um * pupil.half_y * along
     else:
         modulus, phase = light_on_grid(pupil, along, places, wanted)
+        phase = phase + pupil.centroid_x_um * pupil.half_x * along
     modulus = modulus * np.sqrt(weights)[:, None]
     cosine, sine = cosine_sine(phase, np.float64)
     return modulus, modulus * (cosine + 1j * sine)

@@ -65,7 +65,7 @@ class Mtf:
 class Energy:
     """The share of all light within each radius, µm, of its centroid, both (n,).
 
-    ``centroid_um``: along y from the chief ray, ``centroid_x_um`` along x, 0 in a lens of symmetry. ``radius_50_um``,
+    ``centroid_um``: along y from the chief ray, ``centroid_x_um`` along x, 0 of an even pupil. ``radius_50_um``,
     ``radius_80_um``: what holds half and 80 % of all light. ``rms_um``: RMS distance of the rays from the centroid;
     that of the light is infinite behind any hard edge. ``departure``: of a blur too large for a sum of waves it is that
     of landing points, the geometric limit, and this is how far from waves it may lie; above ROADS_AGREE it is not to be

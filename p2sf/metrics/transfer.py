@@ -111,8 +111,6 @@ def _slice(
 def _masked_slice(pupil: FrequencyPupil, lines: MaskedLines, cancelled: Stop) -> OtfSlice:
     own, perfect = masked_sum(pupil, lines, cancelled)
     cut_off = pupil.cut_off_per_um[1 if lines.along_y else 0]
-    if pupil.turned and not lines.along_y:
-        own = own.conj()
     return OtfSlice(cut_off / lines.samples, own / own[0].real, perfect / perfect[0], lines.along_y)
 
 
