@@ -188,7 +188,7 @@ class TolerancesPanel:
         menu, last = self.compensate.menu(), len(lens.surfaces)
         menu.clear()
         rows: list[Compensator] = [("thickness", k, 0) for k in range(last)]  # 0 is the back focus
-        rows += [(kind, k, 0) for k in (0, 1, last) for kind in SENSOR_TILTS]  # 0 is the sensor
+        rows += [(kind, k, 0) for k in sorted({0, 1, last}) for kind in SENSOR_TILTS]  # 0 is the sensor
         for row in rows:
             action = QAction(_compensator_words(row), menu)
             action.setCheckable(True)
@@ -230,7 +230,7 @@ class TolerancesPanel:
 
     def _stop(self) -> None:
         self.worker.cancel()
-        self._refusal = tr("Stopped. Draw again starts again.")
+        self._refusal = tr("Stopped. Draw again to start over.")
         self._paint()
 
     def _stale(self) -> bool:

@@ -196,9 +196,20 @@ def question(live: Live) -> ImageRequest:
     whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
     photo, optics = state.photo, state.optics
-    shape = full_shape(photo.source) if whole and photo.full else (ROWS, COLUMNS)
+    shape = _known_shape(full_shape, photo.source) if whole and photo.full else None
     what = photo.source, photo.show, photo.pixel_um
-    return ImageRequest(setup.lens, optics.depth_mm, *what, centre, optics.clip, shape)
+    return ImageRequest(setup.lens, optics.depth_mm, *what, centre, optics.clip, shape or (ROWS, COLUMNS))
+
+
+def _known_shape(shape_of: Callable[[str], tuple[int, int]], photo: str) -> tuple[int, int] | None:
+    """Return the shape of a photo; None where it cannot be read, which is said where its pixels are asked for.
+
+    A request that failed would cover the panel, and with it the button that chooses another photo.
+    """
+    try:
+        return shape_of(photo)
+    except RequestError:
+        return None
 
 
 def _taken(live: Live) -> ImageRequest:
@@ -207,9 +218,9 @@ def _taken(live: Live) -> ImageRequest:
     photo, wave_nm = state.photo, setup.source.wavelength_um * NM_PER_UM
     what = photo.source, photo.show, photo.pixel_um
     asked = ImageRequest(setup.lens, state.optics.depth_mm, *what, 0.0, state.optics.clip, grey_nm=wave_nm)
-    if photo.source in CHARTS or photo.pixel_um is None:
+    own = None if photo.source in CHARTS else _known_shape(own_shape, photo.source)
+    if own is None or photo.pixel_um is None:
         return asked  # `_taken_values` says what is wrong
-    own = own_shape(photo.source)
     if photo.full:
         return replace(asked, shape=own)
     shape = min(ROWS, own[0]), min(COLUMNS, own[1])
@@ -307,20 +318,24 @@ def _taken_values(request: ImageRequest) -> np.ndarray:
 def _taken_lattice(
     request: ImageRequest, channels: int, watch: Progress, quick: bool, known: ImageResult | None
 ) -> tuple[Plan, Lattice]:
-    """Return the plan and the kernels of a photo that the lens took; a tilted sensor has kernels of its own."""
+    """Return the plan and the kernels of a photo that the lens took.
+
+    Plans know no rims of lenses without symmetry: behind those a tilted sensor has kernels by exact rays.
+    """
     if known and len(known.plan.scene.channels) == channels:
         return known.plan, known.lattice
     assert request.pixel_um is not None
     light = channels_of(request.lens) if channels > 1 else (Channel("grey", (request.grey_nm,), (1.0,)),)
     sensor = Sensor(*request.shape, request.pixel_um, (0.0, request.centre_mm))
     scene = Scene(sensor, light, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
-    tilted = bool(request.lens.sensor_before)
-    if quick or tilted:
+    behind_rims = request.clip and bool(request.lens.sensor_before)
+    if quick or behind_rims:
         straight = preview_plan(scene.camera(replace(request.lens, sensor_before=())), scene)
         if quick:
             return straight, preview_lattice(straight, part_of(watch, 0.0, PLANNING))
         middle = light[len(light) // 2]
-        seen = field_map(request.lens, request.depth_mm, float(middle.shares @ middle.wavelengths_um), sensor)
+        reference = float(middle.shares @ middle.wavelengths_um)
+        seen = field_map(request.lens, request.depth_mm, reference, sensor, request.clip)
         return straight, settled_lattice(seen, scene, part_of(watch, 0.0, PLANNING))[0]
     made = plan(request.lens, scene, planning(watch, PLANNING / 2))
     return made, plan_lattice(made, made.vergences[0], part_of(watch, PLANNING / 2, PLANNING))

@@ -406,10 +406,10 @@ class ToleranceView:
     """Tolerances of built lenses: those of a ``grade``, and ``own`` ones in their place.
 
     ``own``: (kind, first, last, amount) as in `p2sf.tolerance.Tolerance`; ``first`` 0 stands for all of a kind.
-    ``compensators``: (kind, first, last) of what is set at assembly; ``first`` 0 is the back focus, or of a tilt
-    the sensor. ``limit``: what
-    every field of a good lens keeps by the ``criterion``, None for what four lenses of five keep. ``draw`` tells one
-    draw of random lenses from another. ``build``: which of them, from 1, was opened as A; 0 for none.
+    ``compensators``: (kind, first, last) of what is set at assembly; ``first`` 0 is the back focus, or of a tilt the
+    sensor. ``limit``: what every field of a good lens keeps by the ``criterion``, None for what four lenses of five
+    keep. ``draw`` tells one draw of random lenses from another. ``build``: which of them, from 1, was opened as A;
+    0 for none.
     """
 
     PREFIX: ClassVar[str] = "tolerances_"

@@ -654,7 +654,7 @@
 <message><source>Stop shift: distance of the stop behind the surface before it, within its air gap; the f-number does not change.</source><translation>Blendenverschiebung: der Abstand der Blende hinter der Fläche davor, in ihrem Luftabstand; die Blendenzahl bleibt.</translation></message>
 <message><source>Stop the computation</source><translation>Die Rechnung anhalten</translation></message>
 <message><source>Stop: the surface whose rim limits the light, as named by the lens file or found as the smallest |rim/y|.</source><translation>Blende: die Fläche, deren Rand das Licht begrenzt; in der Datei genannt, oder gefunden als kleinstes |Rand/y|.</translation></message>
-<message><source>Stopped. Draw again starts again.</source><translation>Angehalten. Neu ziehen beginnt von vorn.</translation></message>
+<message><source>Stopped. Draw again to start over.</source><translation>Angehalten. Neu ziehen beginnt von vorn.</translation></message>
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
 <message><source>Strehl ratio {value}</source><translation>Strehl-Verhältnis {value}</translation></message>
