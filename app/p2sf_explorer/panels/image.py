@@ -33,7 +33,7 @@ from p2sf_explorer.results.image import (
 from p2sf_explorer.results.photos import CHART_WORDS
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import SideCard, chooser, select
+from p2sf_explorer.widgets.card import TurningCard, chooser, select
 from p2sf_explorer.widgets.drop import PhotoDrop
 from p2sf_explorer.widgets.plan_note import PlanLine, Why, small_button
 from p2sf_explorer.widgets.split_view import SplitView
@@ -59,11 +59,11 @@ EARLIER, WORKING, NONE = "earlier picture, working", "working", "no picture"
 
 
 class ImagePanel:
-    """The picture with its split, details and PSF; beside it controls, and the plan in words behind "Why…"."""
+    """The picture with its split, details and PSF; beside or above it controls, and the plan in words behind "Why…"."""
 
     def __init__(self, store: Store):
         self._store = store
-        self.widget = SideCard("Image", TIP)
+        self.widget = TurningCard("Image", TIP)
         self.photo = chooser(tuple(CHART_WORDS.items()), "What stands before the lens", self.widget)
         sizes = (*PIXELS.items(), (FULL, "every pixel of the photo"))
         self.pixel = chooser(sizes, "Pixels at the field point, or the field", self.widget)
@@ -93,8 +93,8 @@ class ImagePanel:
 
     def _lay_out(self) -> None:
         looking = (self.look, self.words.button, self.save)
-        for line in ((self.photo, self.open), (self.pixel,), (self.show_box,), looking):
-            self.widget.add_line(*line)
+        for group in ((self.photo, self.open), (self.pixel,), (self.show_box,), looking):
+            self.widget.add_group(*group)
         self.headline.setObjectName("muted")
         self.headline.setWordWrap(True)
         self.headline.setAlignment(Qt.AlignmentFlag.AlignTop)

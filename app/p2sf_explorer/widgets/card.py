@@ -455,10 +455,21 @@ class TurningCard(SideCard):
         self.grid = QGridLayout()
         self.grid.setSpacing(4)
         self.side.addLayout(self.grid)
-        self.side.addStretch(1)
+        self._rest: QWidget | None = None
+
+    def add_rest(self, widget: QWidget) -> None:
+        """Give a widget the rest of the column's height, or above the picture a line of its own."""
+        super().add_rest(widget)
+        self._rest = widget
+
+    def set_body(self, widget: QWidget) -> None:
+        """Put the picture beside the column, or below the rows."""
+        super().set_body(widget)
+        if self._rest is None:
+            self.side.addStretch(1)
 
     def add_group(self, *widgets: QWidget) -> None:
-        """Add controls that stand beside each other, a line of the column or a cell of the two rows."""
+        """Add controls that stand beside each other, a line of the column or a cell of the rows."""
         group = QWidget(self)
         line = QHBoxLayout(group)
         line.setContentsMargins(0, 0, 0, 0)
@@ -515,6 +526,8 @@ class TurningCard(SideCard):
             return
         self._rows, above = rows, bool(rows)
         self.whole.setDirection(QBoxLayout.Direction.TopToBottom if above else QBoxLayout.Direction.LeftToRight)
+        if self._rest:
+            self._rest.setSizePolicy(_IGNORED, QSizePolicy.Policy.Maximum if above else QSizePolicy.Policy.Ignored)
         for number, group in enumerate(self._groups):
             self.grid.removeWidget(group)
             self.grid.addWidget(group, *((number % rows, number // rows) if above else (number, 0)))

@@ -118,3 +118,12 @@ def test_the_first_order_data_of_a_small_window_are_not_painted_over(window, qtb
         return [table._name(k)[0] == table._name(k)[1] for table in panel.tables for k in range(len(table.rows))]
 
     qtbot.waitUntil(lambda: whole() and all(whole()))
+
+
+def test_the_picture_of_image_takes_the_width_of_a_narrow_stage(window, qtbot):
+    window.resize(1280, 800)
+    state = with_workspace(window.store.state, "explore", WORKSPACES["explore"])
+    window.store.replace(changed(state, **on_stage(state.display, "image")))
+    panel = window.panels["image"]
+    qtbot.waitUntil(lambda: panel.split_view.width() > 0.9 * panel.widget.width())
+    assert panel.look.width() > panel.look.fontMetrics().horizontalAdvance(panel.look.currentText())
