@@ -87,7 +87,8 @@ class Camera:
 
     def frame(self, path: Path) -> Frame:
         """Return the frame of a picture."""
-        noise = Noise(self.gain or inf, self.read_noise, self.full_scale or inf)
+        gain, full_scale = (inf if value is None else value for value in (self.gain, self.full_scale))
+        noise = Noise(gain, self.read_noise, full_scale)
         return read_frame(path, self.pixel_um, dark=self.dark, flat=self.flat, noise=noise, channel=self.channel)
 
 

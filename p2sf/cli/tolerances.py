@@ -44,6 +44,7 @@ WORST: dict[Criterion, str] = {
     "boresight_um": "largest shift of the image, µm",
 }
 MOST_BUILDS, SHOWN = 1_000_000, 12
+LARGEST_SEED = 2**63 - 1
 PERCENTILES = 10, 50, 90
 
 GradeOption = Annotated[Literal["commercial", "precision", "high"], Parameter(help="Usual tolerances of this grade.")]
@@ -85,11 +86,20 @@ def tolerance(
 ) -> None:
     """Show which errors hurt most, and the yield of lenses built at random with the back focus set; fields in turn."""
     check_whole("builds", builds, 1, MOST_BUILDS)
+    check_whole("seed", seed, 0, LARGEST_SEED)
     given: dict[Criterion, float | None] = {"rms_waves": rms_waves, "strehl": strehl, "mtf": mtf}
     given["boresight_um"] = boresight_um
     for name, value in given.items():
         if value is not None and not 0 <= value < np.inf:
             raise RequestError("{parameter} is {value}; give a number, 0 or more", parameter=name, value=value)
+        if value is not None and name in LARGE_IS_GOOD and value > 1:
+            raise RequestError(
+                "{parameter} is {value:g}; give a number from {low:g} to {high:g}",
+                parameter=name,
+                value=value,
+                low=0,
+                high=1,
+            )
     check_positive("frequency_per_mm", frequency_per_mm)
     limits = {name: value for name, value in given.items() if value is not None}
     setup = set_up(find_lens(lens), request)

@@ -80,7 +80,7 @@ def read_bytes(path: str | os.PathLike) -> bytes:
     except FileNotFoundError:
         raise LensFileError("there is no such file; check the path", path) from None
     except IsADirectoryError:
-        raise LensFileError("this is a folder; name a lens file in it", path) from None
+        raise LensFileError("this is a folder; name a file in it", path) from None
     except (OSError, ValueError) as failure:
         raise LensFileError(
             "the file cannot be read ({reason}); check its path and permissions",
@@ -174,7 +174,7 @@ def read_text(path: str | os.PathLike) -> str:
     except FileNotFoundError:
         raise LensFileError("there is no such file; check the path", path) from None
     except IsADirectoryError:
-        raise LensFileError("this is a folder; name a lens file in it", path) from None
+        raise LensFileError("this is a folder; name a file in it", path) from None
     except LensFileError:
         raise
     except (OSError, ValueError) as error:
@@ -199,7 +199,7 @@ def _decoded(data: bytes, path: str | os.PathLike) -> str:
         line = data[: error.start].count(b"\n") + 1
         raise LensFileError("the file is not UTF-8 text; save it as UTF-8", path, line) from None
     if not text.strip():
-        raise LensFileError("the file is empty; write a lens into it", path)
+        raise LensFileError("the file is empty; write into it, or name another", path)
     return text
 
 

@@ -49,11 +49,17 @@ class Noise:
     """What is known of a sensor's noise: ``gain`` in electrons per count, inf where shot noise does not matter.
 
     ``read_noise``: standard deviation of a dark pixel in counts; ``full_scale``: counts from which one is saturated.
+    Raises RequestError for numbers that are not positive.
     """
 
     gain: float = inf
     read_noise: float | None = None
     full_scale: float = inf
+
+    def __post_init__(self) -> None:
+        check_positive("gain", self.gain, infinite=True)
+        check_positive("read_noise", self.read_noise)
+        check_positive("full_scale", self.full_scale, infinite=True)
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,6 +26,7 @@ from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, windo
 from p2sf.measure.pupil_model import SIX, pupil_model
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
+from p2sf.parameters import check_finite
 
 FEWEST = 5  # points of a frame whose field is fitted too
 STRAIGHT = 0.017  # radians off +y within which the fast rows of a map are taken
@@ -100,6 +101,8 @@ def measured(
         raise RequestError(
             "{frames} frames and {focus} focus positions; give one for each", frames=len(frames), focus=len(focus_um)
         )
+    for moved_um in focus_um:
+        check_finite("focus_um", moved_um)
     pupil_model(model)  # refuses a name that is none
     points = in_grid(find_points(frames[0]))
     half = window_half(points)

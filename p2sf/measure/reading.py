@@ -65,7 +65,7 @@ def read_frame(
     counts = calibrated(found.values, *fields)
     kept = noise or Noise()
     read_noise = kept.read_noise
-    if found.psf and read_noise is None:
+    if found.psf and read_noise is None and counts.max() > 0:
         read_noise = PSF_NOISE * float(counts.max())
     rows, columns = counts.shape
     axis = None

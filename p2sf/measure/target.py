@@ -213,8 +213,8 @@ def match_target(found_mm: np.ndarray, target: Target, expected: np.ndarray, kno
     most = max((one.count for one in placings), default=0)
     if most < least:
         raise RequestError(
-            "{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, and "
-            "whether it is that of this picture",
+            "{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, "
+            "its unit, the distance, and whether it is that of this picture",
             most=most,
             count=z.size,
             path=target.name,
@@ -291,6 +291,8 @@ def _best_first(z: np.ndarray, w: np.ndarray, step: float, known_scale: bool) ->
     every = np.concatenate(ways)
     if known_scale:
         every = every[np.abs(np.log(np.abs(every[:, 0]))) < np.log(SCALE)]
+    if not len(every):
+        return []
     some = z[order[:TRIED]]
     counts = np.concatenate(
         [_counts(every[i : i + TOGETHER], some, tree, step) for i in range(0, len(every), TOGETHER)]

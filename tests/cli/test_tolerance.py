@@ -82,7 +82,16 @@ def test_a_field_beside_the_plane_is_named_by_both_angles(capsys):
 
 
 @pytest.mark.parametrize(
-    "wrong", [("--frequency-per-mm", "0"), ("--strehl", "-1"), ("--builds", "0"), ("--set", "nothing.toml")]
+    "wrong",
+    [
+        ("--frequency-per-mm", "0"),
+        ("--strehl", "-1"),
+        ("--strehl", "80"),
+        ("--mtf", "1.01"),
+        ("--builds", "0"),
+        ("--seed", "-1"),
+        ("--set", "nothing.toml"),
+    ],
 )
 def test_what_cannot_be_is_one_sentence(capsys, wrong):
     assert main([*LENS, *wrong]) == 2

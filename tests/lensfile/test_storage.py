@@ -16,7 +16,7 @@ GOOD = "[aperture]\nf_number = 8\n\n[[surface]]\nradius = 50.0\nthickness = 90.0
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"", "the file is empty; write a lens into it"),
+        (b"", "the file is empty; write into it, or name another"),
         (b" \n\t\n", "the file is empty"),
         (b'title = "a"\nsource = "\xff\xfe"\n', "line 2: the file is not UTF-8 text; save it as UTF-8"),
         (b"#" * (LARGEST_FILE + 1), f"larger than {LARGEST_FILE} bytes; this is not a lens file"),
@@ -34,7 +34,7 @@ def test_bytes_that_are_no_lens_file(content, said, tmp_path):
 def test_missing_files_and_folders(tmp_path):
     with pytest.raises(LensFileError, match=r"gone\.toml: there is no such file; check the path"):
         read_toml(tmp_path / "gone.toml")
-    with pytest.raises(LensFileError, match="this is a folder; name a lens file in it"):
+    with pytest.raises(LensFileError, match="this is a folder; name a file in it"):
         read_toml(tmp_path)
     with pytest.raises(LensFileError, match=r"cannot be read .*; check its path"):
         read_toml("nul\0byte.toml")

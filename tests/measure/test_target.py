@@ -71,8 +71,9 @@ def test_other_points_are_refused():
     with pytest.raises(RequestError, match="2 points"):
         match_target(np.zeros((2, 2)), target, target.places, known_scale=False)
     twice = seen(target.places, scale=2.0)
-    with pytest.raises(RequestError, match="should"):
-        match_target(twice, target, target.places, known_scale=True)
+    for scale in (1, 1e-3):  # mm in place of metres leave no pair of points whose scale could be right
+        with pytest.raises(RequestError, match="its unit"):
+            match_target(twice, target, scale * target.places, known_scale=True)
 
 
 def test_a_target_is_read_and_what_is_wrong_is_said(tmp_path):

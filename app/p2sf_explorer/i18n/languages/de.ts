@@ -1745,7 +1745,7 @@
 <message><source>the file holds {count} positions, of which {read} are so many zooms at every distance; these are read</source><translation>die Datei enthält {count} Stellungen, von denen {read} bei jedem Abstand gleich viele Zoomstellungen sind; diese werden gelesen</translation></message>
 <message><source>the file holds {count} positions; the first {most} are read</source><translation>die Datei enthält {count} Stellungen; die ersten {most} werden gelesen</translation></message>
 <message><source>the file holds {count} surfaces; at most {most} are read</source><translation>die Datei enthält {count} Flächen; höchstens {most} werden gelesen</translation></message>
-<message><source>the file is empty; write a lens into it</source><translation>die Datei ist leer; ein Objektiv hineinschreiben</translation></message>
+<message><source>the file is empty; write into it, or name another</source><translation>die Datei ist leer; etwas hineinschreiben oder eine andere nennen</translation></message>
 <message><source>the file is larger than {size} bytes; this is not a lens file</source><translation>die Datei ist größer als {size} Byte; das ist keine Objektivdatei</translation></message>
 <message><source>the file is none of the formats known here: {formats}</source><translation>die Datei hat keines der hier bekannten Formate: {formats}</translation></message>
 <message><source>the file is not UTF-8 text; save it as UTF-8</source><translation>die Datei ist kein UTF-8-Text; als UTF-8 speichern</translation></message>
@@ -1903,7 +1903,7 @@
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rays} Strahlen; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens</source><translation>das ist eine Datenbank von PSFs, kein Objektiv und kein Zustand; mit p2sf psf benutzen oder ihr Objektiv öffnen</translation></message>
-<message><source>this is a folder; name a lens file in it</source><translation>das ist ein Ordner; eine Objektivdatei darin nennen</translation></message>
+<message><source>this is a folder; name a file in it</source><translation>das ist ein Ordner; eine Datei darin nennen</translation></message>
 <message><source>this is a glass catalogue, not a lens; give it beside a lens file</source><translation>das ist ein Glaskatalog, kein Objektiv; neben einer Objektivdatei angeben</translation></message>
 <message><source>this is not JSON ({reason}); correct the line</source><translation>das ist kein JSON ({reason}); die Zeile berichtigen</translation></message>
 <message><source>this is not TOML ({reason}); correct the line</source><translation>das ist kein TOML ({reason}); die Zeile berichtigen</translation></message>
@@ -2105,7 +2105,7 @@
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; eine glatte Anpassung verfehlte {tolerance:g}</translation></message>
 <message><source>{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil does not describe that</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; {lost} von {count} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
-<message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei prüfen, und ob sie die dieses Bildes ist</translation></message>
+<message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, its unit, the distance, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei, ihre Einheit und die Entfernung prüfen, und ob sie die dieses Bildes ist</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{names}: a database knows no tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
