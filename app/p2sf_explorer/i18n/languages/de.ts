@@ -104,7 +104,7 @@
 <message><source>Blades of the iris, their corners on the rim's circle; 0: round. An even number of blades gives as many spikes in the PSF, an odd number twice as many.</source><translation>Lamellen der Irisblende, ihre Ecken auf dem Kreis des Randes; 0: rund. Die PSF hat ebenso viele Strahlen, wo ihre Zahl gerade ist, doppelt so viele, wo sie ungerade ist.</translation></message>
 <message><source>Both halves move apart as it comes closer: sharp from infinity to more than half of life size</source><translation>Beide Hälften rücken beim Nahen auseinander: scharf von unendlich bis über die halbe Lebensgröße</translation></message>
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
-<message><source>Brightness: each picture relative to its own peak, or with One scale all relative to the brightest</source><translation>Helligkeit: jedes Bild über seiner eigenen Spitze oder mit Ein Maßstab alle über der hellsten</translation></message>
+<message><source>Brightness: each picture relative to its own peak, or with One scale all relative to the brightest</source><translation>Helligkeit: jedes Bild auf seine eigene Spitze bezogen oder mit Ein Maßstab alle auf die hellste</translation></message>
 <message><source>Build ten thousand other lenses</source><translation>Zehntausend andere Objektive bauen</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
@@ -197,7 +197,7 @@
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>EFL {focal} mm, {speed} · {column}</source><translation>EFL {focal} mm, {speed} · {column}</translation></message>
 <message><source>Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by hand are ignored.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor.</translation></message>
-<message><source>Each PSF relative to its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF über ihrer eigenen Spitze, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
+<message><source>Each PSF relative to its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF auf ihre eigene Spitze bezogen, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
 <message><source>End the lesson and restore everything as it was before (F3)</source><translation>Die Lektion beenden und alles zurückstellen, wie es vorher war (F3)</translation></message>
@@ -285,7 +285,7 @@
 <message><source>How many, evenly spread; this replaces typed values</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
 <message><source>How much farther from the lens the sensor was than in the window.</source><translation>Wie viel weiter vom Objektiv der Sensor stand als im Fenster.</translation></message>
 <message><source>How the phase is shown</source><translation>Wie die Phase gezeigt wird</translation></message>
-<message><source>How the two pictures are compared</source><translation>Wie die beiden Bilder nebeneinander gestellt werden</translation></message>
+<message><source>How the two pictures are compared</source><translation>Wie die beiden Bilder verglichen werden</translation></message>
 <message><source>Hubble Space Telescope as built, f/24</source><translation>Hubble-Weltraumteleskop, wie gebaut, f/24</translation></message>
 <message><source>Hubble Space Telescope as designed, f/24</source><translation>Hubble-Weltraumteleskop, wie entworfen, f/24</translation></message>
 <message><source>Hybrid achromat f/5, 50 mm: a singlet that diffracts</source><translation>Hybrid-Achromat f/5, 50 mm: eine Einzellinse, die beugt</translation></message>
@@ -749,10 +749,10 @@
 <message><source>This is A: one colour minus another is not a colour.</source><translation>Dies ist A: eine Farbe weniger eine andere ist keine Farbe.</translation></message>
 <message><source>This is A: solid bodies have no difference to show.</source><translation>Dies ist A: Körper im Raum haben keine Differenz, die sich zeigen ließe.</translation></message>
 <message><source>This is A: the curves of A or of B take longer than a frame.</source><translation>Das ist A: die Kurven von A oder von B brauchen länger als ein Bild.</translation></message>
-<message><source>This is A: the limits of sharpness are positions, not amounts, to subtract.</source><translation>Dies ist A: wie weit es scharf ist, sagen Anfang und Ende, und B verschiebt sie nicht.</translation></message>
+<message><source>This is A: the limits of sharpness are positions, not amounts, to subtract.</source><translation>Dies ist A: die Grenzen der Schärfe sind Orte, keine Mengen, die sich abziehen ließen.</translation></message>
 <message><source>This is A: the pictures of A and of B have different windows; PSF shows A − B.</source><translation>Dies ist A: über das Feld haben die Bilder von A und von B eigene Fenster; A − B zeigt die PSF.</translation></message>
 <message><source>This is A: the points of the diagram are surfaces, and B has different ones.</source><translation>Dies ist A: die Punkte des Diagramms sind Flächen, und die von B sind andere.</translation></message>
-<message><source>This is A: there are many curves already; MTF and Field show A − B.</source><translation>Das ist A: Kurven mehrerer Felder oder Farben sind schon viele; MTF und Feld zeigen A − B.</translation></message>
+<message><source>This is A: there are many curves already; MTF and Field show A − B.</source><translation>Dies ist A: es sind schon viele Kurven; MTF und Feld zeigen A − B.</translation></message>
 <message><source>This is A: two drawings of lenses have no difference to draw.</source><translation>Dies ist A: zwei maßstäblich gezeichnete Objektive haben keine Differenz, die sich zeichnen ließe.</translation></message>
 <message><source>This is A; B has none: {why}</source><translation>Dies ist A; B hat keines: {why}</translation></message>
 <message><source>This lens has {count} such faults; p2sf info lists them all.</source><translation>Dieses Objektiv hat {count} solche Fehler; p2sf info zählt sie alle auf.</translation></message>
@@ -767,8 +767,8 @@
 <message><source>Tilt about x: right-handed; a positive one turns y towards z, the piece's top away from the object.</source><translation>Kippung um x: rechtshändig; eine positive dreht y nach z, das Teil oben vom Objekt weg.</translation></message>
 <message><source>Tilt about y</source><translation>Kippung um y</translation></message>
 <message><source>Tilt about y: right-handed; a positive one turns z towards x.</source><translation>Kippung um y: rechtshändig; eine positive dreht z nach x.</translation></message>
-<message><source>Tilt by which the sensor recedes from the lens towards +x.</source><translation>Um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
-<message><source>Tilt by which the sensor recedes from the lens towards +y.</source><translation>Um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
+<message><source>Tilt by which the sensor recedes from the lens towards +x.</source><translation>Kippung, um die der Sensor nach +x vom Objektiv zurückweicht.</translation></message>
+<message><source>Tilt by which the sensor recedes from the lens towards +y.</source><translation>Kippung, um die der Sensor nach +y vom Objektiv zurückweicht.</translation></message>
 <message><source>To Image</source><translation>Ins Bild</translation></message>
 <message><source>To pupil</source><translation>Als Pupille</translation></message>
 <message><source>To report it, copy the text below and send it to the authors. It names versions and places in the program, but none of your folders or files.</source><translation>Um den Fehler zu melden, den Text unten kopieren und den Autoren schicken: Er nennt Versionen und Stellen im Programm, keinen Ordner und keine Datei von Ihnen.</translation></message>
@@ -801,7 +801,7 @@
 <message><source>Vane angle</source><translation>Strebenwinkel</translation></message>
 <message><source>Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.</source><translation>Strebenwinkel: Richtung der ersten Strebe, von der Richtung des Feldes (+η) nach +ξ.</translation></message>
 <message><source>Vane width</source><translation>Strebenbreite</translation></message>
-<message><source>Vane width, as a share of the rim's diameter.</source><translation>Breite der Streben über dem Durchmesser des Randes.</translation></message>
+<message><source>Vane width, as a share of the rim's diameter.</source><translation>Breite der Streben, bezogen auf den Durchmesser des Randes.</translation></message>
 <message><source>Vanes</source><translation>Streben</translation></message>
 <message><source>Vanes of the spider that holds the obscuration, from the middle to the rim, evenly spaced; 0: none. Each makes a spike at right angles to itself.</source><translation>Streben der Spinne, die das Abschattende hält, von der Mitte zum Rand und gleichmäßig ringsum; 0: keine. Jede wirft einen Strahl quer zu sich.</translation></message>
 <message><source>View</source><translation>Darstellung</translation></message>
@@ -916,7 +916,7 @@
 <message><source>a map of the pupil has cells that are no finite numbers; give every cell one</source><translation>eine Karte der Pupille hat Zellen, die keine endlichen Zahlen sind; jeder Zelle eine geben</translation></message>
 <message><source>a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side</source><translation>eine Karte der Pupille hat die Form {shape}; ein Quadrat von {low} bis {high} Zellen je Seite angeben</translation></message>
 <message><source>a mask stands in the stop, and {what} supports only a clear round stop; remove the mask</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
-<message><source>a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
+<message><source>a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht ausdrücken kann; als TOML speichern</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
@@ -948,8 +948,8 @@
 <message><source>a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
-<message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist kein Licht; Mikrometer angeben</translation></message>
-<message><source>a wavelength is not that of light; give nanometres</source><translation>eine Wellenlänge ist kein Licht; Nanometer angeben</translation></message>
+<message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist nicht die von Licht; Mikrometer angeben</translation></message>
+<message><source>a wavelength is not that of light; give nanometres</source><translation>eine Wellenlänge ist nicht die von Licht; Nanometer angeben</translation></message>
 <message><source>a wavelength of {nm:g} nm that brings {share:g} of the light; give two positive numbers</source><translation>eine Wellenlänge von {nm:g} nm, die {share:g} des Lichts bringt; zwei positive Zahlen angeben</translation></message>
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
