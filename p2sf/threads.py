@@ -42,7 +42,7 @@ def threads_or_default(threads: int | None = None) -> int:
     if threads is not None:
         if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
             raise RequestError(
-                "{parameter} is {value}; give a whole number from 1 on", parameter="threads", value=threads
+                "{parameter} is {value}; give a whole number of 1 or more", parameter="threads", value=threads
             )
         return threads
     asked = os.environ.get(VARIABLE, "").strip()
@@ -50,7 +50,7 @@ def threads_or_default(threads: int | None = None) -> int:
         return _usable_cores()
     if not asked.isdecimal() or int(asked) < 1:
         raise RequestError(
-            "the environment variable {name} is {value}; give a whole number from 1 on", name=VARIABLE, value=asked
+            "the environment variable {name} is {value}; give a whole number of 1 or more", name=VARIABLE, value=asked
         )
     return int(asked)
 

@@ -62,14 +62,14 @@ def test_a_process_bound_to_one_core_uses_one_thread():
 
 @pytest.mark.parametrize("number", [0, -1, True, 1.5, "2"])
 def test_a_number_that_is_none_is_refused(number):
-    with pytest.raises(RequestError, match=f"threads is {number}; give a whole number from 1 on"):
+    with pytest.raises(RequestError, match=f"threads is {number}; give a whole number of 1 or more"):
         mapped(str, [1, 2], threads=number)
 
 
 @pytest.mark.parametrize("text", ["0", "-2", "two", "1.5"])
 def test_an_environment_that_says_no_number_is_refused(monkeypatch, text):
     monkeypatch.setenv(threads.VARIABLE, text)
-    with pytest.raises(RequestError, match=f"P2SF_THREADS is {text}; give a whole number from 1 on"):
+    with pytest.raises(RequestError, match=f"P2SF_THREADS is {text}; give a whole number of 1 or more"):
         threads_or_default()
 
 

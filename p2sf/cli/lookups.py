@@ -104,7 +104,7 @@ def _slope_of_height(database: "Database", depth_mm: float, height_mm: float, co
     height = float(database.coefficients(depth_mm, widest, colour).image_height)
     if height == 0:
         raise RequestError(
-            "{parameter} is {value:g} mm, and this database lands no field off the axis; "
+            "{parameter} is {value:g} mm, but in this database no field lands off the axis; "
             "leave it out, or build one with fields",
             parameter="image_height_mm",
             value=height_mm,

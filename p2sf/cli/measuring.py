@@ -149,7 +149,7 @@ def _colour(text: str) -> tuple[float, float]:
         return float(wavelength) / NM_PER_UM, float(share)
     except ValueError as error:
         raise RequestError(
-            '{parameter} "{text}" is no wavelength in nm and its share; write such as 550:2',
+            '{parameter} "{text}" is not a wavelength in nm and its share; write for example 550:2',
             parameter="light",
             text=text,
         ) from error

@@ -137,7 +137,7 @@ class Shown:
     def __post_init__(self) -> None:
         if not 0 <= self.noise < inf:
             raise RequestError(
-                "{parameter} is {value:g}; give a standard deviation from 0 on", parameter="noise", value=self.noise
+                "{parameter} is {value:g}; give a standard deviation of 0 or more", parameter="noise", value=self.noise
             )
         if self.deblur and self.preview:
             raise RequestError(
@@ -294,6 +294,6 @@ def depth_map(scene: Scene) -> np.ndarray | None:
 def _for_file(values: np.ndarray, scene: Scene) -> np.ndarray:
     if values.shape[-1] not in (1, 3):
         raise RequestError(
-            "the scene has {count} channels, and a picture file 1 or 3; change the scene", count=len(scene.channels)
+            "the scene has {count} channels, but a picture file has 1 or 3; change the scene", count=len(scene.channels)
         )
     return values

@@ -56,7 +56,7 @@ def list_folder(folder: Path, accept_substitutes: bool, catalogues: Sequence[Pat
 def lens_files(folder: Path) -> list[Path]:
     """Return the lens files of a folder and the folders in it, sorted; RequestError for what is no folder."""
     if not folder.is_dir():
-        raise RequestError("{path} is no folder; name one for {parameter}", path=str(folder), parameter="list")
+        raise RequestError("{path} is not a folder; name one for {parameter}", path=str(folder), parameter="list")
     endings = {known.ending for known in FORMATS}
     found = (path for path in folder.rglob("*") if path.suffix.lower() in endings and path.is_file())
     return sorted((path for path in found if path.suffix.lower() in CERTAIN or _marked(path)), key=_alphabetical)

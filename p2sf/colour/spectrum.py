@@ -61,7 +61,7 @@ def spectrum_of(text: str) -> Spectrum:
 def _check(kind: str, numbers: tuple[float, ...]) -> None:
     if kind in ("d65", "equal") and numbers:
         raise RequestError(
-            'the spectrum "{kind}" takes no number, not {number:g}; write {examples}',
+            'the spectrum "{kind}" takes no number, but has {number:g}; write {examples}',
             kind=kind,
             number=numbers[0],
             examples=EXAMPLES,

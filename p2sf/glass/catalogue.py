@@ -152,7 +152,7 @@ def _entry(label: str, name: str) -> CatalogueEntry:
         found = page(name)
     except KeyError:
         raise GlassError(
-            'glass "{name}" is no page of refractiveindex.info that is shipped; check shelf/book/page', name=label
+            'glass "{name}" is not among the shipped pages of refractiveindex.info; check shelf/book/page', name=label
         ) from None
     if found.kind == Kind.ABSORPTION:
         raise GlassError('glass "{name}" is listed with its absorption only; give its index or nd and vd', name=label)

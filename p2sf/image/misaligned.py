@@ -55,8 +55,8 @@ def form_misaligned(
     """
     if scene.near_mm != scene.far_mm or scene.depth_map is not None:
         raise RequestError(
-            "the scene has several depths, and a picture through a misaligned lens knows one; give near_mm and far_mm "
-            "alike and leave depth_map out"
+            "the scene has several depths, but a picture through a misaligned lens has one; give near_mm and far_mm "
+            "the same value and leave depth_map out"
         )
     how, watch, values = how or Forming(), watch or Progress(), checked(scene, values)
     camera, middle = scene.camera(lens), scene.channels[len(scene.channels) // 2]

@@ -79,7 +79,7 @@ def check_ending(path: str | os.PathLike[str]) -> str:
     ending = Path(path).suffix.lower()
     if ending not in WRITABLE:
         raise ExportError(
-            '{path} has the ending "{ending}", which is no picture here; choose {choices}',
+            '{path} has the ending "{ending}", which is not a picture format here; choose {choices}',
             path=str(path),
             ending=ending,
             choices=WRITABLE,

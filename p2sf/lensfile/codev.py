@@ -651,7 +651,7 @@ def _tell_radii(reading: CodeVReading) -> None:
         return
     reading.notes.add(
         "caution",
-        "the file does not say RDM; its numbers are read as radii, since {value:g} is no lens's curvature",
+        "the file does not say RDM; its numbers are read as radii, since {value:g} cannot be a lens's curvature",
         strongest.number,
         strongest.line,
         value=strongest.curvature,

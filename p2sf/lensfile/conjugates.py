@@ -121,7 +121,7 @@ def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Pa
         raise GeometryError("an object at infinity has no numerical aperture; state the pupil's diameter or f-number")
     start = rays.object_index / distance if distance else inf
     if not isfinite(start):
-        raise GeometryError("the object lies in the first vertex, where an aperture angle fills no stop; move it")
+        raise GeometryError("the object lies at the first vertex, where no aperture angle fills the stop; move it")
     per_height = a + b * start
     if kind == "object_na":
         return distance * tan(asin(_sine(value, rays.object_index))) * per_height

@@ -103,7 +103,7 @@ def recognise(source: LensText) -> Format:
     if marked or ending in by_ending:
         return marked or by_ending[ending]
     raise source.error(
-        "the file is none of the formats known here: {formats}", 1, formats=tuple(known.name for known in FORMATS)
+        "the file is in none of the known formats: {formats}", 1, formats=tuple(known.name for known in FORMATS)
     )
 
 

@@ -108,7 +108,7 @@ def _zemax_configurations(lens: Lens, stop: int) -> list[str]:
     (axis, *others), columns = lens.positions.axes, columns_of(lens)
     if others:
         raise LensFileError(
-            "the lens has a ring of zoom and one of focus, and a Zemax file one list of configurations; save as TOML"
+            "the lens has a zoom ring and a focus ring, but a Zemax file has one list of configurations; save as TOML"
         )
     lines = [f"MNUM {len(columns)} {(lens.positions.column or 0) + 1}"]
     lines += [f'LTTL 0 {k} "{name}" 0 0 0 1 1 0 0.0 "" 0' for k, name in enumerate(axis.columns, 1)]
@@ -155,7 +155,7 @@ def _check_zemax_columns(lens: Lens) -> None:
     counts = {(len(column.fields_deg), len(column.wavelengths_nm)) for column in lens.positions.lenses}
     if len(counts) > 1:
         raise LensFileError(
-            "the columns have different numbers of fields or wavelengths, and a Zemax file one; save as TOML"
+            "the columns have different numbers of fields or wavelengths, but a Zemax file has one; save as TOML"
         )
 
 

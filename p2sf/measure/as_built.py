@@ -73,7 +73,9 @@ def left_out(whole: FrameFit, path: str | os.PathLike[str]) -> tuple[Message, ..
     tilts = tuple(name for name in ("tilt_x_deg", "tilt_y_deg") if certain.get(name))
     out = []
     if fields:
-        out.append(Message("{names}: no part of the lens as built; measure spacings in their place", names=fields))
+        out.append(Message("{names}: not part of the lens as built; measure spacings instead", names=fields))
     if tilts and Path(path).suffix.lower() == ".npz":
-        out.append(Message("{names}: a database knows no tilted sensor; write the lens as a .toml", names=tilts))
+        out.append(
+            Message("{names}: a database cannot express a tilted sensor; write the lens as a .toml", names=tilts)
+        )
     return tuple(out)

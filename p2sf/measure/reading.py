@@ -80,7 +80,7 @@ def read_counts(path: str | os.PathLike[str], channel: str = "green") -> Counts:
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
         raise RequestError(
-            '{path}: the ending "{ending}" is no picture here; choose {choices}',
+            '{path}: the ending "{ending}" is not a picture format here; choose {choices}',
             path=str(path),
             ending=ending,
             choices=ENDINGS,

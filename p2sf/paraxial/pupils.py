@@ -218,7 +218,7 @@ def _check_field(field: str, a: np.ndarray, close: np.ndarray) -> None:
     """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) has no meaning."""
     if field == "slope" and anywhere(a == 0):
         raise GeometryError(
-            "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
+            "the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus, "
             'or in Python state the field as an object height, field="height"'
         )
     if field == "height" and np.any(close == 0):

@@ -135,7 +135,9 @@ def _pairs(values: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
 def _check_window(size: int, spread: float, pixels: int, pixel_um: float) -> None:
     """Raise SamplingError for a window in which the PSF of a grid would repeat."""
     if not (isinstance(pixels, int | np.integer) and pixels >= 1):
-        raise SamplingError("{parameter} is {value}; give a whole number from 1 on", parameter="pixels", value=pixels)
+        raise SamplingError(
+            "{parameter} is {value}; give a whole number of 1 or more", parameter="pixels", value=pixels
+        )
     period, window = size / (2 * spread), pixels * pixel_um
     if window > period * (1 + 1e-9):
         raise SamplingError(

@@ -209,7 +209,7 @@ def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None
         )
     if pixel_um is None:
         if not count:
-            raise SamplingError("a stack of no PSFs has no width of its own; give the pixel in µm")
+            raise SamplingError("an empty stack of PSFs has no width of its own; give the pixel in µm")
         return float(np.max(suitable_pixel_um(coefficients, pixels)))
     return float(pixel_um)
 

@@ -122,7 +122,7 @@ def entrance(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> 
     plane = np.asarray(pupil.entrance_from_first)
     if not np.isfinite(plane).all():
         raise GeometryError(
-            "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus"
+            "the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus"
         )
     nearness = vergence(source.depth_mm)
     gap = 1 + nearness * plane

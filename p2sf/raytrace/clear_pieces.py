@@ -126,8 +126,8 @@ def check_without_holes(lens: Lens, clip: bool) -> None:
     """Raise GeometryError where rims clip and a surface has a hole, for what takes the clear part to have none."""
     if clip and holes_of(lens):
         raise GeometryError(
-            "surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} "
-            "off, or take the hole as an obscuration of the stop",
+            "surface {surface} has a hole, but this needs a clear part without holes; leave {parameter} off, "
+            "or treat the hole as an obscuration of the stop",
             parameter="clip",
             surface=holes_of(lens)[0],
         )

@@ -131,7 +131,7 @@ def focal_surface(lens: Lens, source: Source, x_deg: ArrayLike, y_deg: ArrayLike
     known = points[np.isfinite(points).all(-1)]
     if len(known) < 3:
         raise GeometryError(
-            "{count} fields have a focus, and a plane needs three; choose smaller fields", count=len(known)
+            "only {count} fields have a focus, but a plane needs three; choose smaller fields", count=len(known)
         )
     centre = known.mean(0)
     across, up = np.linalg.lstsq((known - centre)[:, :2], known[:, 2] - centre[2], rcond=None)[0].tolist()

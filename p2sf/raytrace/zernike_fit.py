@@ -74,8 +74,8 @@ def pupil_opd(
     if not pencil(lens, source, *tried, clip).passed.all():
         if not lens.mask.clear:
             raise GeometryError(
-                "rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a "
-                "whole ring; leave {parameter} off, stop the lens down, or remove the obscuration",
+                "rims cut off a pupil that has an obscuration, or some of its rays are lost, but annular terms need "
+                "a whole ring; leave {parameter} off, stop the lens down, or remove the obscuration",
                 parameter="clip",
             )
         nodes = clear_nodes(lens, source, counts, clip)

@@ -122,7 +122,8 @@ def fitted_map(
     miss = np.abs(columns @ solved - slopes).max() * abs(scale) / sensor.pixel_mm
     if not miss < MOST_MISS_PX:
         raise GeometryError(
-            "chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or align "
+            "chief rays do not land in a smooth order on the sensor, by {miss:.2g} pixels; take a smaller "
+            "sensor or align "
             "the lens better",
             miss=float(miss),
         )

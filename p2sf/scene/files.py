@@ -28,7 +28,9 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
             "{path} cannot be read, {reason}; give the path of a scene file", path=str(path), reason=str(error.strerror)
         ) from error
     except (ValueError, RecursionError) as error:
-        raise RequestError("{path} is no TOML: {reason}; correct it", path=str(path), reason=str(error)) from error
+        raise RequestError(
+            "{path} is not valid TOML: {reason}; correct it", path=str(path), reason=str(error)
+        ) from error
     try:
         return scene_from(table, Path(path))
     except RequestError as error:

@@ -228,9 +228,7 @@ def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple
 def _skew_method(study: SkewStudy, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
     """Return the fits of a misaligned lens, of which the six coefficients know nothing."""
     numbers, error = study.database.level.numbers, SAFETY * from_phase(study.database.residual_waves)
-    why = Message(
-        "{numbers} fitted numbers; the six Seidel coefficients know rotational symmetry only", numbers=numbers
-    )
+    why = Message("{numbers} fitted numbers; the six Seidel coefficients require rotational symmetry", numbers=numbers)
     choice = Message("{method}", method="fitted")
     return Recipe("fitted", numbers, *sampling), Decision(Message("method"), choice, why, error, "method")
 

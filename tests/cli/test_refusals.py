@@ -39,7 +39,7 @@ def steep(rim: float) -> Lens:
 
 
 def test_real_rays_have_no_pupil_at_infinity_to_go_through():
-    with pytest.raises(GeometryError, match="entrance pupil is at infinity, so a field angle says nothing"):
+    with pytest.raises(GeometryError, match="entrance pupil is at infinity, so a field angle has no meaning"):
         pencil(twice_telecentric(), Source(98.0, 0.0, 0.5), *ON_AXIS)
 
 
@@ -87,7 +87,7 @@ def test_an_export_that_cannot_be_sampled_is_refused(options, words, refused):
 
 def test_no_thread_at_all_is_refused(refused):
     told = refused("psf", "tessar", "--method", "huygens", "--pixels", "4", "--threads", "0")
-    assert "--threads is 0; give a whole number from 1 on" in told
+    assert "--threads is 0; give a whole number of 1 or more" in told
 
 
 def test_an_export_and_a_stack_are_told_about_in_words(said, tmp_path):
@@ -189,7 +189,7 @@ def test_an_interlaced_deep_png_is_refused(tmp_path):
 FIRST, SURFACE = "SO    0.0 0.1e14", "S     -128.2051282051282 95.5"
 CODEV_REFUSED = {
     "an aperture angle beyond a right one": ((("EPD   20.0", "NA 1.5"),), "1.5 is impossible in index 1"),
-    "an object in the first vertex": ((("EPD   20.0", "NAO 0.1"), (FIRST, "SO 0.0 0.0")), "lies in the first vertex"),
+    "an object in the first vertex": ((("EPD   20.0", "NAO 0.1"), (FIRST, "SO 0.0 0.0")), "lies at the first vertex"),
     "a surface out of its turn": (((SURFACE, "S7 -128.2 95.5"),), "surface 7 is where 3 is expected"),
     "a tilted image": ((("SI    0.0 0.5", "SI 0.0 0.5\n  XOD 3.0"),), "the image surface .*XOD"),
 }

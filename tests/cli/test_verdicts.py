@@ -64,6 +64,6 @@ def test_glasses_of_a_catalogue_and_substitutes_count(capsys, folder):
 
 def test_what_is_no_folder_and_an_output_are_refused(capsys, folder):
     code, _, errors = listed(capsys, folder / "a.zmx")
-    assert code == 2 and "is no folder; name one for --list" in errors
+    assert code == 2 and "is not a folder; name one for --list" in errors
     code, _, errors = listed(capsys, folder, "-o", folder / "x.toml")
     assert code == 2 and "--output is for one lens" in errors

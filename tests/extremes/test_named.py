@@ -77,7 +77,7 @@ def test_a_stop_imaged_to_infinity_on_both_sides():
     with pytest.raises(GeometryError) as refused:
         coefficients(lens, 98.0, 0.1, WAVELENGTH)
     assert str(refused.value) == (
-        "the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, "
+        "the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus, "
         'or in Python state the field as an object height, field="height"'
     )
     with pytest.raises(GeometryError, match=r"^an object at infinity has no height; .* height$"):

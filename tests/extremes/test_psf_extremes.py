@@ -211,7 +211,7 @@ def test_a_stack_of_no_psfs_is_empty_and_needs_a_pixel():
         found = seidel_psf(nothing, 16, 1.0, sampling=sampling)
         assert (found.values.shape, found.strehl.shape, found.energy.shape) == ((2, 0, 16, 16), (2, 0), (2, 0))
         assert str(found.sampling) == words
-    with pytest.raises(SamplingError, match=r"^a stack of no PSFs has no width of its own; give the pixel in µm$"):
+    with pytest.raises(SamplingError, match=r"^an empty stack of PSFs has no width of its own; give the pixel in µm$"):
         seidel_psf(nothing, 16)
 
 

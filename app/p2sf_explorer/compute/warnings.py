@@ -18,12 +18,12 @@ from p2sf_explorer.state.scales import significant
 
 SET_STRAIGHT: dict[str, Message] = {
     "seidel": Message("Of the aligned lens: its tilts, decentres and irregularities have no part in these sums."),
-    "coefficients": Message("Of the aligned lens: six coefficients know no tilts, decentres and irregularities."),
-    "first_order": Message("Of the aligned lens: paraxial rays know no tilts, decentres and irregularities."),
-    "ybar": Message("Of the aligned lens: paraxial rays know no tilts, decentres and irregularities."),
+    "coefficients": Message("Of the aligned lens: six coefficients leave out tilts, decentres and irregularities."),
+    "first_order": Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
+    "ybar": Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
     "depth_of_field": Message("The paraxial curve and its limits are of the aligned lens; the exact rays are not."),
     "accuracy": Message(
-        "Seidel is of the aligned lens; the other methods know its tilts, decentres and irregularities."
+        "Seidel is of the aligned lens; the other methods include its tilts, decentres and irregularities."
     ),
 }
 """What panels leave out of a misaligned lens."""

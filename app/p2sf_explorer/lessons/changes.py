@@ -76,7 +76,9 @@ def _error(text: str) -> BuildError:
         first, _, last = span.partition("-")
         return cast(Kind, kind), int(first), int(last or first), float(amount)  # the state checks the kind
     except ValueError:
-        raise P2SFError('"{text}" is no error of a build; write such as decentre_y 3-4 0.2', text=text) from None
+        raise P2SFError(
+            '"{text}" is not an error of a build; write for example decentre_y 3-4 0.2', text=text
+        ) from None
 
 
 class LessonError(P2SFError):

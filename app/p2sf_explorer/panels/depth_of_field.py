@@ -110,7 +110,7 @@ def sharp_range(view: DepthOfField, highest_near: float) -> tuple[float, float] 
 def sentence(view: DepthOfField) -> str:
     """Return in words which depths are sharp."""
     if not view.sharp_mm:
-        return tr("no depth before the lens is sharp")
+        return tr("no depth in front of the lens is sharp")
     near, far = (written_distance(mm) if mm else tr("the lens itself") for mm in view.sharp_mm)
     focus = written_distance(view.hyperfocal_mm)
     return tr("sharp from {near} to {far} · hyperfocal distance {focus}", near=near, far=far, focus=focus)

@@ -64,7 +64,7 @@ class ImagePanel:
     def __init__(self, store: Store):
         self._store = store
         self.widget = TurningCard("Image", TIP)
-        self.photo = chooser(tuple(CHART_WORDS.items()), "What stands before the lens", self.widget)
+        self.photo = chooser(tuple(CHART_WORDS.items()), "What stands in front of the lens", self.widget)
         sizes = (*PIXELS.items(), (FULL, "every pixel of the photo"))
         self.pixel = chooser(sizes, "Pixels at the field point, or the field", self.widget)
         self.look = chooser(tuple(LOOKS.items()), "How the two pictures are compared", self.widget)

@@ -67,8 +67,7 @@ TIPS = {
     "vertex": "The vertex: drag it along the axis to change the thickness before it; what follows moves with it.",
     "bend": "The selected element: drag it sideways to bend it, its thin-lens power stays; up or down to decentre it. "
     "A click selects its group.",
-    "glass": "What is selected: drag it along the axis, or up or down to decentre it. "
-    "A click selects no glass any more.",
+    "glass": "The selection: drag it along the axis, or up or down to decentre it. A click no longer selects glass.",
     "held": "The selected piece. A click selects its group; its sliders are in the Misalign panel.",
     "other": "Click to select this element, then drag it, its edges and its vertices.",
 }

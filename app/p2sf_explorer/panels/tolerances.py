@@ -97,7 +97,7 @@ class TolerancesPanel:
         self.again = small_button("Draw again", "Build ten thousand other lenses", self._draw_again)
         self.film = small_button("Film…", FILM_TIP)
         self.back = small_button("As designed", "Close the build, and show the lens as designed", self._close_build)
-        self.as_grade = small_button("As the grade", "Drop all values of one's own", self._drop_own)
+        self.as_grade = small_button("As the grade", "Discard all your own values", self._drop_own)
         self.limit, self.frequency = _number_box(LIMIT_TIP, 4, 1e6), _number_box("Frequency on the sensor", 1, 1e5)
         self.compensate = QToolButton()
         self.kinds = {

@@ -58,7 +58,7 @@ def psf_counts(plan: Plan) -> tuple[Message, Message]:
     places = (-(-rows // 2)) * (-(-columns // 2)) if mirrored else rows * columns
     product = {"rows": rows, "columns": columns, "waves": waves}
     return Message("{count} PSFs", count=places * waves), (
-        Message("{rows} × {columns} places × {waves} wavelengths, mirror images for nothing", **product)
+        Message("{rows} × {columns} places × {waves} wavelengths, mirror images at no cost", **product)
         if places < rows * columns
         else Message("{rows} × {columns} places × {waves} wavelengths", **product)
     )

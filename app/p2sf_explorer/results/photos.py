@@ -1,4 +1,4 @@
-"""What stands before the lens: built-in charts and a person's photos, fitted to the picture's frame. No Qt in here."""
+"""What stands in front of the lens: built-in charts and a person's photos, fitted to the picture's frame. No Qt."""
 
 from functools import lru_cache
 from pathlib import Path

@@ -28,7 +28,7 @@ def lens_drawn(live: Live) -> Layout:
     """Return the drawing of lens and rays; P2SFError with a free pupil, in whose picture the lens has no part."""
     if live.state.what_if.free_pupil:
         raise P2SFError(
-            'the lens is put aside, the six sliders alone make the picture; switch "Free pupil" off to see it'
+            'the lens is set aside, and only the six sliders make the picture; switch "Free pupil" off to see the lens'
         )
     return live.layout
 

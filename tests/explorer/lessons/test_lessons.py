@@ -216,7 +216,7 @@ def test_a_step_may_set_the_errors_of_a_build():
     assert both == (("errors", (("decentre_x", 1, 1, 0.1), ("tilt_x", 7, 7, 3.2))),)
     assert changes("errors none") == (("errors", ()),)
     for bad in ("errors decentre_y 3-4", "errors decentre_y three 0.2", "errors 0.2"):
-        with pytest.raises(P2SFError, match="is no error of a build; write such as decentre_y 3-4"):
+        with pytest.raises(P2SFError, match="is not an error of a build; write for example decentre_y 3-4"):
             changes(bad)
 
 

@@ -211,7 +211,7 @@ def test_the_petzval_radius_is_what_its_tip_says(window):
 def test_a_lens_that_is_put_aside_is_not_drawn(window):
     card = window.panels["layout"].widget
     window.store.update(free_pupil=True)
-    assert "put aside" in card.overlay.text
+    assert "set aside" in card.overlay.text
     window.store.update(free_pupil=False)
     assert not card.overlay.text
 

@@ -12,8 +12,8 @@
 <message><source>"{name}": the lens has surfaces 1 to {count}; decentres and tilts take one, or the ends of a piece as in tilt_x:3-4; radius and index take one, and thickness any but the last</source><translation>"{name}": Das Objektiv hat die Flächen 1 bis {count}; Dezentrierungen und Kippungen nehmen eine oder die Enden eines Stücks wie in tilt_x:3-4, radius und index eine, thickness jede außer der letzten</translation></message>
 <message><source>"{name}:" is not an entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
 <message><source>"{text}" in a claim is not a number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
-<message><source>"{text}" is no error of a build; write such as decentre_y 3-4 0.2</source><translation>"{text}" ist kein Fehler eines Exemplars; etwa decentre_y 3-4 0.2 schreiben</translation></message>
 <message><source>"{text}" is not a claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
+<message><source>"{text}" is not an error of a build; write for example decentre_y 3-4 0.2</source><translation>"{text}" ist kein Fehler eines Exemplars; etwa decentre_y 3-4 0.2 schreiben</translation></message>
 <message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
 <message><source>% of peak</source><translation>% der Spitze</translation></message>
 <message><source>+ no astigmatism (third order)</source><translation>+ kein Astigmatismus (dritte Ordnung)</translation></message>
@@ -182,6 +182,7 @@
 <message><source>Deutsch</source><translation>Deutsch</translation></message>
 <message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
 <message><source>Discard all edits and return to the lens in the file</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
+<message><source>Discard all your own values</source><translation>Alle eigenen Werte verwerfen</translation></message>
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
 <message><source>Distances with units, ∞ included, separated by semicolons: 2 m; 500 mm; ∞</source><translation>Abstände mit ihren Einheiten, auch ∞, mit Semikolons dazwischen: 2 m; 500 mm; ∞</translation></message>
@@ -192,7 +193,6 @@
 <message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
 <message><source>Draw again</source><translation>Neu ziehen</translation></message>
 <message><source>Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF.</source><translation>Ein Bild von Punkten hier ablegen oder eines wählen: ein Schirm heller Punkte, Sterne oder eine PSF.</translation></message>
-<message><source>Drop all values of one's own</source><translation>Alle eigenen Werte verwerfen</translation></message>
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>EFL {focal} mm, {speed} · {column}</source><translation>EFL {focal} mm, {speed} · {column}</translation></message>
@@ -397,8 +397,8 @@
 <message><source>Obscuration</source><translation>Abschattung</translation></message>
 <message><source>Obscuration ε: radius of the dark disc in the middle of the stop, as a share of the rim's. It blocks ε² of the light, narrows the core and brightens the rings.</source><translation>Abschattung ε: Radius der dunklen Scheibe in der Mitte der Blende über dem Radius des Randes. Sie nimmt ε² des Lichtes, macht den Kern schmaler und die Ringe heller.</translation></message>
 <message><source>Of the aligned lens: its tilts, decentres and irregularities have no part in these sums.</source><translation>Vom gerade gestellten Objektiv: seine Kippungen, Dezentrierungen und Passfehler gehen in diese Summen nicht ein.</translation></message>
-<message><source>Of the aligned lens: paraxial rays know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
-<message><source>Of the aligned lens: six coefficients know no tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: paraxiale Strahlen kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Of the aligned lens: six coefficients leave out tilts, decentres and irregularities.</source><translation>Vom gerade gestellten Objektiv: sechs Koeffizienten kennen keine Kippungen, Dezentrierungen und Passfehler.</translation></message>
 <message><source>Of the whole field, the same at every point.</source><translation>Des ganzen Feldes, an jedem Punkt gleich.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Abstand von der Achse.</translation></message>
 <message><source>Of the whole field: at the farthest point, growing with the square of the distance from the axis.</source><translation>Des ganzen Feldes: am fernsten Punkt, wächst mit dem Quadrat des Abstands von der Achse.</translation></message>
@@ -563,11 +563,6 @@
 <message><source>R² compares with the Huygens sum of exact rays; it is predicted until that sum is done, then measured.</source><translation>R² vergleicht mit der Huygens-Summe exakter Strahlen; es ist vorhergesagt, bis diese Summe fertig ist, dann gemessen.</translation></message>
 <message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
-<message><source>R² ≥ 0.9</source><translation>R² ≥ 0,9</translation></message>
-<message><source>R² ≥ 0.95</source><translation>R² ≥ 0,95</translation></message>
-<message><source>R² ≥ 0.99</source><translation>R² ≥ 0,99</translation></message>
-<message><source>R² ≥ 0.999</source><translation>R² ≥ 0,999</translation></message>
-<message><source>R² ≥ 0.9999</source><translation>R² ≥ 0,9999</translation></message>
 <message><source>R² ≥ {r2} against Huygens</source><translation>R² ≥ {r2} gegen Huygens</translation></message>
 <message><source>R² ≥ {value:g}</source><translation>R² ≥ {value:g}</translation></message>
 <message><source>Sampling</source><translation>Abtastung</translation></message>
@@ -600,7 +595,7 @@
 <message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
 <message><source>Sections of the PSF through the chief ray, relative to its peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of the centroid; grey: a perfect lens. If something stands in the stop, the perfect lens has the same pupil, and a thin curve is for the clear one. The RMS radius is that of the rays, since that of diffracted light is infinite.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse, mit etwas in der Blende die derselben Pupille, und dünn die der freien. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
 <message><source>Seidel and chromatic sums: what each surface adds, in waves at the rim of the pupil; large ones of opposite sign cancel. C I and C II: defocus and tilt of the lens's shortest wavelength minus those of its longest. Point at a bar to highlight its surface in the layout, or at a surface to highlight its bar.</source><translation>Seidel- und Farbsummen: was jede Fläche beiträgt, in Wellen am Pupillenrand; große mit entgegengesetztem Vorzeichen heben sich auf. C I und C II: Defokus und Verkippung der kürzesten Wellenlänge des Objektivs minus die der längsten. Auf einen Balken zeigen: seine Fläche leuchtet im Aufbau, und umgekehrt.</translation></message>
-<message><source>Seidel is of the aligned lens; the other methods know its tilts, decentres and irregularities.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen, Dezentrierungen und Passfehler.</translation></message>
+<message><source>Seidel is of the aligned lens; the other methods include its tilts, decentres and irregularities.</source><translation>Seidel gilt für das gerade gestellte Objektiv; die anderen Methoden kennen seine Kippungen, Dezentrierungen und Passfehler.</translation></message>
 <message><source>Seidel per surface</source><translation>Seidel je Fläche</translation></message>
 <message><source>Semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>Sensor</source><translation>Sensor</translation></message>
@@ -706,6 +701,7 @@
 <message><source>The rear-stop landscape lens turned around: its stop stands before the meniscus</source><translation>Die Landschaftslinse mit hinterer Blende, umgedreht: ihre Blende steht vor dem Meniskus</translation></message>
 <message><source>The selected element: drag it sideways to bend it, its thin-lens power stays; up or down to decentre it. A click selects its group.</source><translation>Die gewählte Linse: seitwärts ziehen, um sie durchzubiegen, ihre Brechkraft als dünne Linse bleibt; auf oder ab, um sie zu dezentrieren. Ein Klick wählt ihre Gruppe.</translation></message>
 <message><source>The selected piece. A click selects its group; its sliders are in the Misalign panel.</source><translation>Das Gewählte. Ein Klick wählt seine Gruppe; seine Regler stehen im Feld Dejustieren.</translation></message>
+<message><source>The selection: drag it along the axis, or up or down to decentre it. A click no longer selects glass.</source><translation>Das Gewählte: entlang der Achse ziehen, oder auf oder ab, um es zu dezentrieren. Ein Klick wählt kein Glas mehr.</translation></message>
 <message><source>The sensitivities are computed from exact rays.</source><translation>Die Empfindlichkeiten werden aus exakten Strahlen berechnet.</translation></message>
 <message><source>The sensor: drag it along the axis to shift it.</source><translation>Der Sensor: entlang der Achse ziehen, um ihn zu verschieben.</translation></message>
 <message><source>The source: drag it up and down to change the field, sideways to change the depth; ∞ is at the left.</source><translation>Die Quelle: nach oben und unten ziehen ändert das Feld, seitlich den Abstand; ∞ liegt links.</translation></message>
@@ -776,7 +772,6 @@
 <message><source>To the previous part of the window</source><translation>Zum vorigen Teil des Fensters</translation></message>
 <message><source>Tolerance</source><translation>Toleranz</translation></message>
 <message><source>Tolerance of all errors of this kind</source><translation>Toleranz aller Fehler dieser Art</translation></message>
-<message><source>Tolerance: the R² against the Huygens reference that auto must promise.</source><translation>Toleranz: das R² gegen die Huygens-Referenz, das auto versprechen muss.</translation></message>
 <message><source>Tolerances</source><translation>Toleranzen</translation></message>
 <message><source>Tolerances: every radius, thickness, glass, tilt, decentre and irregularity is off by what a workshop leaves, anywhere within its tolerance. Which error hurts most, and what share of 10 000 such lenses is good enough; each is focused again.</source><translation>Toleranzen: Jeder Radius, jede Dicke, jedes Glas, jede Verkippung, jede Dezentrierung und jeder Passfehler weicht ab, wie eine Werkstatt es zulässt, irgendwo innerhalb der Toleranz. Welcher Fehler am meisten schadet, und welcher Anteil von 10 000 solchen Objektiven gut genug ist; jedes wird neu fokussiert.</translation></message>
 <message><source>Tolerated blur</source><translation>Erlaubte Unschärfe</translation></message>
@@ -841,9 +836,8 @@
 <message><source>What changes from column to column</source><translation>Was sich von Spalte zu Spalte ändert</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What is adjusted in every lens at assembly so that the mean square of the wavefronts of all fields is smallest.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
-<message><source>What is selected: drag it along the axis, or up or down to decentre it. A click selects no glass any more.</source><translation>Das Gewählte: entlang der Achse ziehen, oder auf oder ab, um es zu dezentrieren. Ein Klick wählt kein Glas mehr.</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
-<message><source>What stands before the lens</source><translation>Was vor dem Objektiv steht</translation></message>
+<message><source>What stands in front of the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What stands in the stop: an obscuration, the blades of an iris, the vanes of a spider, a filter, a phase plate; phases and amplitudes of a lens file stay.</source><translation>Was in der Blende steht: eine Abschattung, die Lamellen einer Iris, die Streben einer Spinne, ein Filter, eine Phasenplatte; Phasen und Amplituden einer Objektivdatei bleiben.</translation></message>
 <message><source>What the film shows</source><translation>Was der Film zeigt</translation></message>
 <message><source>What the pictures show</source><translation>Was die Bilder zeigen</translation></message>
@@ -894,9 +888,7 @@
 <message><source>a blur that takes {across} pupil samples a side behind a mask; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe, die {across} Abtastwerte der Pupille je Seite braucht, hinter einer Maske; den Sensor näher an das Bild bringen oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
 <message><source>a circle</source><translation>ein Kreis</translation></message>
-<message><source>a colour PSF</source><translation>eine PSF in Farbe</translation></message>
 <message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
-<message><source>a curve over the field</source><translation>eine Kurve über das Feld</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
 <message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a database of fields along one line</source><translation>eine Datenbank mit Feldern auf einer Linie</translation></message>
@@ -939,7 +931,6 @@
 <message><source>a row of lens data needs number, radius and distance; complete it</source><translation>eine Zeile der Linsendaten braucht Nummer, Radius und Abstand; ergänzen</translation></message>
 <message><source>a set of PSFs needs a depth, a field and a wavelength at least; give one of each</source><translation>ein Satz PSFs braucht mindestens einen Abstand, ein Feld und eine Wellenlänge; je eines angeben</translation></message>
 <message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
-<message><source>a stack of no PSFs has no width of its own; give the pixel in µm</source><translation>ein Stapel ohne PSFs hat keine eigene Breite; das Pixel in µm angeben</translation></message>
 <message><source>a surface that is not round</source><translation>eine Fläche, die nicht rund ist</translation></message>
 <message><source>a text</source><translation>einen Text</translation></message>
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
@@ -972,6 +963,7 @@
 <message><source>an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel</source><translation>eine FFT von {samples} × {samples} Pupillenproben ist zu groß; mdft nehmen oder das Pixel ändern</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende angeben</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
+<message><source>an empty stack of PSFs has no width of its own; give the pixel in µm</source><translation>ein Stapel ohne PSFs hat keine eigene Breite; das Pixel in µm angeben</translation></message>
 <message><source>an end of the sweep</source><translation>ein Ende des Durchlaufs</translation></message>
 <message><source>an energy fraction of {fraction}; give a number between 0 and 1</source><translation>ein Energieanteil von {fraction}; eine Zahl zwischen 0 und 1 angeben</translation></message>
 <message><source>an error of the build is at surfaces {value}; give the first and the last, counted from 1</source><translation>ein Fehler des Baus liegt an den Flächen {value}; die erste und die letzte angeben, ab 1 gezählt</translation></message>
@@ -1045,8 +1037,8 @@
 <message><source>chief ray</source><translation>Hauptstrahl</translation></message>
 <message><source>chief ray ȳ, mm</source><translation>Hauptstrahl ȳ, mm</translation></message>
 <message><source>chief ray, µm</source><translation>Hauptstrahl, µm</translation></message>
+<message><source>chief rays do not land in a smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or align the lens better</source><translation>Hauptstrahlen treffen den Sensor in keiner glatten Ordnung, um {miss:.2g} Pixel; einen kleineren Sensor nehmen oder das Objektiv gerader stellen</translation></message>
 <message><source>chief rays do not reach all of the sensor; take a smaller sensor</source><translation>Hauptstrahlen erreichen nicht den ganzen Sensor; einen kleineren Sensor nehmen</translation></message>
-<message><source>chief rays land in no smooth order on the sensor, by {miss:.2g} pixels; take a smaller sensor or align the lens better</source><translation>Hauptstrahlen treffen den Sensor in keiner glatten Ordnung, um {miss:.2g} Pixel; einen kleineren Sensor nehmen oder das Objektiv gerader stellen</translation></message>
 <message><source>choose a folder that is one</source><translation>einen Ordner wählen, der einer ist</translation></message>
 <message><source>choose a folder you may write to</source><translation>einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
 <message><source>choose a photo that was taken through this lens by Photo…, or drop it here: a chart was not</source><translation>ein Foto, das dieses Objektiv aufgenommen hat, mit Foto … wählen oder hier ablegen: eine Tafel ist keines</translation></message>
@@ -1220,7 +1212,7 @@
 <message><source>glass "{name}" is a table of {count:d} points, too long to be shipped; write the points you need as {{ wavelengths_um = […], n = […] }}</source><translation>das Glas "{name}" ist eine Tabelle von {count:d} Punkten, zu lang, um beizuliegen; die gebrauchten Punkte als {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
 <message><source>glass "{name}" is in no catalogue; {suggestion}</source><translation>das Glas "{name}" steht in keinem Katalog; {suggestion}</translation></message>
 <message><source>glass "{name}" is listed with its absorption only; give its index or nd and vd</source><translation>das Glas "{name}" ist nur mit seiner Absorption verzeichnet; seinen Index oder nd und vd angeben</translation></message>
-<message><source>glass "{name}" is no page of refractiveindex.info that is shipped; check shelf/book/page</source><translation>das Glas "{name}" ist keine der beiliegenden Seiten von refractiveindex.info; shelf/book/page prüfen</translation></message>
+<message><source>glass "{name}" is not among the shipped pages of refractiveindex.info; check shelf/book/page</source><translation>das Glas "{name}" ist keine der beiliegenden Seiten von refractiveindex.info; shelf/book/page prüfen</translation></message>
 <message><source>glass "{name}" is not in the catalogue of {maker}; {suggestion}</source><translation>das Glas "{name}" steht nicht im Katalog von {maker}; {suggestion}</translation></message>
 <message><source>glass "{name}" is sold with different indices as {glasses}; write the one you mean</source><translation>das Glas "{name}" wird mit verschiedenen Indizes verkauft als {glasses}; das gemeinte schreiben</translation></message>
 <message><source>glass "{name}" of {makers}</source><translation>Glas "{name}" von {makers}</translation></message>
@@ -1354,7 +1346,7 @@
 <message><source>no aperture is stated; the narrowest rim, surface {number}, limits the light</source><translation>keine Öffnung ist angegeben; der engste Rand, Fläche {number}, begrenzt das Licht</translation></message>
 <message><source>no chief ray of an object at {depth} lands {height:.4g} mm from the axis, where the sensor's corner is; take a smaller sensor</source><translation>kein Hauptstrahl eines Objekts bei {depth} landet {height:.4g} mm neben der Achse, wo die Ecke des Sensors ist; einen kleineren Sensor nehmen</translation></message>
 <message><source>no chief ray of this lens's field reaches the sensor; choose a part of the field instead</source><translation>kein Hauptstrahl aus dem Feld dieses Objektivs erreicht den Sensor; stattdessen einen Teil des Feldes wählen</translation></message>
-<message><source>no depth before the lens is sharp</source><translation>kein Abstand vor dem Objektiv ist scharf</translation></message>
+<message><source>no depth in front of the lens is sharp</source><translation>kein Abstand vor dem Objektiv ist scharf</translation></message>
 <message><source>no display answers at DISPLAY={display}; start it from a desktop session, or under xvfb-run</source><translation>kein Bildschirm antwortet auf DISPLAY={display}; aus einer Desktop-Sitzung oder unter xvfb-run starten</translation></message>
 <message><source>no fit has {numbers} numbers; choose one of {offered}</source><translation>keine Anpassung hat {numbers} Zahlen; eine von {offered} wählen</translation></message>
 <message><source>no glass (NM and CD lines) is in this file; give an AGF catalogue</source><translation>in dieser Datei ist kein Glas (Zeilen NM und CD); einen AGF-Katalog angeben</translation></message>
@@ -1418,6 +1410,7 @@
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
 <message><source>only some columns of the lens have {name}; give it to all of them or to none</source><translation>nur manche Spalten des Objektivs haben {name}; allen oder keiner geben</translation></message>
+<message><source>only {count} fields have a focus, but a plane needs three; choose smaller fields</source><translation>{count} Felder haben einen Fokus, und eine Ebene braucht drei; kleinere Felder wählen</translation></message>
 <message><source>only {share:.0%} of the light lies in the window; take a larger one</source><translation>nur {share:.0%} des Lichts liegen im Fenster; ein größeres nehmen</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
@@ -1432,7 +1425,6 @@
 <message><source>partial dispersion</source><translation>Teildispersion</translation></message>
 <message><source>parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop</source><translation>Teile des Objektivs sind gekippt oder dezentriert, und seine Pupille ist keine paraxiale Scheibe; {parameter} stop wählen</translation></message>
 <message><source>parts of the lens are tilted or decentred, which {what} cannot express; save as TOML, or for Zemax at one position</source><translation>Teile des Objektivs sind gekippt oder dezentriert, was {what} nicht sagen kann; als TOML speichern oder für Zemax in einer Stellung</translation></message>
-<message><source>parts of the lens are tilted, decentred or irregular; all paraxial figures and the six coefficients are those of the aligned lens, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt, dezentriert oder haben Passfehler; alle paraxialen Werte und die sechs Koeffizienten sind die des gerade gestellten Objektivs und lassen aus, was das hinzufügt: Koma auf der Achse, ein gekipptes Feld</translation></message>
 <message><source>passes</source><translation>kommt durch</translation></message>
 <message><source>peak</source><translation>Spitze</translation></message>
 <message><source>peak = 1</source><translation>Spitze = 1</translation></message>
@@ -1522,7 +1514,7 @@
 <message><source>rims and holes of mirrors hide {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
-<message><source>rims end a pupil that has an obscuration, or rays of it are lost, and annular terms are over a whole ring; leave {parameter} off, stop the lens down, or remove the obscuration</source><translation>Ränder begrenzen eine Pupille mit Abschattung, oder Strahlen von ihr gehen verloren, und Ringterme gelten über einen ganzen Ring; {parameter} weglassen, abblenden oder die Abschattung wegnehmen</translation></message>
+<message><source>rims cut off a pupil that has an obscuration, or some of its rays are lost, but annular terms need a whole ring; leave {parameter} off, stop the lens down, or remove the obscuration</source><translation>Ränder begrenzen eine Pupille mit Abschattung, oder Strahlen von ihr gehen verloren, und Ringterme gelten über einen ganzen Ring; {parameter} weglassen, abblenden oder die Abschattung wegnehmen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>roundness</source><translation>Rundung</translation></message>
 <message><source>sagittal</source><translation>sagittal</translation></message>
@@ -1629,7 +1621,7 @@
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot express; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
-<message><source>surface {surface} has a hole, and what is asked knows a clear part without holes only; leave {parameter} off, or take the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
+<message><source>surface {surface} has a hole, but this needs a clear part without holes; leave {parameter} off, or treat the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in r^{power}, and a CODE V file holds powers up to r^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in r^{power}, und eine CODE-V-Datei fasst Potenzen bis r^{most}; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
@@ -1703,7 +1695,7 @@
 <message><source>the archive cannot be unpacked ({reason}); unpack it yourself</source><translation>das Archiv lässt sich nicht auspacken ({reason}); von Hand auspacken</translation></message>
 <message><source>the archive contains no .zmx or .seq file; unpack the lens yourself</source><translation>das Archiv enthält keine .zmx- oder .seq-Datei; das Objektiv von Hand auspacken</translation></message>
 <message><source>the aspheres have odd powers (AsphericalOddCount); only even ones are read</source><translation>die Asphären haben ungerade Potenzen (AsphericalOddCount); nur gerade werden gelesen</translation></message>
-<message><source>the axis is folded, and glass is not moved by hand here; use the sliders of Misalign</source><translation>die Achse ist gefaltet, und Glas lässt sich hier nicht mit der Hand bewegen; die Regler von Dejustieren nehmen</translation></message>
+<message><source>the axis is folded, so glass cannot be moved by hand here; use the sliders of Misalign</source><translation>die Achse ist gefaltet, und Glas lässt sich hier nicht mit der Hand bewegen; die Regler von Dejustieren nehmen</translation></message>
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
 <message><source>the builds were stopped before they were done</source><translation>die Exemplare wurden angehalten, bevor sie fertig waren</translation></message>
@@ -1711,23 +1703,22 @@
 <message><source>the chief ray {outcome}; surface {placed} is decentred by ({decentre:g}) mm and tilted by ({tilt:g})°: make that or the field smaller</source><translation>der Hauptstrahl {outcome}; Fläche {placed} ist um ({decentre:g}) mm dezentriert und um ({tilt:g})° gekippt: das oder das Feld verkleinern</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the coefficients</source><translation>die Koeffizienten</translation></message>
-<message><source>the columns have different numbers of fields or wavelengths, and a Zemax file one; save as TOML</source><translation>die Spalten des Objektivs haben verschieden viele Felder oder Wellenlängen, eine Zemax-Datei hat eine Zahl; als TOML speichern</translation></message>
+<message><source>the columns have different numbers of fields or wavelengths, but a Zemax file has one; save as TOML</source><translation>die Spalten des Objektivs haben verschieden viele Felder oder Wellenlängen, eine Zemax-Datei hat eine Zahl; als TOML speichern</translation></message>
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
 <message><source>the columns of the lens have different {what}, {stated}; a file holds one, so give all the same</source><translation>die Spalten des Objektivs haben verschiedene {what}, {stated}; eine Datei hat nur eine, allen dieselbe geben</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
 <message><source>the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer</source><translation>der Kontrast bei {frequency:g} Perioden je mm ist zu klein, um summiert zu werden, bei {field:.4g}°; weniger wählen</translation></message>
 <message><source>the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor</source><translation>das Dunkel- oder Hellbild hat die Form {shape} und das Bild {wanted}; beide mit demselben Sensor aufnehmen</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
-<message><source>the decomposition of a wavefront</source><translation>die Zerlegung einer Wellenfront</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
 <message><source>the depth map holds depths that are not positive; give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält Abstände, die nicht positiv sind; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
 <message><source>the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
 <message><source>the energy follows when the slider rests</source><translation>die Energie folgt, wenn der Regler ruht</translation></message>
-<message><source>the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken</translation></message>
-<message><source>the entrance pupil is at infinity, so a field angle says nothing; move the stop off that focus, or in Python state the field as an object height, field="height"</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken oder in Python das Feld als Objekthöhe angeben, field="height"</translation></message>
+<message><source>the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken</translation></message>
+<message><source>the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus, or in Python state the field as an object height, field="height"</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken oder in Python das Feld als Objekthöhe angeben, field="height"</translation></message>
 <message><source>the entrance pupil is at infinity, so it has no diameter; state the stop's semi-diameter</source><translation>die Eintrittspupille liegt im Unendlichen, hat also keinen Durchmesser; den Halbmesser der Blende angeben</translation></message>
 <message><source>the entrance pupil, {pupil:.6g} mm before the first vertex, lies among the depths, {near:g} to {far:g} mm; build one database on either side of it</source><translation>die Eintrittspupille, {pupil:.6g} mm vor dem ersten Scheitel, liegt zwischen den Abständen, {near:g} bis {far:g} mm; auf jeder Seite von ihr eine Datenbank bauen</translation></message>
-<message><source>the environment variable {name} is {value}; give a whole number from 1 on</source><translation>die Umgebungsvariable {name} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
+<message><source>the environment variable {name} is {value}; give a whole number of 1 or more</source><translation>die Umgebungsvariable {name} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>the export was cancelled; nothing was written</source><translation>der Export wurde abgebrochen; nichts wurde geschrieben</translation></message>
 <message><source>the field is stated {count} times, by {names}; keep one</source><translation>das Feld ist {count}-mal angegeben, durch {names}; eines behalten</translation></message>
 <message><source>the fields of tolerances have several wavelengths; give them one</source><translation>die Felder von Toleranzen haben mehrere Wellenlängen; ihnen eine geben</translation></message>
@@ -1738,7 +1729,7 @@
 <message><source>the file contains no list of surfaces; {remedy}</source><translation>die Datei enthält keine Liste von Flächen; {remedy}</translation></message>
 <message><source>the file contains no surface (S) between object and image</source><translation>die Datei enthält keine Fläche (S) zwischen Objekt und Bild</translation></message>
 <message><source>the file contains no surface between object and image</source><translation>die Datei enthält keine Fläche zwischen Objekt und Bild</translation></message>
-<message><source>the file does not say RDM; its numbers are read as radii, since {value:g} is no lens's curvature</source><translation>die Datei sagt kein RDM; ihre Zahlen sind als Radien gelesen, denn {value:g} ist keine Krümmung einer Linse</translation></message>
+<message><source>the file does not say RDM; its numbers are read as radii, since {value:g} cannot be a lens's curvature</source><translation>die Datei sagt kein RDM; ihre Zahlen sind als Radien gelesen, denn {value:g} ist keine Krümmung einer Linse</translation></message>
 <message><source>the file does not say where the sensor is, and the lens has no focus; it is at the last vertex</source><translation>die Datei sagt nicht, wo der Sensor steht, und das Objektiv hat keinen Fokus; er steht am letzten Scheitel</translation></message>
 <message><source>the file does not say where the sensor is; it is put at the paraxial focus for infinity</source><translation>die Datei sagt nicht, wo der Sensor steht; er kommt in den paraxialen Fokus für unendlich</translation></message>
 <message><source>the file has over {count} lines; a prescription is far smaller</source><translation>die Datei hat über {count} Zeilen; ein Objektiv ist viel kleiner</translation></message>
@@ -1746,8 +1737,8 @@
 <message><source>the file holds {count} positions; the first {most} are read</source><translation>die Datei enthält {count} Stellungen; die ersten {most} werden gelesen</translation></message>
 <message><source>the file holds {count} surfaces; at most {most} are read</source><translation>die Datei enthält {count} Flächen; höchstens {most} werden gelesen</translation></message>
 <message><source>the file is empty; write into it, or name another</source><translation>die Datei ist leer; etwas hineinschreiben oder eine andere nennen</translation></message>
+<message><source>the file is in none of the known formats: {formats}</source><translation>die Datei hat keines der hier bekannten Formate: {formats}</translation></message>
 <message><source>the file is larger than {size} bytes; this is not a lens file</source><translation>die Datei ist größer als {size} Byte; das ist keine Objektivdatei</translation></message>
-<message><source>the file is none of the formats known here: {formats}</source><translation>die Datei hat keines der hier bekannten Formate: {formats}</translation></message>
 <message><source>the file is not UTF-8 text; save it as UTF-8</source><translation>die Datei ist kein UTF-8-Text; als UTF-8 speichern</translation></message>
 <message><source>the file is not text but binary; give the lens as a text file</source><translation>die Datei ist kein Text, sondern binär; das Objektiv als Textdatei angeben</translation></message>
 <message><source>the file is over {size:g} MB; a prescription is far smaller</source><translation>die Datei ist über {size:g} MB groß; ein Objektiv ist viel kleiner</translation></message>
@@ -1759,7 +1750,6 @@
 <message><source>the fit was cancelled before it was done</source><translation>die Anpassung wurde abgebrochen, bevor sie fertig war</translation></message>
 <message><source>the flat field is not brighter than the dark field; expose it longer</source><translation>das Hellbild ist nicht heller als das Dunkelbild; es länger belichten</translation></message>
 <message><source>the focus is stated twice, by {first} and {second}; keep one</source><translation>der Fokus ist zweimal angegeben, durch {first} und {second}; eines behalten</translation></message>
-<message><source>the focus of each zone</source><translation>der Fokus jeder Zone</translation></message>
 <message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
@@ -1779,12 +1769,12 @@
 <message><source>the layout</source><translation>der Aufbau</translation></message>
 <message><source>the lens</source><translation>das Objektiv</translation></message>
 <message><source>the lens as built is the designed lens with its departures; measure relative to the lens</source><translation>das gebaute Objektiv ist das entworfene mit seinen Abweichungen: neben dem Objektiv messen</translation></message>
-<message><source>the lens has a ring of zoom and one of focus, and a Zemax file one list of configurations; save as TOML</source><translation>das Objektiv hat einen Zoomring und einen Fokusring, eine Zemax-Datei eine Liste von Konfigurationen; als TOML speichern</translation></message>
+<message><source>the lens has a zoom ring and a focus ring, but a Zemax file has one list of configurations; save as TOML</source><translation>das Objektiv hat einen Zoomring und einen Fokusring, eine Zemax-Datei eine Liste von Konfigurationen; als TOML speichern</translation></message>
 <message><source>the lens has mirrors, which an ISET file cannot express; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
-<message><source>the lens is put aside, the six sliders alone make the picture; switch "Free pupil" off to see it</source><translation>das Objektiv ist beiseitegelegt, allein die sechs Regler machen das Bild; „Freie Pupille“ ausschalten, um es zu sehen</translation></message>
+<message><source>the lens is set aside, and only the six sliders make the picture; switch "Free pupil" off to see the lens</source><translation>das Objektiv ist beiseitegelegt, allein die sechs Regler machen das Bild; „Freie Pupille“ ausschalten, um es zu sehen</translation></message>
 <message><source>the lens is {value}; give what p2sf.load_lens returns</source><translation>das Objektiv ist {value}; angeben, was p2sf.load_lens liefert</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>the lens names no stop surface and no semi-diameters; state one of them</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser; eines davon angeben</translation></message>
@@ -1804,8 +1794,8 @@
 <message><source>the object height</source><translation>die Objekthöhe</translation></message>
 <message><source>the object is tilted or decentred ({command}), which is not read; move the lens instead</source><translation>das Objekt ist gekippt oder dezentriert ({command}), was nicht gelesen wird; stattdessen das Objektiv bewegen</translation></message>
 <message><source>the object is tilted or decentred, which is not read; move the lens instead</source><translation>das Objekt ist gekippt oder dezentriert, was nicht gelesen wird; stattdessen das Objektiv bewegen</translation></message>
+<message><source>the object lies at the first vertex, where no aperture angle fills the stop; move it</source><translation>das Objekt liegt im ersten Scheitel, wo ein Öffnungswinkel keine Blende füllt; verschieben</translation></message>
 <message><source>the object lies in the entrance pupil, so no cone of light is defined; move the object</source><translation>das Objekt liegt in der Eintrittspupille, also ist kein Lichtkegel festgelegt; das Objekt verschieben</translation></message>
-<message><source>the object lies in the first vertex, where an aperture angle fills no stop; move it</source><translation>das Objekt liegt im ersten Scheitel, wo ein Öffnungswinkel keine Blende füllt; verschieben</translation></message>
 <message><source>the object stands in a medium, which an ISET file cannot express; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the object's height of {height:g} as an angle, for it is far away</source><translation>die Objekthöhe {height:g} als Winkel, denn das Objekt ist sehr weit entfernt</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
@@ -1834,7 +1824,7 @@
 <message><source>the scene</source><translation>die Szene</translation></message>
 <message><source>the scene has no channel; give at least one</source><translation>die Szene hat keinen Kanal; mindestens einen angeben</translation></message>
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
-<message><source>the scene has several depths, and a picture through a misaligned lens knows one; give near_mm and far_mm alike and leave depth_map out</source><translation>die Szene hat mehrere Tiefen, und ein Bild durch ein dejustiertes Objektiv kennt nur eine; near_mm und far_mm gleich angeben und depth_map weglassen</translation></message>
+<message><source>the scene has several depths, but a picture through a misaligned lens has one; give near_mm and far_mm the same value and leave depth_map out</source><translation>die Szene hat mehrere Tiefen, und ein Bild durch ein dejustiertes Objektiv kennt nur eine; near_mm und far_mm gleich angeben und depth_map weglassen</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
 <message><source>the search for rims in the pupil</source><translation>die Suche nach Rändern in der Pupille</translation></message>
 <message><source>the sensitivities were stopped before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
@@ -1844,7 +1834,7 @@
 <message><source>the source is on the axis: no chief ray, so the diagram is a line</source><translation>die Quelle liegt auf der Achse: kein Hauptstrahl, das Diagramm ist also eine Linie</translation></message>
 <message><source>the spectral lines are {given:g} nm; give wavelengths from {least:g} to {most:g} nm, as in lines:486,588,656</source><translation>die Spektrallinien sind {given:g} nm; Wellenlängen von {least:g} bis {most:g} nm angeben, wie in lines:486,588,656</translation></message>
 <message><source>the spectrum "{kind}" is unknown; choose {examples}</source><translation>das Spektrum "{kind}" ist unbekannt; {examples} wählen</translation></message>
-<message><source>the spectrum "{kind}" takes no number, not {number:g}; write {examples}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number:g}; {examples} schreiben</translation></message>
+<message><source>the spectrum "{kind}" takes no number, but has {number:g}; write {examples}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number:g}; {examples} schreiben</translation></message>
 <message><source>the spectrum "{text}" holds "{rest}", which is not a list of numbers; write {examples}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {examples} schreiben</translation></message>
 <message><source>the spectrum {name} has no light that the eye sees; choose one with some</source><translation>das Spektrum {name} hat kein Licht, das das Auge sieht; eines mit Licht wählen</translation></message>
 <message><source>the stage</source><translation>die Bühne</translation></message>
@@ -2048,13 +2038,11 @@
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
 <message><source>{count} blades</source><translation>{count} Lamellen</translation></message>
 <message><source>{count} errors of the build</source><translation>{count} Fehler des Baus</translation></message>
-<message><source>{count} fields have a focus, and a plane needs three; choose smaller fields</source><translation>{count} Felder haben einen Fokus, und eine Ebene braucht drei; kleinere Felder wählen</translation></message>
 <message><source>{count} fits</source><translation>{count} Anpassungen</translation></message>
 <message><source>{count} nodes</source><translation>{count} Knoten</translation></message>
 <message><source>{count} numbers are off</source><translation>{count} Zahlen stimmen nicht</translation></message>
 <message><source>{count} of the drawn rays do not pass (they miss a surface, or are totally reflected); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
-<message><source>{count} points can be used, and the lens as built needs five; take a picture of more points</source><translation>{count} Punkte sind brauchbar, und das gebaute Objektiv braucht fünf; mehr Punkte aufnehmen</translation></message>
 <message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
 <message><source>{count} samples {pixel_um:.3g} µm apart hold no contrast of a PSF of aperture {na:.3g}: λ/(4 NA) is {critical:.3g} µm; sample it so closely, or take the MTF of the lens</source><translation>{count} Proben im Abstand {pixel_um:.3g} µm halten keinen Kontrast einer PSF der Apertur {na:.3g}: λ/(4 NA) sind {critical:.3g} µm; so dicht abtasten oder die MTF des Objektivs nehmen</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
@@ -2108,9 +2096,9 @@
 <message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, its unit, the distance, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei, ihre Einheit und die Entfernung prüfen, und ob sie die dieses Bildes ist</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
-<message><source>{names}: a database knows no tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
-<message><source>{names}: no part of the lens as built; measure spacings in their place</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
+<message><source>{names}: a database cannot express a tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
+<message><source>{names}: not part of the lens as built; measure spacings instead</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
 <message><source>{names}: the picture determines only a combination of these, hardly each of them; leave one out</source><translation>{names}: Das Bild sagt nur eine Verbindung dieser Zahlen und kaum jede einzelne; eine weglassen</translation></message>
 <message><source>{name} and {other} are both given; keep one of them</source><translation>{name} und {other} sind beide angegeben; eins davon behalten</translation></message>
 <message><source>{name} are {count} numbers; write x and y</source><translation>{name} sind {count} Zahlen; x und y schreiben</translation></message>
@@ -2149,11 +2137,10 @@
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
-<message><source>{numbers} fitted numbers; the six Seidel coefficients know rotational symmetry only</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen nur Rotationssymmetrie</translation></message>
+<message><source>{numbers} fitted numbers; the six Seidel coefficients require rotational symmetry</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen nur Rotationssymmetrie</translation></message>
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
-<message><source>{parameter} "{text}" is no wavelength in nm and its share; write such as 550:2</source><translation>{parameter} "{text}" ist keine Wellenlänge in nm mit ihrem Anteil; etwa 550:2 schreiben</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} has {count} terms; give up to {most} numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} Zahlen angeben</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
@@ -2178,9 +2165,8 @@
 <message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
 <message><source>{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}</source><translation>{parameter} ist {value}; 0 für keine oder eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give a number from {low:g} to {high:g}{unit}, or a column of the lens: {columns}</source><translation>{parameter} ist {value}; eine Zahl von {low:g} bis {high:g}{unit} angeben, oder eine Spalte des Objektivs: {columns}</translation></message>
-<message><source>{parameter} is {value}; give a number, 0 or more</source><translation>{parameter} ist {value}; eine Zahl angeben, 0 oder mehr</translation></message>
-<message><source>{parameter} is {value}; give a whole number from 1 on</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
+<message><source>{parameter} is {value}; give a whole number of 1 or more</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{parameter} needs a lens of rotational symmetry, and this one has none; leave it out</source><translation>{parameter} braucht ein rotationssymmetrisches Objektiv, und dieses ist keines; weglassen</translation></message>
@@ -2198,7 +2184,7 @@
 <message><source>{path} cannot be written; choose XDG_DATA_HOME otherwise</source><translation>{path} ist nicht beschreibbar; XDG_DATA_HOME anders wählen</translation></message>
 <message><source>{path} does not state the size of its pixels; give {parameter}</source><translation>{path} sagt nicht, wie groß seine Pixel sind; {parameter} angeben</translation></message>
 <message><source>{path} has a table of {rows} × {columns} values, and its head says {said}; list it again</source><translation>{path} hat eine Tabelle von {rows} × {columns} Werten, und ihr Kopf sagt {said}; sie neu ausgeben</translation></message>
-<message><source>{path} has the ending "{ending}", which is no picture here; choose {choices}</source><translation>{path} hat die Endung "{ending}", was hier kein Bild ist; {choices} wählen</translation></message>
+<message><source>{path} has the ending "{ending}", which is not a picture format here; choose {choices}</source><translation>{path} hat die Endung "{ending}", was hier kein Bild ist; {choices} wählen</translation></message>
 <message><source>{path} has the shape ({shape}); give one picture of 1 or 3 channels</source><translation>{path} hat die Form ({shape}); ein Bild mit 1 oder 3 Kanälen angeben</translation></message>
 <message><source>{path} holds an array of shape {shape}; give rows and columns of counts</source><translation>{path} enthält ein Feld der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
 <message><source>{path} holds values that are not finite; replace them first</source><translation>{path} enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
@@ -2208,13 +2194,13 @@
 <message><source>{path} is a damaged PNG ({why}); save the picture again</source><translation>{path} ist ein beschädigtes PNG ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is a damaged {kind} ({why}); save the picture again</source><translation>{path} ist ein beschädigtes {kind} ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG; ohne Interlacing speichern, in RGB oder Grau</translation></message>
-<message><source>{path} is no TOML: {reason}; correct it</source><translation>{path} ist kein TOML: {reason}; berichtigen</translation></message>
 <message><source>{path} is not a PNG, TIFF, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS; save the snapshot again</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat; den Schnappschuss neu speichern</translation></message>
 <message><source>{path} is not a PSF that this program wrote; export it again with p2sf psf -o</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat; mit p2sf psf -o neu ausgeben</translation></message>
 <message><source>{path} is not a listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio</source><translation>{path} ist keine lesbare Liste einer PSF oder einer Wellenfront; sie als Text aus OpticStudio schreiben</translation></message>
 <message><source>{path} is not a measurement that this program wrote; make it with p2sf measure -o</source><translation>{path} ist keine Messung, die dieses Programm geschrieben hat; sie mit p2sf measure -o erstellen</translation></message>
 <message><source>{path} is not on this computer; the saved state carries the lens itself</source><translation>{path} ist nicht auf diesem Rechner; der gespeicherte Zustand enthält das Objektiv selbst</translation></message>
+<message><source>{path} is not valid TOML: {reason}; correct it</source><translation>{path} ist kein TOML: {reason}; berichtigen</translation></message>
 <message><source>{path} is too large a PNG ({why}); save it smaller</source><translation>{path} ist ein zu großes PNG ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
@@ -2231,7 +2217,7 @@
 <message><source>{path}: a value is missing or of the wrong kind ({reason}); numbers stand without quotes</source><translation>{path}: ein Wert fehlt oder ist von falscher Art ({reason}); Zahlen stehen ohne Anführungszeichen</translation></message>
 <message><source>{path}: no PSF can be read from the ending "{ending}"; choose {choices}</source><translation>{path}: aus der Endung "{ending}" lässt sich keine PSF lesen; {choices} wählen</translation></message>
 <message><source>{path}: one file holds one PSF, this stack has shape ({shape}); write them singly</source><translation>{path}: eine Datei enthält eine PSF, dieser Stapel hat die Form ({shape}); einzeln schreiben</translation></message>
-<message><source>{path}: the ending "{ending}" is no picture here; choose {choices}</source><translation>{path}: die Endung "{ending}" ist hier kein Bild; wählen: {choices}</translation></message>
+<message><source>{path}: the ending "{ending}" is not a picture format here; choose {choices}</source><translation>{path}: die Endung "{ending}" ist hier kein Bild; wählen: {choices}</translation></message>
 <message><source>{path}: the ending "{ending}" is unknown; choose {choices}</source><translation>{path}: die Endung "{ending}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>{path}: this set-up has no PSF; change it until there is a picture</source><translation>{path}: diese Einstellung hat keine PSF; sie ändern, bis es ein Bild gibt</translation></message>
 <message><source>{percent:.1f} %</source><translation>{percent:.1f} %</translation></message>
@@ -2255,7 +2241,7 @@
 <message><source>{rows} rows × {columns} columns; give even counts of at least 2</source><translation>{rows} Zeilen × {columns} Spalten; gerade Anzahlen ab 2 angeben</translation></message>
 <message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
-<message><source>{rows} × {columns} places × {waves} wavelengths, mirror images for nothing</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
+<message><source>{rows} × {columns} places × {waves} wavelengths, mirror images at no cost</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
 <message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
 <message><source>{sampling}; the aligned lens, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
