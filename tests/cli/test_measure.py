@@ -81,7 +81,7 @@ def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
         ((*SCALE, "--wavelength-nm", "550", "--read-noise", "nan"), "--read-noise is nan"),
         ((*SCALE, "--wavelength-nm", "550", "--full-scale", "0"), "--full-scale is 0"),
         ((*SCALE, "--wavelength-nm", "550", "-o", "x.csv"), "choose .npz"),
-        ((*SCALE, "--wavelength-nm", "550", "--light", "550"), '--light "550" is no wavelength'),
+        ((*SCALE, "--wavelength-nm", "550", "--light", "550"), '--light "550" is not a wavelength'),
         ((*SCALE, "--wavelength-nm", "550", "--light", "550:-1"), "550 nm that brings -1"),
     ):
         assert main(["measure", str(picture), *wrong]) == 2

@@ -93,7 +93,7 @@ def test_without_misalignment_it_is_the_picture_of_the_symmetric_lens(gauss):
 
 
 def test_several_depths_are_refused(bad):
-    with pytest.raises(RequestError, match="give near_mm and far_mm alike"):
+    with pytest.raises(RequestError, match="give near_mm and far_mm the same value"):
         form_misaligned(bad, replace(SCENE, near_mm=1000.0), np.zeros((25, 37, 1)))
 
 

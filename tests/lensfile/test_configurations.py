@@ -272,7 +272,7 @@ def test_a_ring_of_focus_is_written_with_the_distances_it_is_focused_on(tmp_path
 
 
 def test_what_other_files_cannot_hold_of_positions_is_refused(tmp_path):
-    with pytest.raises(LensFileError, match="a ring of zoom and one of focus"):
+    with pytest.raises(LensFileError, match="a zoom ring and a focus ring"):
         write_lens(focusing_zoom(), tmp_path / "lens.zmx")
     assert not list(tmp_path.iterdir())
 

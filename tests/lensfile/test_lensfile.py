@@ -55,6 +55,7 @@ def test_every_shipped_lens_survives_the_round_trip(name, tmp_path):
 
 numbers = st.floats(-1e12, 1e12).filter(lambda x: abs(x) > 1e-12)
 positive = st.floats(1e-9, 1e9)
+radii = st.floats(1e-6, 1e6)  # of normalisation
 terms = st.lists(st.floats(-1, 1), min_size=1, max_size=7).map(tuple)
 surfaces = st.builds(
     Surface,
@@ -72,10 +73,10 @@ surfaces = st.builds(
     shape=st.one_of(
         st.none(),
         st.builds(RadialPolynomial, terms),
-        st.builds(RadialPolynomial, terms, positive),
-        st.builds(Qcon, terms, positive),
+        st.builds(RadialPolynomial, terms, radii),
+        st.builds(Qcon, terms, radii),
     ),
-    diffraction=st.one_of(st.none(), st.builds(Diffraction, terms, positive, st.floats(-5, 5))),
+    diffraction=st.one_of(st.none(), st.builds(Diffraction, terms, radii, st.floats(-5, 5))),
 )
 texts = st.text(st.characters(exclude_categories=("Cs",)), max_size=30)
 

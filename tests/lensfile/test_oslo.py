@@ -86,7 +86,7 @@ def test_the_rest_is_refused_too():
     refused_at(
         TRIPLET, ("1.6227 1.6321 1.6187", "1.6227 1.6321"), "private glass CROWN has not one index per wavelength"
     )
-    refused_at(TRIPLET, ("WV 0.58756", "WV 587.56"), "is not light; give micrometres")
+    refused_at(TRIPLET, ("WV 0.58756", "WV 587.56"), "is not that of light; give micrometres")
     refused_at(TRIPLET, ("UNI 1.0", "UNI 0"), 'lens unit "0" is not in mm')
     with pytest.raises(LensFileError, match="no surface between object and image"):
         read(TRIPLET, ("NXT", "XYZ"))

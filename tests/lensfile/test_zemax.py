@@ -241,7 +241,7 @@ REFUSED = {
     "an infinite gap": (("DISZ 2.5", "DISZ INFINITY"), "surface 2 has an infinite thickness"),
     "a stop on the image": (("  DISZ 0\n", "  DISZ 0\n  STOP\n"), "the stop is on the object or the image"),
     "a primary wavelength no glass has": (("5.875618E-1", "40.0"), "outside the data"),
-    "a surface left out": (("SURF 2", "SURF 7"), "surface 7 stands where 2 is due"),
+    "a surface left out": (("SURF 2", "SURF 7"), "surface 7 is where 2 is expected"),
     "an aperture of no object": (("ENPD 2.0E+1", "OBNA 0.1 0"), "an object at infinity has no numerical aperture"),
     "a field of 90°": (("YFLN 0 1.0", "YFLN 0 90"), "field angle 90° is not below 90°"),
 }

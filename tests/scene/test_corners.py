@@ -120,7 +120,7 @@ def test_two_channels_fit_neither_a_colour_picture_nor_a_file(grey, tmp_path, ca
     assert "has 3 channels and the scene 2; give the scene 1 or 3" in capsys.readouterr().err
     write_photo(tmp_path / "one.png", np.full((40, 60), 0.5, np.float32))
     assert main(["image", "cooke_triplet", str(grey), str(tmp_path / "one.png"), "-o", str(tmp_path / "o.png")]) == 2
-    assert "the scene has 2 channels, and a picture file 1 or 3" in capsys.readouterr().err
+    assert "the scene has 2 channels, but a picture file has 1 or 3" in capsys.readouterr().err
 
 
 def test_a_plan_says_what_random_points_found(grey, capsys):

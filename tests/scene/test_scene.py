@@ -231,7 +231,7 @@ def test_a_scene_is_read_from_toml(tmp_path):
         ("near_mm = 15000", "near_mm = 30000", "near one first"),
         ("wavelengths_nm = [530, 560]", "wavelengths_nm = []", "at least one"),
         ('name = "desk"', "nane = 1", "means nothing here"),
-        ("[depth]", "[depth", "no TOML"),
+        ("[depth]", "[depth", "is not valid TOML"),
     ],
 )
 def test_a_wrong_scene_is_one_sentence_with_its_file(tmp_path, old, new, words):

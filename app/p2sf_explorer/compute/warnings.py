@@ -81,7 +81,7 @@ def _by_hand(setup: ParaxialSetup) -> Message | None:
     if not setup.altered:
         return None
     return Message(
-        "What-if: coefficients altered by hand. Image, database, field curves, chromatic shift, depth of field, "
+        "What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, "
         "rays, spots, fans and sums per surface remain those of the lens."
     )
 
