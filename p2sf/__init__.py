@@ -28,7 +28,7 @@ if TYPE_CHECKING:
         tradeoff,
         zernike,
     )
-    from p2sf.errors import P2SFError
+    from p2sf.errors import P2SFError, P2SFWarning
     from p2sf.io.psf_plot import draw_psf
     from p2sf.lens.lens import Lens, with_mask
     from p2sf.lens.source import Source
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Lens",
     "P2SFError",
+    "P2SFWarning",
     "Psf",
     "PupilMap",
     "PupilMask",
@@ -71,6 +72,7 @@ __all__ = [
 _ELSEWHERE = {
     "Lens": "p2sf.lens.lens",
     "P2SFError": "p2sf.errors",
+    "P2SFWarning": "p2sf.errors",
     "Psf": "p2sf.psf.result",
     "PupilMap": "p2sf.pupil.mask",
     "PupilMask": "p2sf.pupil.mask",

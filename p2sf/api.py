@@ -1,9 +1,11 @@
 """The functions of ``import p2sf``; each imports the modules that it needs when it is first called.
 
-These functions take degrees and nanometres; inside, slopes and micrometres are used (`p2sf.conventions`).
+These functions take degrees and nanometres; inside, slopes and micrometres are used (`p2sf.conventions`). An astropy
+quantity is converted to the unit that the name of its parameter ends in.
 """
 
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
@@ -12,19 +14,19 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.arguments import argument, checked, number_list, real_array
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.errors import ExportError, RequestError
+from p2sf.errors import ExportError, P2SFWarning, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Alternatives, Message, ParameterName
+from p2sf.messages import Message, ParameterName
 from p2sf.notebook import html_table
 from p2sf.parameters import check_angle, check_finite
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.request import AimChoice, Request, StopChoice, aimed, check_aim, check_lens, set_up, set_up_source
+from p2sf.request import AimChoice, Request, StopChoice, aimed, check_aim, set_up, set_up_source
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
-    from p2sf.database.render import Database
     from p2sf.database_files.provenance import Stored
     from p2sf.metrics.measures import Energy, LineSpread, Mtf, PupilPart
     from p2sf.psf.methods import Choice
@@ -41,6 +43,7 @@ PupilMethod = Literal["auto", "seidel", "fitted", "traced", "huygens"]
 ON_AXIS = Source()
 
 
+@checked
 def load_lens(name_or_path: Path) -> Lens:
     """Load a shipped lens or a lens file.
 
@@ -72,6 +75,7 @@ def load_lens(name_or_path: Path) -> Lens:
     return find_lens(name_or_path)
 
 
+@checked
 def render(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -82,6 +86,7 @@ def render(
     quality: Literal["settled", "preview"] = "settled",
     tolerance: float = 0.99,
     clip: bool = False,
+    integrated: bool | None = None,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -109,6 +114,9 @@ def render(
         Smallest R² against the exact reference that "auto" accepts.
     clip : bool
         Stop rays at every clear semi-diameter, not only at the aperture stop.
+    integrated : bool, optional
+        Whether a sample is the light on the square pixel around it, or the intensity at its place. By default it is
+        the light where pixels are wider than λ/(4 NA), up to which samples hold all of a PSF.
     focus_mm : float, optional
         Focus on the plane this far in front of the first vertex, mm; inf is allowed. By default the sensor stays where
         the lens has it.
@@ -128,7 +136,8 @@ def render(
     Returns
     -------
     Psf
-        Samples with unit sum, rows towards the field, and how they were computed.
+        Samples with unit sum, rows towards the field, and how they were computed. ``energy`` is the share of all light
+        that falls into the window; below 0.9 a ``P2SFWarning`` says so.
 
     Raises
     ------
@@ -148,16 +157,20 @@ def render(
     >>> p2sf.render(lens, p2sf.Source(field_deg=10), focus_mm=3000, f_number=5.6).method
     'fitted'
     """
-    from p2sf.psf import methods
+    from p2sf.psf.pixel_integrals import render_integrated
+    from p2sf.psf.result import warned
 
     setup = set_up_source(
         lens, source, focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim
     )
     with using_threads(threads):
-        psf = methods.render(setup.lens, setup.source, method, pixels, pixel_um, quality, tolerance, clip)
-    return replace(psf, azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf
+        psf = render_integrated(
+            setup.lens, setup.source, method, pixels, pixel_um, tolerance, quality, clip, integrated
+        )
+    return warned(replace(psf, azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 4)
 
 
+@checked
 def coefficients(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -203,6 +216,7 @@ def coefficients(
     return seidel.coefficients(setup.lens, *place, setup.stop)
 
 
+@checked
 def zernike(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -232,9 +246,9 @@ def zernike(
     Returns
     -------
     ZernikeFit
-        For each term its coefficient in waves and its share of the variance without piston and tilt; RMS and residual.
-        The wavefront is (optical path of the chief ray − that of the ray)/λ on the sphere about the chief ray's sensor
-        point.
+        For each term its coefficient in waves and its share of the variance without piston and tilt; RMS without them,
+        and residual. The wavefront is (optical path of the chief ray − that of the ray)/λ on the sphere about the chief
+        ray's sensor point.
 
     Raises
     ------
@@ -246,7 +260,7 @@ def zernike(
     >>> import p2sf
     >>> found = p2sf.zernike(p2sf.load_lens("telephoto"), p2sf.Source(field_deg=7))
     >>> found.terms[6].name, round(float(found.waves[6]), 3), round(found.rms, 3)
-    ('coma', -0.057, 0.184)
+    ('coma', -0.057, 0.138)
     """
     from p2sf.raytrace.zernike_fit import zernike_fit
 
@@ -256,6 +270,7 @@ def zernike(
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
+@checked
 def choose_method(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -307,6 +322,7 @@ def choose_method(
     return choose(setup.lens, source, tolerance, clip)
 
 
+@checked
 def mtf(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -332,7 +348,7 @@ def mtf(
         What describes the pupil: exact rays ("traced" and "huygens" are the same here), a fit, the six coefficients,
         or what `choose_method` chooses.
     frequency_per_mm : array_like, optional
-        Cycles per mm on the sensor, (n,); by default evenly spaced up to the cut-off.
+        Cycles per mm on the sensor, one or (n,); by default evenly spaced up to the cut-off.
     spectrum : str, optional
         A spectrum ("d65", "a", "e", "planck:4300", "lines:486,656"), whose wavelengths are weighted as the eye does,
         with lateral colour. By default only the wavelength of the source.
@@ -367,6 +383,7 @@ def mtf(
     return mtf_of(parts, used, frequency_per_mm, turn_deg=turn_deg)
 
 
+@checked
 def encircled_energy(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -423,6 +440,7 @@ def encircled_energy(
     return energy_in(parts, used, radius_um)
 
 
+@checked
 def line_spread(
     lens: Lens,
     source: Source = ON_AXIS,
@@ -515,11 +533,12 @@ class TradeoffTable(list["MethodCost"]):
         return table(self)
 
 
+@checked
 def tradeoff(
     lens: Lens,
-    fields_deg: Sequence[float] | None = None,
-    depths_mm: Sequence[float] = (inf,),
-    wavelengths_nm: Sequence[float] | None = None,
+    fields_deg: ArrayLike | None = None,
+    depths_mm: ArrayLike = (inf,),
+    wavelengths_nm: ArrayLike | None = None,
     *,
     methods: str | Sequence[str] = ("gaussian", "seidel", "fitted", "traced", "huygens"),
     pixels: int = 64,
@@ -532,9 +551,9 @@ def tradeoff(
     ----------
     lens : Lens
         The lens, see `load_lens`.
-    fields_deg, wavelengths_nm : sequence of float, optional
+    fields_deg, wavelengths_nm : array_like, optional
         Field angles, degrees, and wavelengths, nm; by default the fields and the middle wavelength of the lens.
-    depths_mm : sequence of float
+    depths_mm : array_like
         Object distances from the first vertex, mm.
     methods : str or sequence of str
         One method, or several.
@@ -564,23 +583,24 @@ def tradeoff(
     """
     from p2sf.studies import tradeoff as study
 
-    check_lens(lens)
     check_aim(aim)
-    fields = None if fields_deg is None else tuple(fields_deg)
+    fields = None if fields_deg is None else tuple(number_list("fields_deg", fields_deg).tolist())
     for angle in fields or ():
         check_angle("fields_deg", angle)
+    depths = number_list("depths_mm", depths_mm, infinite=True).tolist()
+    waves = None if wavelengths_nm is None else number_list("wavelengths_nm", wavelengths_nm).tolist()
     methods = (methods,) if isinstance(methods, str) else methods
-    lens = aimed(lens, aim)
-    return TradeoffTable(study.tradeoff(lens, fields, depths_mm, wavelengths_nm, methods, pixels, pixel_um))
+    return TradeoffTable(study.tradeoff(aimed(lens, aim), fields, depths, waves, methods, pixels, pixel_um))
 
 
+@checked
 def build_database(
     lens: Lens,
     depths_mm: ArrayLike,
     fields_deg: ArrayLike,
     wavelengths_nm: ArrayLike,
     *,
-    method: Literal["seidel", "fitted"] = "seidel",
+    method: Literal["auto", "seidel", "fitted"] = "auto",
     interpolant: Literal["exact", "table1", "linear"] = "exact",
     fields_x_deg: ArrayLike | None = None,
     path: Path | None = None,
@@ -599,13 +619,15 @@ def build_database(
     depths_mm, fields_deg, wavelengths_nm : array_like
         Nodes along each axis, ascending: object distances from the first vertex, mm, of which the last may be inf;
         field angles, degrees; wavelengths, nm. The database covers everything between the outermost nodes.
-    method : {"seidel", "fitted"}
-        The method whose numbers are stored.
+    method : {"auto", "seidel", "fitted"}
+        The method whose numbers are stored; "auto" takes the six coefficients where they keep R² ≥ 0.99 everywhere, and
+        fits to exact rays elsewhere.
     interpolant : {"exact", "table1", "linear"}
-        For "seidel": polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or linear interpolation.
+        For "seidel", which "auto" then is: polynomials exact to round-off, the rule of Pieroni et al. 2015, table 1, or
+        linear interpolation.
     fields_x_deg : array_like, optional
-        For "fitted": angles along x, degrees, ascending, where ``fields_deg`` are those along y. A lens with tilts or
-        decentres needs them, since its PSFs depend on both.
+        For "fitted", which "auto" then is: angles along x, degrees, ascending, where ``fields_deg`` are those along y.
+        A lens with tilts or decentres needs them, since its PSFs depend on both.
     path : str or path, optional
         A .npz file to which the database is also written.
     focus_mm, sensor_shift_um, f_number, stop, aim
@@ -614,8 +636,9 @@ def build_database(
     Returns
     -------
     Stored
-        ``.psf(source)`` and ``.coefficients(source)`` look up a source. ``.meta`` says where the numbers come from, and
-        ``.meta["errors_waves"]`` how exact they are.
+        ``.psf(source)`` and ``.coefficients(source)`` look up a source. ``.accuracy`` is the predicted 1 − R² of its
+        PSFs against exact rays, and above 1e-3 a ``P2SFWarning`` says so; ``.meta`` says where the numbers come from,
+        and ``.meta["errors_waves"]`` how exactly they are looked up.
 
     Raises
     ------
@@ -632,8 +655,9 @@ def build_database(
     >>> lens = p2sf.load_lens("double_gauss_28")
     >>> database = p2sf.build_database(lens, [2000, 5000, float("inf")], [0, 7, 14], [450, 550, 650])
     >>> database.psf(p2sf.Source(3000, field_deg=5, wavelength_nm=500)).method
-    'seidel'
+    'fitted'
     """
+    from p2sf.database.accuracy import build_by
     from p2sf.database.space import Space
     from p2sf.database_files import Stored, provenance, save_database
 
@@ -648,37 +672,26 @@ def build_database(
         )
     fields = _slopes("fields_deg", fields_deg)
     fields_x = None if fields_x_deg is None else _slopes("fields_x_deg", fields_x_deg)
-    if fields_x is not None and method != "fitted":
+    if fields_x is not None and method not in ("auto", "fitted"):
         raise RequestError(
             "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
         )
     request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim)
     setup = set_up(lens, request)
-    depths = np.asarray(depths_mm, dtype=float)
-    space = Space(depths, fields, np.asarray(wavelengths_nm, dtype=float) / NM_PER_UM, fields_x)
-    if method == "fitted":
-        from p2sf.database.fitted_build import build_fitted
-
-        database: Database = build_fitted(setup.lens, space, setup.stop)
-    elif method == "seidel":
-        from p2sf.database.build import build_database as build
-
-        database = build(setup.lens, space, interpolant, setup.stop)
-    else:
-        raise RequestError(
-            '{parameter} is "{value}"; choose {choices}',
-            parameter="method",
-            value=method,
-            choices=Alternatives(("seidel", "fitted")),
-        )
+    depths, waves = real_array("depths_mm", depths_mm), real_array("wavelengths_nm", wavelengths_nm)
+    space = Space(depths, fields, waves / NM_PER_UM, fields_x)
+    database = build_by(setup.lens, space, method, interpolant, setup.stop)
     if path is not None:
         save_database(database, setup.lens, path, setup.stop)
-    return Stored(database, provenance(database, setup.lens, setup.stop))
+    stored = Stored(database, provenance(database, setup.lens, setup.stop))
+    if stored.accuracy.caution:
+        warnings.warn(str(stored.accuracy.caution), P2SFWarning, stacklevel=3)
+    return stored
 
 
 def _slopes(name: str, angles_deg: ArrayLike) -> np.ndarray:
     """Return the slopes of field angles in degrees; RequestError, naming the parameter, for one that cannot be."""
-    angles = np.asarray(angles_deg, dtype=float)
+    angles = real_array(name, angles_deg)
     for angle in angles.ravel().tolist():
         check_angle(name, angle)
     return slope_from_degrees(angles)
@@ -699,6 +712,7 @@ def _check_database_path(path: Path) -> None:
     check_place(path)
 
 
+@checked
 def open_database(path: Path) -> "Stored":
     """Open a PSF database: a .npz file or a stack written by `build_database` or ``p2sf database build``.
 
@@ -727,6 +741,7 @@ def open_database(path: Path) -> "Stored":
     return open_stored(path)
 
 
+@checked
 def plan(lens: Lens, scene: "Scene | Path", check: Callable[[], None] | None = None) -> "Plan":
     """Find the cheapest model of a lens that stays within the tolerance of a scene.
 
@@ -759,13 +774,14 @@ def plan(lens: Lens, scene: "Scene | Path", check: Callable[[], None] | None = N
     >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
     True
     """
-    check_lens(lens)
     from p2sf.scene import Scene, read_scene
     from p2sf.scene import plan as cheapest_plan
 
+    scene = argument("scene", scene, Scene | Path)
     return cheapest_plan(lens, scene if isinstance(scene, Scene) else read_scene(scene), check)
 
 
+@checked
 def form_image(
     planned: "Plan",
     values: ArrayLike,
@@ -782,9 +798,11 @@ def form_image(
     planned : Plan
         What `plan` found for the lens and the scene.
     values : array_like
-        The scene in linear light, shape (rows, columns, channels) as the scene's sensor and colours say.
+        The scene in linear light, shape (rows, columns, channels) as the scene's sensor and colours say: floats, since
+        whole numbers are codes of sRGB in most pictures.
     depth_mm : array_like, optional
-        Depth of every pixel, mm, shape (rows, columns); by default the far end of the scene.
+        Depth of every pixel, mm, shape (rows, columns), between ``near_mm`` and ``far_mm`` of the scene; by default
+        its far end.
     method : {"patches", "lowrank"}
         With overlapping patches, or with a few kernels for the whole picture.
     surround : {"edge", "black"}
@@ -800,7 +818,7 @@ def form_image(
     Raises
     ------
     RequestError
-        If shapes do not fit the scene, or values are not finite.
+        If shapes do not fit the scene, values are not finite or whole numbers, or a depth is outside the scene's.
 
     Examples
     --------
@@ -812,7 +830,9 @@ def form_image(
     """
     from p2sf.image import Forming
     from p2sf.image import form_image as form
+    from p2sf.scene.plan import Plan
 
-    depths = None if depth_mm is None else np.asarray(depth_mm, dtype=float)
+    depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
+    planned = argument("planned", planned, Plan)
     with using_threads(threads):
-        return form(planned, np.asarray(values), depths, Forming(method, surround))
+        return form(planned, values, depths, Forming(method, surround))

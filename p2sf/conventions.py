@@ -25,6 +25,7 @@ sensor offset (x, y) is ΣA·exp(+i2πW)·exp(−i2π n'u'(ξx + ηy)/λ) over e
 this numpy's ``ifft2`` sign, and a relay is not turned by 180°.
 """
 
+from math import inf
 from typing import TypeAlias
 
 import numpy as np
@@ -34,11 +35,17 @@ FloatOrArray: TypeAlias = float | np.ndarray  # the same formula serves both; nu
 
 UM_PER_MM = 1000.0
 NM_PER_UM = 1000.0
+FARTHEST_MM = 1e16  # farther than Neptune: the rays of a point there cannot be told from parallel ones in 64 bits
 
 
 def vergence(distance_mm: ArrayLike) -> np.ndarray:
     """Return 1/distance, per mm; 0 for an infinite distance, so that infinity needs no branch."""
     return 1.0 / np.asarray(distance_mm, dtype=float)
+
+
+def depth_of(vergence_per_mm: float) -> float:
+    """Return the depth in mm of a vergence, inf for 0 and for what rounding leaves of it."""
+    return inf if abs(vergence_per_mm) * FARTHEST_MM < 1 else 1 / float(vergence_per_mm)
 
 
 def slope_from_degrees(angle_deg: ArrayLike) -> np.ndarray:

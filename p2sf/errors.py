@@ -20,6 +20,10 @@ class P2SFError(ValueError):
         return str(self.message)
 
 
+class P2SFWarning(UserWarning):
+    """A result that is right but may not be what was meant, such as a PSF that its window cuts off."""
+
+
 class GlassError(P2SFError):
     """A glass that is unknown or ambiguous, or a wavelength outside its data."""
 

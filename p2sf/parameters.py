@@ -3,7 +3,10 @@
 from dataclasses import dataclass
 from math import inf, isfinite
 
+from p2sf.conventions import FARTHEST_MM
 from p2sf.errors import RequestError
+
+FARTHER = "{parameter} is {value:g}{unit}, and beyond {most:g} mm rays cannot be told from parallel ones; give inf"
 
 
 @dataclass(frozen=True)
@@ -24,6 +27,9 @@ PARAMETERS = {
     parameter.name: parameter
     for parameter in (
         Parameter("depth_mm", "Depth", "mm"),
+        Parameter("depths_mm", "Depths", "mm"),
+        Parameter("fields_deg", "Fields", "°"),
+        Parameter("wavelengths_nm", "Wavelengths", "nm"),
         Parameter("zoom", "Zoom"),
         Parameter("focus_position", "Focus"),
         Parameter("focus_mm", "Focus distance", "mm"),
@@ -90,6 +96,18 @@ def check_positive(name: str, value: float | None, infinite: bool = False) -> No
         value=value,
         unit=unit_behind(name),
     )
+
+
+def check_distance(name: str, value: float | None) -> None:
+    """Raise RequestError for a distance in mm that is not positive, or beyond FARTHEST_MM but not inf; None passes."""
+    check_positive(name, value, infinite=True)
+    check_reach(name, value)
+
+
+def check_reach(name: str, value: float | None) -> None:
+    """Raise RequestError for a distance in mm beyond FARTHEST_MM that is not inf; None passes."""
+    if value is not None and FARTHEST_MM < value < inf:
+        raise RequestError(FARTHER, parameter=name, value=value, unit=unit_behind(name), most=FARTHEST_MM)
 
 
 def check_finite(name: str, value: float | None) -> None:

@@ -9,12 +9,13 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, is_number
+from p2sf.arguments import check_fields
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import Aperture, Lens, indices, with_aim, with_f_number, with_mask, with_sensor
-from p2sf.lens.source import Source
+from p2sf.lens.source import Source, check_one
 from p2sf.messages import Message, ParameterName
-from p2sf.parameters import check_angle, check_finite, check_positive, unit_behind
+from p2sf.parameters import check_angle, check_distance, check_finite, check_positive, unit_behind
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import focused_inside, lens_at
 from p2sf.paraxial.pupils import (
@@ -52,7 +53,7 @@ class Request:
     Attributes
     ----------
     depth_mm
-        Object distance from the first vertex, mm; inf is allowed.
+        Object distance from the first vertex, mm, up to 1e16; inf is allowed.
     field_deg
         Chief-ray angle at the entrance pupil, degrees, at finite depth too; in y where there is one in x as well.
     field_x_deg
@@ -126,8 +127,9 @@ class Request:
     cubic_um: float | None = None
 
     def __post_init__(self) -> None:
+        check_fields(self)
         for name in ("depth_mm", "focus_mm"):
-            check_positive(name, getattr(self, name), infinite=True)
+            check_distance(name, getattr(self, name))
         for name in ("wavelength_nm", "f_number"):
             check_positive(name, getattr(self, name))
         for name in ("object_height_mm", "image_height_mm", "sensor_shift_um"):
@@ -164,7 +166,6 @@ def set_up(lens: Lens, request: Request) -> Setup:
     Raises RequestError for a value that cannot be, GeometryError for one this lens cannot take, and
     GlassError for a wavelength outside its glasses.
     """
-    check_lens(lens)
     lens = at_position(lens, request)
     wavelength = wavelength_um(lens, request)
     try:
@@ -190,12 +191,6 @@ def _of_the_request(error: GlassError, request: Request) -> GlassError:
     if request.wavelength_nm is None or "quantity" not in message.values:
         return error
     return GlassError(Message(message.template, **message.values | {"quantity": ParameterName("wavelength_nm")}))
-
-
-def check_lens(lens: object) -> None:
-    """Raise RequestError for what is no lens, such as the name of one."""
-    if not isinstance(lens, Lens):
-        raise RequestError("the lens is {value}; give what p2sf.load_lens returns", value=f"{lens!r:.60}")
 
 
 def with_field(setup: Setup, request: Request) -> Setup:
@@ -224,12 +219,7 @@ def set_up_source(
     aim: AimChoice | None = None,
 ) -> Setup:
     """Return the setup of a source that is known already; parameters of the camera and errors as `Request` has them."""
-    for value in (source.depth_mm, source.field_slope, source.wavelength_um, source.azimuth_deg):
-        if not is_number(value):
-            raise RequestError(
-                "the source has values of shape {shape}, which are many sources; give one after the other",
-                shape=str(np.shape(value)),
-            )
+    check_one(source)
     request = Request(
         depth_mm=source.depth_mm,
         field_deg=source.field_deg,

@@ -12,6 +12,24 @@ from p2sf.glass.pages import Page, page
 from p2sf_explorer.compute import setup
 
 
+class FailureNames:
+    """Prints the name of a test as soon as it fails."""
+
+    def __init__(self, terminal):
+        self.terminal = terminal
+
+    def pytest_runtest_logreport(self, report):
+        if report.failed:
+            self.terminal.write_line(f"\nFAILED {report.nodeid}", red=True)
+
+
+@pytest.hookimpl(trylast=True)  # when the terminal is there
+def pytest_configure(config):
+    terminal = config.pluginmanager.get_plugin("terminalreporter")
+    if terminal is not None:  # workers have none
+        config.pluginmanager.register(FailureNames(terminal), "failure-names")
+
+
 @pytest.fixture
 def said(capsys):
     """Return a function that runs a command line which must succeed, and returns what it printed."""

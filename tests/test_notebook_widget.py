@@ -37,6 +37,7 @@ def test_a_slider_asks_for_another_psf(shown):
     assert picture(shown).shape == before.shape and (picture(shown) != before).any()
 
 
+@pytest.mark.slow
 def test_the_link_is_the_windows_own_and_can_be_pasted(shown):
     shown.set(field_deg=7.0)
     assert state_of_link(shown.link).optics.field_deg == 7.0

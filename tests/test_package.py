@@ -3,8 +3,6 @@
 import ast
 from pathlib import Path
 
-import pytest
-
 from tests.support.interpreter import loaded_by
 
 ROOT = Path(__file__).parents[1]
@@ -12,7 +10,7 @@ ROOT = Path(__file__).parents[1]
 LAYERS = (
     "p2sf.conventions p2sf.messages p2sf.notebook p2sf.version",
     "p2sf.errors",
-    "p2sf.parameters p2sf.threads",
+    "p2sf.arguments p2sf.parameters p2sf.spans p2sf.threads",
     "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
     "p2sf.lens",
     "p2sf.paraxial",
@@ -43,13 +41,13 @@ LAYERS = (
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
 QT = {"PySide6", "pyqtgraph", "pyvista"}
 WITHOUT_QT = (
-    "p2sf",
-    "p2sf_explorer.state",
-    "p2sf_explorer.compute",
-    "p2sf_explorer.results",
-    "p2sf_explorer.matrix",
-    "p2sf_explorer.measuring",
-    "p2sf_explorer.tolerancing",
+    "p2sf.",
+    "p2sf_explorer.state.",
+    "p2sf_explorer.compute.",
+    "p2sf_explorer.results.",
+    "p2sf_explorer.matrix.",
+    "p2sf_explorer.measuring.",
+    "p2sf_explorer.tolerancing.",
 )
 
 
@@ -78,14 +76,25 @@ def imported(path: Path) -> set[str]:
     return found
 
 
-@pytest.mark.parametrize("path", sources(), ids=module_of)
-def test_folders_import_only_downwards(path):
-    own = folder_of(module_of(path))
-    for name in imported(path):
-        other = folder_of(name)
-        if own in FLOOR and other in FLOOR and other != own:
-            assert FLOOR[other] < FLOOR[own], f"{module_of(path)} imports {name} from above"
-        assert other == own or not any(part.startswith("_") and part[1] != "_" for part in name.split(".")[2:-1])
+def test_folders_import_only_downwards():
+    upwards = []
+    for path in sources():
+        own = folder_of(module_of(path))
+        for name in imported(path):
+            other = folder_of(name)
+            if own in FLOOR and other in FLOOR and other != own and FLOOR[other] >= FLOOR[own]:
+                upwards.append(f"{module_of(path)} imports {name} from above")
+    assert not upwards
+
+
+def test_private_modules_stay_in_their_folder():
+    foreign = []
+    for path in sources():
+        for name in imported(path):
+            private = any(part.startswith("_") and part[1] != "_" for part in name.split(".")[2:-1])
+            if private and folder_of(name) != folder_of(module_of(path)):
+                foreign.append(f"{module_of(path)} imports {name}")
+    assert not foreign
 
 
 def test_every_folder_has_its_floor():
@@ -95,12 +104,12 @@ def test_every_folder_has_its_floor():
 
 def test_no_folder_is_crowded():
     for folder in {path.parent for path in sources()} - {ROOT / "p2sf/cli", ROOT / "app/p2sf_explorer/panels"}:
-        assert 2 <= len(list(folder.glob("*.py"))) <= 20, folder
+        assert 2 <= len(list(folder.glob("*.py"))) <= 25, folder
 
 
-@pytest.mark.parametrize("package", WITHOUT_QT)
-def test_what_computes_loads_no_qt(package):
-    names = [n for n in map(module_of, sources()) if f"{n}.".startswith(f"{package}.") and not n.endswith("__main__")]
+def test_what_computes_loads_no_qt():
+    """All in one process, which is as good: whichever of them loads Qt, it is there."""
+    names = [n for n in map(module_of, sources()) if f"{n}.".startswith(WITHOUT_QT) and not n.endswith("__main__")]
     assert not {name.split(".")[0] for name in loaded_by(f"import {', '.join(names)}")} & QT
 
 

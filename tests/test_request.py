@@ -5,13 +5,18 @@ from math import inf, nan
 import numpy as np
 import pytest
 
+from p2sf.conventions import FARTHEST_MM, depth_of
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import AIMS, with_aim
 from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import f_number, find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
+from p2sf.raytrace.pencil import displayed_opd
+from p2sf.raytrace.zernike_fit import pupil_opd
 from p2sf.request import Request, set_up
+from p2sf_explorer.state.scales import Vergence
 from tests.support.mirrors import mirror
 from tests.support.reference import prescription_lens
 
@@ -113,6 +118,8 @@ def test_stop_auto_hands_on_a_lens_that_names_the_narrowest_rim():
 BAD = [
     ({"depth_mm": 0}, "depth_mm is 0 mm"),
     ({"depth_mm": -5}, "depth_mm is -5 mm"),
+    ({"depth_mm": 1e99}, "beyond 1e+16 mm"),
+    ({"focus_mm": 1.1e16}, "beyond 1e+16 mm"),
     ({"depth_mm": nan}, "depth_mm is nan mm"),
     ({"focus_mm": nan}, "focus_mm is nan mm"),
     ({"focus_mm": 20}, "focus_mm is 20 mm"),
@@ -149,3 +156,20 @@ def test_focusing_into_the_front_focal_plane_is_named():
     with pytest.raises(P2SFError, match="focus_mm"):
         set_up(simple, Request(focus_mm=front * (1 - 1e-9)))
     assert np.isfinite(set_up(simple, Request(focus_mm=front * 1.01)).lens.sensor_mm)
+
+
+def test_the_farthest_depth_is_infinity_to_rays():
+    """Just below the limit the wavefront is that of infinity, even of the lens with the longest focal length."""
+    for name, field in (("double_gauss_28", 10), ("hubble", 0.1)):
+        found = find_lens(name)
+        nodes, far = pupil_opd(found, Source(field_deg=field))
+        near = displayed_opd(found, Source(FARTHEST_MM, field_deg=field), nodes.xi, nodes.eta)
+        assert np.abs(near - far).max() < 1e-6
+    with pytest.raises(P2SFError, match="inf"):
+        Source(np.nextafter(FARTHEST_MM, inf))
+
+
+def test_what_rounding_leaves_of_a_vergence_is_infinity():
+    assert depth_of(1e-20) == inf and depth_of(1e-3) == 1e3
+    scale = Vergence(300.0, 1000.0)
+    assert scale.value(1 - 2**-53) == inf and scale.value(0.5) == pytest.approx(1000)

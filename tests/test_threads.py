@@ -250,6 +250,7 @@ def picture(method):
     return p2sf.form_image(planned(), values, method=method)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("work", [stack, huygens_sum, partial(picture, "patches"), partial(picture, "lowrank")])
 def test_results_are_the_same_to_the_last_bit_and_are_shared(work, monkeypatch):
     shared = []

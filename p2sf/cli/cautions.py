@@ -19,8 +19,8 @@ STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` re
 SECONDS_PER_SQUARE_WAVE = 4e-6
 
 STRAIGHT = Message(
-    "parts of the lens are tilted, decentred or irregular; all paraxial figures and the six coefficients are those "
-    "of the aligned lens, and leave out what that adds: coma on the axis, a tilted field"
+    "parts of the lens are tilted, decentred or not of revolution; all paraxial figures and the six coefficients are "
+    "those of the aligned lens, and leave out what that adds: coma on the axis, a tilted field"
 )
 TOO_COARSE = Message(
     "unknown: samples so far apart add up to no share; give a smaller {parameter}",

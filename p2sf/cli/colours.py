@@ -14,6 +14,7 @@ from p2sf.io.record import describe
 from p2sf.messages import ParameterName
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
+from p2sf.psf.result import IN_WINDOW
 from p2sf.request import Setup
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
             spectrum=ParameterName("spectrum"),
             method=ParameterName("method"),
         )
-    pitch = suitable_pitch_um(setup.lens, setup.source, wanted, picture.pixels, setup.stop)
-    window = picture.pixels, picture.pixel_um or pitch
+    pitch = suitable_pitch_um(setup.lens, setup.source, wanted, picture.side, setup.stop)
+    window = picture.side, picture.pixel_um or pitch
     method = picture.method or "auto"
     found = colour_psf(
         setup.lens,
@@ -45,7 +46,7 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
     if output:
         write_colour_psf(found, output, describe(setup))
     if as_json:
-        about = {"file": None if output is None else str(output), "pixels": picture.pixels, "aim": setup.lens.aim}
+        about = {"file": None if output is None else str(output), "pixels": picture.side, "aim": setup.lens.aim}
         return print_json({**about, **figures(found)})
     warn(setup.stop.warning)
     return print_table(heading(setup), ("colour point spread function", "value", "unit"), rows(found, output))
@@ -68,7 +69,7 @@ def rows(found: ColourPsf, output: Path | None) -> list[Row]:
         ("methods", ", ".join(found.methods), ""),
         ("samples", f"{found.xyz.shape[1]} × {found.xyz.shape[0]}", ""),
         ("pixel", found.pixel_um, "µm"),
-        ("light in the picture", known["light_in_window"], "" if known["light_in_window"] else TOO_COARSE),
+        (IN_WINDOW, known["light_in_window"], "" if known["light_in_window"] else TOO_COARSE),
         ("lateral colour between the outermost chief rays", shift, "µm"),
         ("chromaticity x, y (CIE 1931)", f"{x:.4f}, {y:.4f}", ""),
         ("time", 1e3 * found.seconds, "ms"),

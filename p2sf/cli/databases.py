@@ -4,31 +4,29 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import App, Parameter
 
+from p2sf.cli.lookups import accuracy_rows
 from p2sf.cli.options import Json, LensName, Threads, Whole, check_samples
-from p2sf.cli.screen import FILLED, Row, print_json, print_table, text
-from p2sf.cli.spans import even_span, span
+from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
-from p2sf.database import Space, depth_nodes
-from p2sf.database.render import Sampling
+from p2sf.database import Space
+from p2sf.database.accuracy import Accuracy, accuracy, build_by
+from p2sf.database.render import Database, Sampling
 from p2sf.database_files import load_database, provenance, save_database
 from p2sf.database_files.place import is_stack, place_of, size_bytes
 from p2sf.database_files.provenance import axis_names
 from p2sf.errors import ExportError, RequestError
-from p2sf.files.writing import check_place
+from p2sf.files.writing import check_place, plain
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
-from p2sf.request import AimChoice, Request, Setup, StopChoice, set_up
+from p2sf.request import AimChoice, Request, StopChoice, set_up
+from p2sf.spans import check_ascending, depths, numbers
 from p2sf.threads import using_threads
-
-if TYPE_CHECKING:
-    from p2sf.database import ExactDatabase, GridDatabase
-    from p2sf.database.fitted import FittedDatabase
 
 RECTANGLE_NODES = 9  # along either side, where none are asked for
 
@@ -37,7 +35,7 @@ app = App(name="database", help="Every PSF of a lens as a file: build one, look 
 
 @dataclass(frozen=True)
 class Nodes:
-    """Which points the database covers, as LOW:HIGH:COUNT, one number, or numbers with commas.
+    """Which points the database covers: numbers and ranges LOW:HIGH:COUNT, separated by commas.
 
     Attributes
     ----------
@@ -97,7 +95,8 @@ class Kind:
     Attributes
     ----------
     method
-        Method whose numbers are kept.
+        Method whose numbers are kept; auto takes the six coefficients (seidel) where they keep R² ≥ 0.99 everywhere,
+        and fits to exact rays (fitted) elsewhere.
     interpolant
         How values between the nodes are found: exact polynomials, the paper's table 1, or straight lines.
     stack
@@ -112,7 +111,7 @@ class Kind:
         given.
     """
 
-    method: Literal["seidel", "fitted"] = "seidel"
+    method: Literal["auto", "seidel", "fitted"] = "auto"
     interpolant: Literal["exact", "table1", "linear"] = "exact"
     stack: bool = False
     pixels: Whole = 64
@@ -148,13 +147,14 @@ def build(
     _check_ending(output, ".zarr" if kind.stack else ".npz")
     found = find_lens(lens)
     setup = set_up(found, Request(**vars(camera)))
-    if nodes.fields_x_deg and kind.method != "fitted":
+    if nodes.fields_x_deg and kind.method == "seidel":
         raise RequestError(
             "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
         )
     start = perf_counter()
-    database = _built(setup, space_of(nodes, found, kind.method), kind)
+    database = build_by(setup.lens, space_of(nodes, found, kind.method), kind.method, kind.interpolant, setup.stop)
     seconds = perf_counter() - start
+    known = accuracy(database, setup.lens)
     if kind.stack:
         with using_threads(threads):
             _write_stack(database, setup.lens, output, kind)
@@ -169,57 +169,46 @@ def build(
         "build_seconds": seconds,
     }
     if as_json:
-        return print_json({**about, "errors_waves": database.errors})
-    rows: list[Row] = [_nodes_row(provenance(database, setup.lens, setup.stop))]
+        stated = {"method": database.method, "predicted_error": plain(known.record), "errors_waves": database.errors}
+        return print_json({**about, **stated})
+    warn(known.caution)
+    rows: list[Row] = [("method", database.method, ""), _nodes_row(provenance(database, setup.lens, setup.stop))]
     rows += [("coefficients built in", 1e3 * seconds, "ms"), ("file", output, ""), ("size", size / 1e3, "kB")]
     return print_table(
-        f"{found.title or found.name}: PSF database", ("", "value", "unit"), rows + error_rows(database.errors)
+        f"{found.title or found.name}: PSF database",
+        ("", "value", "unit"),
+        rows + accuracy_rows(known) + error_rows(database.errors),
     )
-
-
-def _built(setup: Setup, space: Space, kind: Kind) -> "ExactDatabase | GridDatabase | FittedDatabase":
-    """Return the coefficients of a setup over a space."""
-    if kind.method == "fitted":
-        from p2sf.database.fitted_build import build_fitted
-
-        return build_fitted(setup.lens, space, setup.stop)
-    from p2sf.database import build_database
-
-    return build_database(setup.lens, space, kind.interpolant, setup.stop)
 
 
 def space_of(nodes: Nodes, lens: Lens, method: str) -> Space:
     """Return the space of the nodes asked for, without fields 21 up to the lens's widest; RequestError.
 
-    A fitted one of a misaligned lens has fields along x as well.
+    One of a misaligned lens has fields along x as well, but for the six coefficients.
     """
-    asked = span(nodes.depths_mm, "depths_mm")
-    if not asked[0] > 0:
-        raise RequestError(
-            "{parameter} is {value}; give distances in front of the lens, above 0",
-            parameter="depths_mm",
-            value=nodes.depths_mm,
-        )
-    depths = asked if isinstance(asked, np.ndarray) else depth_nodes(*asked)
+    distances = depths(nodes.depths_mm, "depths_mm")
+    check_ascending(distances, nodes.depths_mm, "depths_mm")
     widest = max((1.0, *lens.fields_deg))
     usual, usual_x = f"0:{widest!r}:21", nodes.fields_x_deg
-    if usual_x or (lens.misaligned and method == "fitted" and nodes.fields_deg is None):
+    if usual_x or (lens.misaligned and method != "seidel" and nodes.fields_deg is None):
         half = float(degrees_from_slope(slope_from_degrees(widest) / np.sqrt(2)))
         usual = f"{-half!r}:{half!r}:{RECTANGLE_NODES}"
         usual_x = usual_x or usual
     fields = _angles(nodes.fields_deg or usual, "fields_deg", -90.0 if usual_x else 0.0)
     fields_x = slope_from_degrees(_angles(usual_x, "fields_x_deg", -90.0)) if usual_x else None
-    colours = even_span(nodes.wavelengths_nm, "wavelengths_nm")
+    colours = numbers(nodes.wavelengths_nm, "wavelengths_nm")
+    check_ascending(colours, nodes.wavelengths_nm, "wavelengths_nm")
     if not colours[0] > 0:
         raise RequestError(
             "{parameter} is {value}; give wavelengths above 0", parameter="wavelengths_nm", value=nodes.wavelengths_nm
         )
-    return Space(depths, slope_from_degrees(fields), colours / NM_PER_UM, fields_x)
+    return Space(distances, slope_from_degrees(fields), colours / NM_PER_UM, fields_x)
 
 
 def _angles(text: str, name: str, least: float) -> np.ndarray:
     """Return field angles, degrees, from 0 or −90 (itself excluded) to below 90; RequestError."""
-    angles = even_span(text, name)
+    angles = numbers(text, name)
+    check_ascending(angles, text, name)
     if least == 0 and not (0 <= angles[0] and angles[-1] < 90):
         raise RequestError("{parameter} is {value}; give angles from 0 to below 90 degrees", parameter=name, value=text)
     if not (-90 < angles[0] and angles[-1] < 90):
@@ -241,9 +230,7 @@ def _check_ending(output: str, ending: str) -> None:
         check_place(output)
 
 
-def _write_stack(
-    database: "ExactDatabase | GridDatabase | FittedDatabase", lens: Lens, output: str, kind: Kind
-) -> None:
+def _write_stack(database: Database, lens: Lens, output: str, kind: Kind) -> None:
     """Fill a stack, with a line of progress on a terminal."""
     from p2sf.database_files.stack_write import Progress, StackProgress, write_stack
 
@@ -265,18 +252,24 @@ def info(file: str, /, *, as_json: Json = False) -> None:
         from p2sf.database_files.stack import open_stack
 
         stack = open_stack(file)
-        meta = stack.stored.meta
+        stored = stack.stored
         held = {"psfs": stack.psf.shape, "pixel_um": stack.pixel_um, "complete": stack.complete}
     else:
-        meta = load_database(file).meta
+        stored = load_database(file)
+    meta = stored.meta
+    known = stored.accuracy
     if as_json:
-        return print_json({**{key: value for key, value in meta.items() if key != "numbers"}, **held})
+        stated = {key: value for key, value in meta.items() if key != "numbers"}
+        return print_json({**stated, "predicted_error": plain(known.record), **held})
+    warn(known.caution)
     return print_table(
-        f"{file}: {meta['lens']['title'] or meta['lens']['name']}", ("", "value", "unit"), about_rows(meta, held)
+        f"{file}: {meta['lens']['title'] or meta['lens']['name']}",
+        ("", "value", "unit"),
+        about_rows(meta, held, known),
     )
 
 
-def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
+def about_rows(meta: dict[str, Any], held: dict[str, Any], known: Accuracy) -> list[Row]:
     """Return the rows that tell a person what a database holds."""
     covers = {
         key: f"{text(low)} to {'∞' if high is None else text(high)}" for key, (low, high) in meta["covers"].items()
@@ -296,7 +289,7 @@ def about_rows(meta: dict[str, Any], held: dict[str, Any]) -> list[Row]:
     if held:
         rows += [("PSFs", " × ".join(map(str, held["psfs"])), ""), ("pixel", held["pixel_um"], "µm")]
         rows += [("complete", "yes" if held["complete"] else "no, build it again to continue", "")]
-    return rows + error_rows(meta["errors_waves"])
+    return rows + accuracy_rows(known) + error_rows(meta["errors_waves"])
 
 
 def _nodes_row(meta: dict[str, Any]) -> Row:
@@ -305,4 +298,4 @@ def _nodes_row(meta: dict[str, Any]) -> Row:
 
 def error_rows(errors: dict[str, float]) -> list[Row]:
     """Return one row per coefficient: the largest error against direct evaluation."""
-    return [(f"largest error of {kind.capitalize()}", value, "waves") for kind, value in errors.items()]
+    return [(f"largest error of {kind.capitalize()} looked up", value, "waves") for kind, value in errors.items()]

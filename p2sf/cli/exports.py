@@ -7,9 +7,10 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from p2sf.cli.options import Json, Whole, check_output, check_samples
-from p2sf.cli.screen import print_json
+from p2sf.cli.screen import print_json, warn
 from p2sf.database.render import Sampling
 from p2sf.database_files.place import is_url
+from p2sf.files.writing import plain
 
 # The first ending of a format is the one a file gets when no --output is given.
 ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}
@@ -51,9 +52,14 @@ def export(
     beside = Path(file.rpartition("/")[2] if is_url(file) else file)
     target = output or beside.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)
+    from p2sf.interchange import open_stored
+
+    known = open_stored(file).accuracy
     if as_json:
-        print_json({"file": str(target), "to": to, "bytes": target.stat().st_size})
+        about = {"file": str(target), "to": to, "bytes": target.stat().st_size}
+        print_json({**about, "predicted_error": plain(known.record)})
     else:
+        warn(known.caution)
         print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
 
 

@@ -7,21 +7,68 @@ from typing import Annotated, Any, Literal
 from cyclopts import Parameter
 
 from p2sf.cli.cautions import TOO_COARSE, caution
-from p2sf.cli.lookups import is_database, looked_up
+from p2sf.cli.lookups import accuracy_rows, is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, Whole, check_output, check_samples
-from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table
+from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.colour.spectrum import WORDS
+from p2sf.database.accuracy import Accuracy
 from p2sf.errors import P2SFError, RequestError, SamplingError
+from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe, facts
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
-from p2sf.psf.prediction import CAUTION
-from p2sf.psf.result import Psf
+from p2sf.psf.prediction import CAUTION, TOO_FAR, USELESS
+from p2sf.psf.result import IN_WINDOW, Psf
 from p2sf.request import Request, Setup, set_up
 from p2sf.threads import using_threads
+
+
+@dataclass(frozen=True)
+class SetOptions:
+    """Which PSFs a set holds: numbers and ranges LOW:HIGH:COUNT, separated by commas.
+
+    Attributes
+    ----------
+    depths_mm
+        Object distances from the first vertex, mm; a range is even in 1/depth, and HIGH may be inf.
+    fields_deg
+        Chief-ray angles at the entrance pupil, degrees.
+    wavelengths_nm
+        Wavelengths, nm.
+    fill_factor
+        Of a set: the share of a pixel's area that is sensitive, a square in its middle; 1 when not given.
+    clip
+        Of a set: let the clear rims of the lens clip.
+    """
+
+    depths_mm: str | None = None
+    fields_deg: str | None = None
+    wavelengths_nm: str | None = None
+    fill_factor: float | None = None
+    clip: bool = False
+
+    @property
+    def asked(self) -> bool:
+        """Return whether a set is asked for."""
+        return any((self.depths_mm, self.fields_deg, self.wavelengths_nm))
+
+    def check_one(self) -> None:
+        """Raise RequestError for what only a set has."""
+        for name in ("fill_factor", "clip"):
+            if getattr(self, name):
+                raise RequestError(
+                    "{parameter} is for a set of PSFs; give {depths}, {fields} or {wavelengths} too, or leave it out",
+                    parameter=name,
+                    depths=ParameterName("depths_mm"),
+                    fields=ParameterName("fields_deg"),
+                    wavelengths=ParameterName("wavelengths_nm"),
+                )
+
+
+ONE = SetOptions()
 
 
 @dataclass(frozen=True)
@@ -37,7 +84,7 @@ class Picture:
     sampling
         How the six coefficients become a PSF: matrix DFT of any size, or zero-padded FFT of even sizes.
     pixels
-        Samples along each side.
+        Samples along each side; 64 when not given, of a set 65, with the chief ray on the middle one.
     pixel_um
         Distance between samples, µm; one that holds the PSF when not given.
     """
@@ -45,7 +92,7 @@ class Picture:
     method: Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"] | None = None
     tolerance: float = 0.99
     sampling: Literal["fft", "mdft"] | None = None
-    pixels: Whole = 64
+    pixels: Whole | None = None
     pixel_um: float | None = None
 
     def __post_init__(self) -> None:
@@ -65,14 +112,19 @@ class Picture:
                 method=ParameterName("method"),
                 name=self.method,
             )
-        if self.sampling == "fft" and self.pixels % 2:
+        if self.sampling == "fft" and self.side % 2:
             raise SamplingError(
                 "{parameter} is {value}, and {sampling} fft needs an even size; give {even} or choose {sampling} mdft",
                 parameter="pixels",
-                value=self.pixels,
-                even=self.pixels + 1,
+                value=self.side,
+                even=self.side + 1,
                 sampling=ParameterName("sampling"),
             )
+
+    @property
+    def side(self) -> int:
+        """Return how many samples one PSF has along each side."""
+        return self.pixels or 64
 
     @property
     def seidel(self) -> bool:
@@ -97,12 +149,22 @@ def psf(
     request: Asked = AS_IN_THE_FILE,
     picture: Annotated[Picture, Parameter(name="*")] = USUAL,
     spectrum: SpectrumName = None,
+    several: Annotated[SetOptions, Parameter(name="*")] = ONE,
     output: Output = None,
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
-    """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png; with a spectrum as .npz or .png."""
+    """Compute the PSF of one source and write it as .npz, .tiff, .csv or .png; with a spectrum as .npz or .png.
+
+    A set of PSFs of several depths, fields and wavelengths on a sensor's pixels, 4 µm apart when not given, is written
+    as .npz, .tif, .fits, .mat, or its figures as .csv.
+    """
     with using_threads(threads):
+        if several.asked:
+            from p2sf.cli.psf_sets import write_set
+
+            return write_set(lens, request, picture, spectrum, several, output, as_json)
+        several.check_one()
         if spectrum is not None:
             return _in_colour(lens, request, picture, spectrum, output, as_json)
         return _of_one_colour(lens, request, picture, output, as_json)
@@ -118,7 +180,8 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
                 sampling=ParameterName("sampling"),
                 path=lens,
             )
-        result, about, title = looked_up(lens, request, picture.pixels, picture.pixel_um)
+        found = looked_up(lens, request, picture.side, picture.pixel_um)
+        result, about, title, accuracy = found.psf, found.about, found.title, found.accuracy
         energy = None
         aim = about["setup"]["aim"]
     else:
@@ -126,15 +189,20 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
         if not as_json:
             caution(setup, picture.seidel and picture.sampling != "fft")
         result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
+        accuracy = None
         aim, energy = setup.lens.aim, energy_of(setup, result.method)
     if output:
         write_psf(result, output, about)
     if as_json:
         file = None if output is None else str(output)
+        whole = {"database_predicted_error": plain(accuracy.record)} if accuracy else {}
         return print_json(
-            {"file": file, "pixels": picture.pixels, "aim": aim, **facts(result), **figures(result, energy)}
+            {"file": file, "pixels": picture.side, "aim": aim, **facts(result), **whole, **figures(result, energy)}
         )
-    return print_table(title, ("point spread function", "value", "unit"), summary(result, aim, output, energy))
+    warn(result.caution)
+    warn(accuracy.caution if accuracy else None)
+    rows = summary(result, aim, output, energy, accuracy)
+    return print_table(title, ("point spread function", "value", "unit"), rows)
 
 
 def _in_colour(
@@ -161,7 +229,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
         return _from_coefficients(setup, picture)
     from p2sf.psf.pixel_integrals import render_integrated
 
-    made = render_integrated(setup.lens, setup.source, method, picture.pixels, picture.pixel_um, picture.tolerance)
+    made = render_integrated(setup.lens, setup.source, method, picture.side, picture.pixel_um, picture.tolerance)
     return replace(made, azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 
 
@@ -174,12 +242,12 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     source = setup.source
     check_seidel(setup.lens)
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
-    pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.pixels))
+    pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.side))
     finest = float(critical_pixel_um(six.wavelength_um, six.na))
     sampling, mask = picture.sampling or "mdft", mask_seen(setup.lens, source)
     return integrated(
         lambda count, pixel_um: seidel_psf(six, count, pixel_um, sampling=sampling, mask=mask),
-        picture.pixels,
+        picture.side,
         pitch,
         finest,
     )
@@ -197,7 +265,7 @@ def energy_of(setup: Setup, method: str) -> Energy | None:
 def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
     """Return the centroid, from the chief ray, and the radii around it that hold 50 and 80 % of the light.
 
-    "share_of" says of which light: of all that the pupil sends, or of that in the samples.
+    "share_of" says of which light: of all that the pupil sends, or of that in the window.
     """
     if energy:
         radii = {"radius_50_um": energy.radius_50_um, "radius_80_um": energy.radius_80_um}
@@ -205,12 +273,13 @@ def figures(result: Psf, energy: Energy | None = None) -> dict[str, Any]:
             "rms_um": energy.rms_um,
             "share_of": "all light",
             "geometric_limit_departs_by": energy.departure or None,
+            "share_predicted_error": energy.predicted_error,
         }
         return {"centroid_um": [energy.centroid_x_um, energy.centroid_um], **radii, **light}
     x, y = centroid(result)
     half, most = (float(radius_of_energy(result, share)) for share in (0.5, 0.8))
     radii = {"radius_50_um": half, "radius_80_um": most}
-    return {"centroid_um": [float(x), float(y)], **radii, "rms_um": None, "share_of": "the picture's light"}
+    return {"centroid_um": [float(x), float(y)], **radii, "rms_um": None, "share_of": f"the {IN_WINDOW}"}
 
 
 def window_of(result: Psf) -> Message:
@@ -220,30 +289,48 @@ def window_of(result: Psf) -> Message:
     return Message("read off a window {width:g} µm wide, sampled every {pixel:g} µm", width=width, pixel=pixel)
 
 
+def _peak(result: Psf) -> tuple[float | None, float | None]:
+    """Return where the PSF is brightest, µm; None of a fitted shape."""
+    return (None, None) if result.peak_um is None else (float(result.peak_um[0]), float(result.peak_um[1]))
+
+
 def prediction(error: float | None) -> tuple[float | None, Message | str]:
     """Return what a method is predicted to miss, and a note where that is much or unknown."""
     if error is None:
         return None, NO_PREDICTION
+    if error >= USELESS:
+        return None, TOO_FAR
     return error, CAUTIOUS if error > CAUTION else ""
 
 
-def summary(result: Psf, aim: str, output: Path | None, energy: Energy | None = None) -> list[Row]:
-    """Return the rows that tell a person what was computed."""
+def summary(
+    result: Psf, aim: str, output: Path | None, energy: Energy | None = None, accuracy: Accuracy | None = None
+) -> list[Row]:
+    """Return the rows that tell a person what was computed; ``accuracy``: of the database it was looked up in."""
     known, measured = facts(result), figures(result, energy)
-    light = "all light" if energy else "the light in the picture"
+    light, stated = "all light" if energy else f"the {IN_WINDOW}", result.predicted_error is not None
     rows: list[Row] = [
         ("method", result.method, ""),
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", LIGHT if result.integrated else POINTS),
         ("pixel", result.pixel_um, "µm"),
         ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else SAME_PUPIL),
-        ("light in the picture", known["energy"], TOO_COARSE if known["energy"] is None else ""),
+        *(
+            []
+            if result.peak_um is None
+            else [
+                (f"peak, from the chief ray, along {axis}", place, "µm")
+                for axis, place in zip("xy", _peak(result), strict=True)
+            ]
+        ),
+        (IN_WINDOW, known["energy"], TOO_COARSE if known["energy"] is None else ""),
         *([("centroid, from the chief ray, along x", x, "µm")] if (x := measured["centroid_um"][0]) else []),
         ("centroid, from the chief ray, along y", measured["centroid_um"][1], "µm"),
         (f"radius of 50 % of {light}", measured["radius_50_um"], "µm"),
         (f"radius of 80 % of {light}", measured["radius_80_um"], "µm"),
         *([("these radii", note, "")] if (note := energy.note if energy else window_of(result)) else []),
         *([("RMS radius of the rays", measured["rms_um"], "µm")] if energy else []),
-        ("predicted 1 − R²", *prediction(result.predicted_error)),
+        *([("predicted 1 − R²", *prediction(result.predicted_error))] if stated or not accuracy else []),
+        *(accuracy_rows(accuracy, " in this database") if accuracy else []),
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),
         ("traced rays", result.rays, ""),

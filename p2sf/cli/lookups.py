@@ -1,21 +1,22 @@
 """`p2sf psf FILE.npz`: a PSF looked up in a database, without the lens."""
 
-from dataclasses import replace
+from dataclasses import dataclass
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from p2sf.cli.screen import field_text
+from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database import ExactDatabase
-from p2sf.database.render import database_psf
+from p2sf.database.accuracy import Accuracy
+from p2sf.database.render import pixels_psf
 from p2sf.database_files import Stored
 from p2sf.errors import RequestError
 from p2sf.files.writing import plain
 from p2sf.lens.source import Source
-from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
+from p2sf.messages import Message
+from p2sf.psf.prediction import TOO_FAR, USELESS
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_samples, suitable_pixel_um
 from p2sf.request import Request
 
 if TYPE_CHECKING:
@@ -40,8 +41,18 @@ def is_database(name: str) -> bool:
     return Path(name).suffix.lower() in (".npz", ".zarr")
 
 
-def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) -> tuple[Psf, dict[str, Any], str]:
-    """Return the PSF a request means in a database file, what a file says about it, and a heading.
+@dataclass(frozen=True)
+class LookedUp:
+    """A PSF from a database, what a file says about it, a heading, and what is predicted of the whole database."""
+
+    psf: Psf
+    about: dict[str, Any]
+    title: str
+    accuracy: Accuracy
+
+
+def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) -> LookedUp:
+    """Return the PSF a request means in a database file.
 
     Raises RequestError for what only the lens could answer, DatabaseError outside what the database covers.
     """
@@ -57,20 +68,22 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
             )
     database = shifted(stored.database, request.sensor_shift_um)
     source = source_of(database, request)
-    psf = replace(_light(database, source, pixels, pixel_um), azimuth_deg=source.azimuth_deg)
-    return psf, description(stored, source), _heading(stored, source)
+    psf = pixels_psf(database, source, pixels, pixel_um)
+    return LookedUp(psf, description(stored, source), _heading(stored, source), stored.accuracy)
 
 
-def _light(database: "Database", source: Source, pixels: int, pixel_um: float | None) -> Psf:
-    """Return the PSF of one source, as light per pixel where the pitch exceeds λ/(4 NA)."""
-    check_samples(pixels, pixel_um)
-    six = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
-    return integrated(
-        lambda count, pitch: database_psf(database, source, count, pitch),
-        pixels,
-        pixel_um or float(suitable_pixel_um(six, pixels)),
-        float(critical_pixel_um(six.wavelength_um, six.na)),
-    )
+def accuracy_rows(known: Accuracy, of: str = "") -> list[Row]:
+    """Return the predicted 1 − R² of the PSFs against exact rays, its median and the worst, and where that is.
+
+    Neither is a number where the estimate tells no more than that PSFs are not alike.
+    """
+    median: tuple[float | None, Message | str] = (known.median, "")
+    worst: tuple[float | None, Message] = (known.worst, known.where)
+    if known.median >= USELESS:
+        median = (None, TOO_FAR)
+    if known.worst >= USELESS:
+        worst = (None, Message("{why}, {where}", why=TOO_FAR, where=known.where))
+    return [(f"predicted 1 − R²{of}, median", *median), (f"predicted 1 − R²{of}, worst", *worst)]
 
 
 def shifted(database: "Database", shift_um: float) -> "Database":

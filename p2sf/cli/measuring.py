@@ -3,13 +3,13 @@
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, check_output
-from p2sf.cli.screen import Row, print_json, print_table, warn
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, Threads, check_output
+from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
@@ -18,13 +18,15 @@ from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.frame import Frame, Noise
 from p2sf.measure.frame_fit import FrameFit
-from p2sf.measure.frame_terms import FIELD, FOCUS, lens_optics
+from p2sf.measure.frame_terms import F_NUMBER_ERROR, FIELD, FOCUS, lens_optics
 from p2sf.measure.measurement import Comparison, Measurement, compared, measured, write_measurement
+from p2sf.measure.point_fit import PointFit
 from p2sf.measure.point_model import Optics
 from p2sf.measure.reading import read_frame
 from p2sf.measure.target import TargetMatch, read_target
 from p2sf.messages import Message
-from p2sf.request import Request, mask_of, set_up
+from p2sf.request import FIELDS, Request, mask_of, set_up
+from p2sf.threads import using_threads
 
 Pictures = Annotated[list[Path], Parameter(help="Pictures of the same points, one for each focus position.")]
 LensOption = Annotated[str | None, Parameter(help="The lens as designed, from which the picture departs.")]
@@ -48,6 +50,12 @@ TargetFile = Annotated[
 Light = Annotated[
     list[str],
     Parameter(help="Light of several wavelengths: each in nm and how much it brings, as --light 530:1 --light 550:2."),
+]
+FNumberError = Annotated[
+    float,
+    Parameter(
+        help="One standard deviation of the f-number as stated, percent; of a frame it is an unknown unless this is 0."
+    ),
 ]
 Built = Annotated[
     Path | None,
@@ -75,6 +83,8 @@ class Camera:
         Counts from which a pixel is saturated.
     channel
         Of a colour picture: red, green or blue.
+    encoding
+        What whole numbers of a picture mean: srgb or linear. 8 bits are sRGB when not given.
     """
 
     pixel_um: float | None = None
@@ -84,15 +94,18 @@ class Camera:
     read_noise: float | None = None
     full_scale: float | None = None
     channel: str = "green"
+    encoding: Literal["srgb", "linear"] | None = None
 
     def frame(self, path: Path) -> Frame:
         """Return the frame of a picture."""
         gain, full_scale = (inf if value is None else value for value in (self.gain, self.full_scale))
         noise = Noise(gain, self.read_noise, full_scale)
-        return read_frame(path, self.pixel_um, dark=self.dark, flat=self.flat, noise=noise, channel=self.channel)
+        fields = {"dark": self.dark, "flat": self.flat}
+        return read_frame(path, self.pixel_um, **fields, noise=noise, channel=self.channel, encoding=self.encoding)
 
 
 ANY_CAMERA = Camera()
+ANY_FIELD = (*FIELDS, "field_x_deg")
 
 
 def measure(
@@ -108,8 +121,10 @@ def measure(
     model: Numbers = "seidel",
     unknowns: Unknown | None = None,
     clip: Clip = False,
+    f_number_error: FNumberError = F_NUMBER_ERROR,
     built: Built = None,
     output: Output = None,
+    threads: Threads = None,
     as_json: Json = False,
 ) -> None:
     """Find the points of a picture and the wavefront of each, with errors; of five or more, what explains the frame.
@@ -121,18 +136,24 @@ def measure(
     check_output(built, (".toml", ".zmx", ".seq", ".json", ".npz"))
     known = None if target is None else read_target(target)
     frames = [camera.frame(path) for path in pictures]
-    design, optics = _scale(lens, request, frames[0])
-    found = measured(
-        frames,
-        replace(optics, light=tuple(_colour(text) for text in light or ())),
-        focus_um=focus_um or [0.0] * len(frames),
-        model=model,
-        lens=design,
-        depth_mm=request.depth_mm,
-        unknowns=unknowns or (*FOCUS, *FIELD),
-        clip=clip,
-        target=known,
-    )
+    design, optics, field = _scale(lens, request, frames[0])
+    if field is not None:
+        frames = [replace(frame, field_deg=field) for frame in frames]
+    optics = replace(optics, light=tuple(_colour(text) for text in light or ()))
+    with using_threads(threads), percent_line() as tell:
+        found = measured(
+            frames,
+            optics,
+            focus_um=focus_um or [0.0] * len(frames),
+            model=model,
+            lens=design,
+            depth_mm=request.depth_mm,
+            unknowns=unknowns or (*FOCUS, *FIELD),
+            clip=clip,
+            target=known,
+            f_number_error=f_number_error,
+            progress=tell,
+        )
     if output:
         write_measurement(found, output)
     if built:
@@ -166,12 +187,20 @@ def _write_built(found: Measurement, path: Path) -> None:
         warn(why)
 
 
-def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, Optics]:
-    """Return the lens as asked, if any, and the scale of its PSFs."""
-    pitch = frame.geometry.pixel_um
+def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, Optics, float | None]:
+    """Return the lens as asked, if any, the scale of its PSFs, and the field, if it is asked for."""
+    pitch, fields = frame.geometry.pixel_um, [name for name in ANY_FIELD if getattr(request, name) is not None]
+    for name in fields:
+        if not frame.psf or lens is None:
+            raise RequestError(
+                "{parameter} is given, and says where the one point of a PSF lies beside its lens; leave it out: "
+                "points of a picture are where they are seen",
+                parameter=name,
+            )
     if lens is not None:
         setup = set_up(find_lens(lens), request)
-        return setup.lens, lens_optics(setup.lens, request.depth_mm, setup.source.wavelength_um, pitch)
+        optics = lens_optics(setup.lens, request.depth_mm, setup.source.wavelength_um, pitch)
+        return setup.lens, optics, setup.source.field_deg if fields else None
     for name in ("f_number", "wavelength_nm"):
         if getattr(request, name) is None:
             raise RequestError(
@@ -179,7 +208,7 @@ def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | Non
             )
     assert request.f_number is not None and request.wavelength_nm is not None
     mask = mask_of(None, request)
-    return None, Optics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask)
+    return None, Optics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask), None
 
 
 def record(found: Measurement) -> dict[str, Any]:
@@ -203,14 +232,16 @@ def record(found: Measurement) -> dict[str, Any]:
         "target": target,
         "na": found.optics.na,
         "pixel_um": found.optics.pixel_um,
+        "encoding": found.frames[0].encoding or None,
+        "warnings": [str(warning) for warning in found.warnings],
     }
 
 
-def _point(one: Any) -> dict[str, Any]:
+def _point(one: PointFit) -> dict[str, Any]:
     columns = zip(one.names, one.numbers, one.errors, one.bounds, strict=True)
     return {
-        "numbers": {name: {"value": v, "error": e, "bound": b} for name, v, e, b in columns},
-        "others": [other.tolist() for other in one.others],
+        "numbers": {name: {"value": v, "error": e, "bound": b} for name, v, e, b in columns} if one.reliable else None,
+        "others": [other.tolist() for other in one.others] if one.reliable else None,
         "r2": one.r2.tolist(),
         "chi2": one.chi2,
         "warnings": [str(warning) for warning in one.warnings],
@@ -220,10 +251,10 @@ def _point(one: Any) -> dict[str, Any]:
 def _whole(whole: FrameFit) -> dict[str, Any]:
     columns = zip(whole.model.unknowns, whole.values, whole.errors, whole.bounds, strict=True)
     return {
-        "unknowns": {
-            name: {"value": v, "error": e, "bound": b, "unit": whole.model.unit(name)} for name, v, e, b in columns
-        },
-        "twin": None if whole.twin is None else whole.twin.tolist(),
+        "unknowns": None
+        if not whole.reliable
+        else {name: {"value": v, "error": e, "bound": b, "unit": whole.model.unit(name)} for name, v, e, b in columns},
+        "twin": None if whole.twin is None or not whole.reliable else whole.twin.tolist(),
         "height_mm": whole.model.height_mm,
         "chi2": whole.chi2,
         "least_r2": float(whole.r2.min()),
@@ -247,7 +278,8 @@ def _show(found: Measurement) -> None:
         _show_target(found.target)
     rows: list[Row] = []
     for point, one in used[:MOST_ROWS]:
-        cells = [f"{v:.3f} ± {e:.3f}" for v, e in zip(one.numbers[:SHOWN], one.errors[:SHOWN], strict=True)]
+        pairs = zip(one.numbers[:SHOWN].tolist(), one.errors[:SHOWN].tolist(), strict=True)
+        cells = [f"{v:.3f} ± {e:.3f}" if one.reliable else None for v, e in pairs]
         number = "" if point.number is None else f"{point.number}: "
         rows.append((f"{number}{point.x_mm:.3f}, {point.y_mm:.3f}", *cells, f"{one.r2.min():.4f}", f"{one.chi2:.2f}"))
     names = used[0][1].names[:SHOWN] if used else ()
@@ -255,6 +287,8 @@ def _show(found: Measurement) -> None:
     if len(used) > MOST_ROWS:
         print(f"… and {len(used) - MOST_ROWS} more; --json or -o has all")
     flags = [flag for point in found.points for flag in point.flags] + [why for why in found.failures if why]
+    for warning in found.warnings:
+        warn(warning)
     for why in dict.fromkeys(flags):
         warn(Message("{count} points not used: {why}", count=flags.count(why), why=why))
     every = [warning for _, one in used for warning in one.warnings]
@@ -262,7 +296,8 @@ def _show(found: Measurement) -> None:
         alike = [warning for warning in every if warning.template == template]
         warn(Message("at {count} of {all} points, {why}", count=len(alike), all=len(used), why=alike[0]))
     if found.whole is not None:
-        print_table(*_frame_table(found.whole))
+        if found.whole.reliable:
+            print_table(*_frame_table(found.whole))
         for why in found.whole.warnings:
             warn(why)
 

@@ -2,18 +2,22 @@
 
 import json
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from math import isinf
+from time import perf_counter
 from typing import Any
 
 from p2sf.cli import STYLE
 from p2sf.files.writing import plain
+from p2sf.image.progress import seconds_left
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.request import Setup
 
 Row = tuple[object, ...]
 FILLED = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}  # by exact rays, `Lens.aim`
+LINE = 30  # columns of a line of progress
 WIDE = 240  # columns of a page that no terminal limits
 
 
@@ -56,6 +60,28 @@ def warn(message: Message | None) -> None:
     """Print a warning on standard error, apart from the results."""
     if message:
         print(f"warning: {text(message)}", file=sys.stderr)
+
+
+@contextmanager
+def percent_line() -> Iterator[Callable[[float], None] | None]:
+    """Give what is told the share done, from 0 to 1, and shows it on a terminal; None elsewhere. The line goes at last.
+
+    It is on standard error: per cent, and the seconds left once the pace is known.
+    """
+    if not sys.stderr.isatty():
+        yield None
+        return
+    begun = perf_counter()
+
+    def tell(share: float) -> None:
+        left = seconds_left(share, perf_counter() - begun)
+        line = f"{100 * share:3.0f} %" + ("" if left is None else f", {left} s left")
+        print(f"\r{line:{LINE}}", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield tell
+    finally:
+        print(f"\r{'':{LINE}}\r", end="", file=sys.stderr, flush=True)
 
 
 def field_text(source: Source) -> str:

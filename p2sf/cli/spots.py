@@ -15,12 +15,14 @@ from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import numerical_aperture
+from p2sf.raytrace.spot import DRAWN_RINGS
+from p2sf.raytrace.spot import spot as spot_of
 from p2sf.request import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays
 
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
-Rings = Annotated[Whole, Parameter(help="Rings of rays over the pupil.")]
+Rings = Annotated[Whole, Parameter(help="Rings of rays to draw; the figures do not depend on them.")]
 
 
 def spot(
@@ -28,7 +30,7 @@ def spot(
     /,
     *,
     request: Asked = AS_IN_THE_FILE,
-    rings: Rings = 12,
+    rings: Rings = DRAWN_RINGS,
     clip: Clip = False,
     output: Output = None,
     as_json: Json = False,
@@ -64,19 +66,13 @@ ROWS = (
 
 def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[str, Any]]:
     """Return the arriving rays' (x, y) in µm from the chief ray, shape (rays, 2), and the spot's figures."""
-    from p2sf.raytrace import pencil as raytrace
-    from p2sf.raytrace.seen_mask import mask_seen
-
-    xi, eta = raytrace.hexapolar(rings)
-    mask = mask_seen(setup.lens, setup.source)
-    passing = None if mask.clear else np.where(mask.opens(xi, eta), mask.amplitude(xi, eta) ** 2, 0.0)
-    found = raytrace.spot(setup.lens, setup.source, rings, clip, passing)
+    found = spot_of(setup.lens, setup.source, rings, clip)
     all_points = np.stack([found.x_um, found.y_um], axis=-1)
     points = all_points[np.isfinite(all_points).all(axis=-1)]
     na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))
     return points, {
         "rms_um": float(found.rms_um),
-        "largest_um": float(np.hypot(points[:, 0] - found.centroid_x_um, points[:, 1] - found.centroid_y_um).max()),
+        "largest_um": float(found.farthest_um),
         "centroid_x_um": float(found.centroid_x_um),
         "centroid_y_um": float(found.centroid_y_um),
         "airy_radius_um": float(airy_radius_um(setup.source.wavelength_um, na)) if na else inf,

@@ -18,7 +18,9 @@ from p2sf.tolerance import (
     Builds,
     Criterion,
     Differentials,
+    by_form,
     differentials,
+    form_errors,
     harms,
     of_worst_field,
     sensitivities,
@@ -30,6 +32,7 @@ from p2sf.tolerance import (
 from p2sf.tolerance.criteria import CRITERIA, LARGE_IS_GOOD
 from p2sf.tolerance.errors_of_build import UNITS, Tolerance
 from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
+from p2sf.tolerance.single import INVALID
 
 COLUMNS: dict[Criterion, str] = {
     "rms_waves": "adds to the worst RMS, waves",
@@ -38,12 +41,16 @@ COLUMNS: dict[Criterion, str] = {
     "boresight_um": "moves the image by, µm",
 }
 WORST: dict[Criterion, str] = {
-    "rms_waves": "RMS of the worst field, waves",
-    "strehl": "least Strehl ratio",
-    "mtf": "least contrast",
-    "boresight_um": "largest shift of the image, µm",
+    "rms_waves": "RMS at most, waves",
+    "strehl": "Strehl ratio at least",
+    "mtf": "contrast at least",
+    "boresight_um": "shift of the image at most, µm",
 }
 MOST_BUILDS, SHOWN = 1_000_000, 12
+NOTICED = 0.01  # of the largest harm: errors of the form below that are not told
+STREHL = (
+    "Strehl ratio: |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt, weighted as the field."
+)
 LARGEST_SEED = 2**63 - 1
 PERCENTILES = 10, 50, 90
 
@@ -113,8 +120,9 @@ def tolerance(
     sources = (setup.source,) if one_field else usual_sources(setup.lens, setup.source)
     known = differentials(setup.lens, sources, tolerances)
     wanted = frequency_per_mm if criterion == "mtf" or "mtf" in limits else None
-    alone, found = sensitivities(known, places, wanted), simulate(known, builds, places, seed, wanted)
-    record = record_of(known, places, alone, found, limits, criterion)
+    alone, form = (one(known, places, wanted) for one in (sensitivities, by_form))
+    found = simulate(known, builds, places, seed, wanted)
+    record = record_of(known, places, (alone, form), found, limits, criterion)
     if as_json:
         return print_json(record)
     warn(setup.stop.warning)
@@ -124,23 +132,30 @@ def tolerance(
 def record_of(
     known: Differentials,
     places: tuple[int, ...],
-    alone: Builds,
+    single: tuple[Builds, Builds],
     found: Builds,
     limits: dict[Criterion, float],
     criterion: Criterion = "rms_waves",
 ) -> dict[str, Any]:
-    """Return all that is known, as JSON has it; errors by how much worse they make the worst field."""
+    """Return all that is known, as JSON has it; errors by how much worse they make the worst field.
+
+    ``single``: one error at a time, by exact rays and by the form. Figures of errors that lose rays are None.
+    """
+    alone, form = single
     worst, adds = alone.rms_waves.max(1), harms(alone, "rms_waves", places)
-    harm = harms(alone, criterion, places)
-    rows = []
+    harm, excess = harms(alone, criterion, places), form_errors(form, alone, criterion, places)
+    rows: list[dict[str, Any]] = []
     for number, one in enumerate(known.tolerances):
         if number in places:
             continue
         where = {"kind": one.kind, "first": one.piece[0], "last": one.piece[1]}
         size = {"amount": one.amount, "unit": UNITS[one.kind]}
-        both = {"rms_waves": worst[2 * number : 2 * number + 2].tolist(), "adds_waves": float(adds[number])}
-        rows.append({**where, **size, **both, "harm": float(harm[number])})
-    rows.sort(key=lambda row: -row["harm"])
+        both = {
+            "rms_waves": [_known(one) for one in worst[2 * number : 2 * number + 2]],
+            "adds_waves": _known(adds[number]),
+        }
+        rows.append({**where, **size, **both, "harm": _known(harm[number]), "form_error": _known(excess[number])})
+    rows.sort(key=lambda row: -np.inf if row["harm"] is None else -row["harm"])
     values = of_worst_field(found, criterion)
     rms, strehl = found.rms_waves.max(1), found.strehl.min(1)
     share, error = share_within(found, limits)
@@ -150,6 +165,7 @@ def record_of(
         "nominal": {"rms_waves": alone.rms_waves[-1].tolist(), "strehl": alone.strehl[-1].tolist()},
         "designed": {name: float(of_worst_field(alone, name)[-1]) for name in ("rms_waves", "strehl", criterion)},
         "criterion": criterion,
+        "strehl_is": STREHL,
         "errors": rows,
         "compensators": [
             {
@@ -169,31 +185,58 @@ def record_of(
     }
 
 
+def _known(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
 def show(setup: Setup, sources: Sequence[Source], record: dict[str, Any]) -> None:
     """Print what hurts most, and the yield."""
     fields = ", ".join(map(field_text, sources))
     lens = setup.prescription
     title = f"{lens.title or lens.name}: fields {fields}, {setup.source.wavelength_um * 1000:.7g} nm"
     columns = ("error", "±", "", COLUMNS[record["criterion"]])
-    rows = [(_name(row), row["amount"], row["unit"], row["harm"]) for row in record["errors"][:SHOWN]]
+    # To three digits, as the sums of exact rays are good for.
+    rows = [(_name(row), row["amount"], row["unit"], _digits(row["harm"])) for row in record["errors"][:SHOWN]]
     print_table(title, columns, rows)
     more = len(record["errors"]) - SHOWN
     if more > 0:
         print(f"and {more} more, which add less\n")
+    _show_doubts(record["errors"])
     shown = [name for name in WORST if name in record["designed"]]
     figures = [("as designed", *(record["designed"][name] for name in shown))]
     figures += [(f"{p} % of the builds", *(one[name] for name in shown)) for p, one in record["percentiles"].items()]
     print_table(
-        f"{record['builds']} builds, errors anywhere within their tolerances",
-        ("at most, at least", *(WORST[name] for name in shown)),
+        f"{record['builds']} builds, errors anywhere within their tolerances: what their worst field has",
+        ("builds", *(WORST[name] for name in shown)),
         figures,
     )
+    if "strehl" in record["designed"]:
+        print(STREHL)
     within = record["within"]
     asked = {"RMS ≤": within["rms_waves"], "Strehl ratio ≥": within["strehl"], "contrast ≥": within["mtf"]}
     asked["µm of the image's shift ≤"] = within["boresight_um"]
     words = " and ".join(f"{name} {value:g}" for name, value in asked.items() if value is not None)
     if words:
         print(f"{100 * within['share']:.2f} % ± {100 * within['standard_error']:.2f} % keep {words} in all fields")
+
+
+def _digits(value: float | None) -> float | str:
+    return "rays are lost" if value is None else float(f"{value:.3g}")
+
+
+def _show_doubts(rows: Sequence[dict[str, Any]]) -> None:
+    """Print which errors lose rays, and which ones the quadratic form of the builds does not describe."""
+    most = max((abs(row["harm"]) for row in rows if row["harm"] is not None), default=0.0)
+    lost = [_name(row) for row in rows if row["harm"] is None]
+    if lost:
+        print(f"Rays are lost at ± the tolerance of: {', '.join(lost)}. There is no figure; do not trust the builds.")
+    off = [
+        f"{_name(row)} ({row['form_error'] / row['harm']:+.0%})"
+        for row in rows
+        if row["harm"] and abs(row["form_error"]) > max(INVALID * abs(row["harm"]), NOTICED * most)
+    ]
+    if off:
+        print(f"Figures are of exact rays; builds are drawn by a quadratic form, which is off for: {', '.join(off)}")
 
 
 def _name(row: dict[str, Any]) -> str:

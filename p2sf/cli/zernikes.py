@@ -49,8 +49,8 @@ def zernike(
     rows: list[Row] = [(t["term"], t["n"], t["m"], t["name"], t["waves"], t["share"]) for t in record(found)["terms"]]
     print_table(heading(setup), COLUMNS, rows)
     figures = (
-        ("RMS without piston", found.rms, "waves"),
-        ("RMS without piston and tilt", found.rms_without_tilt, "waves"),
+        ("RMS", found.rms, "waves"),
+        ("RMS with tilt", found.rms_with_tilt, "waves"),
         ("RMS of what these terms leave", found.residual, "waves"),
         ("terms are orthogonal over", over(found), ""),
     )
@@ -71,7 +71,7 @@ def record(found: ZernikeFit) -> dict[str, Any]:
         "basis": found.order,
         "unit": "waves RMS" if found.order == "noll" else "waves peak",
         "rms": found.rms,
-        "rms_without_tilt": found.rms_without_tilt,
+        "rms_with_tilt": found.rms_with_tilt,
         "residual_rms": found.residual,
         "clear_share_of_pupil": found.clear,
         "gram_schmidt": found.clear < 1.0,

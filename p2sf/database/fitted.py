@@ -9,25 +9,23 @@ sensor, the same ones for all fields: in those of each field, which turn with it
 the axis. A source's own fit follows by turning the polynomials (`turned_fit`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from p2sf.conventions import vergence
+from p2sf.conventions import depth_of, vergence
 from p2sf.database.exact import ExactDatabase, chebyshev_terms
 from p2sf.database.render import Points, Sampling, critical_pixel_um
 from p2sf.database.space import Space
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.fitted import summed
-from p2sf.psf.plane_waves import Origin, psf_from_intensity
+from p2sf.psf.fitted import psf_of_fit, summed
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.pupil.zernike import basis, terms
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Gradient, Level, level_rays, phase_slopes, rows_of
 from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
@@ -82,13 +80,13 @@ class FittedDatabase:
 
     def fit_at(self, source: Source) -> FittedPencil:
         """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
-        phase, fx, fy, weight, _ = split(self.level, self.numbers_at(source))
+        phase, fx, fy, amplitude, _ = split(self.level, self.numbers_at(source))
         if self.level.skew and source.azimuth_deg:
-            phase, fx, fy, weight = turned_fit(self.level, phase, fx, fy, weight, source.azimuth_deg)
+            phase, fx, fy, amplitude = turned_fit(self.level, phase, fx, fy, amplitude, source.azimuth_deg)
         mask, colour = self.mask.turned(-source.azimuth_deg), float(source.wavelength_um)
         steep = with_slopes(steepness(self.level, phase, fx, fy), mask, colour)
         made = self.level, phase, fx, fy, self.residual_waves, steep
-        return FittedPencil(*made, blur_um2=np.nan, rays=0, weight=weight, mask=mask, wavelength_um=colour)
+        return FittedPencil(*made, blur_um2=np.nan, rays=0, amplitude=amplitude, mask=mask, wavelength_um=colour)
 
     @one_blas_thread
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
@@ -100,9 +98,9 @@ class FittedDatabase:
         found = self.fit_at(source)
         six = self.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
         pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
-        intensity, sampling = summed(found, pixels, pixel_um)
-        made = Origin("fitted", found.numbers, 0, sampling, started, SETTLED_TOLERANCE)
-        return psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made)
+        window = pixels, pixel_um
+        psf = psf_of_fit(found, source.wavelength_um, window, "settled", started)
+        return replace(psf, predicted_error=None)
 
     def rendered(
         self, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32, threads: int | None = None
@@ -148,8 +146,7 @@ class Axes:
     def source(self, reduced: ArrayLike) -> Source:
         """Return the source at (s, h², λ), or (s, h_y, h_x, λ), each mapped to −1…1."""
         s, *fields, wavelength = (self.middle + self.half * np.asarray(reduced)).tolist()
-        with np.errstate(divide="ignore"):
-            depth = float(np.divide(1.0, s) - self.pupil_mm)
+        depth = depth_of(s) - self.pupil_mm
         if len(fields) == 2:
             return source_at(depth, fields[1], fields[0], wavelength)
         return Source(depth, float(np.sqrt(max(fields[0], 0.0))), wavelength)
@@ -178,25 +175,25 @@ def powers(level: Level, source: Source) -> np.ndarray:
     even_phase = [m % 2 for _, m in terms(level.wave_order)]
     odd_map = [(m + 1) % 2 for _, m in terms(level.map_order, True)]
     even_map = [(m + 1) % 2 for _, m in terms(level.map_order)]
-    even_weight = [m % 2 for _, m in terms(level.map_order)] if level.weighted else []
-    parity = np.array([*even_phase, *odd_map, *even_map, *even_weight, 1])
+    even_amplitude = [m % 2 for _, m in terms(level.map_order)] if level.weighted else []
+    parity = np.array([*even_phase, *odd_map, *even_map, *even_amplitude, 1])
     wavelength = np.full(parity.size, source.wavelength_um)
-    wavelength[-1 - len(even_weight) :] = 1.0
+    wavelength[-1 - len(even_amplitude) :] = 1.0
     scale: np.ndarray = np.where(parity == 1, source.field_slope, 1.0) / wavelength
     return scale
 
 
 def split(level: Level, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
-    """Return phase, fx, fy, weight and the chief ray's height, its y, from the numbers of one source."""
+    """Return phase, fx, fy, amplitude and the chief ray's height, its y, from the numbers of one source."""
     ends = np.cumsum([sum(count) for count in level.counts])
-    phase, fx, fy, weight = np.split(numbers[: -2 if level.skew else -1], ends)
-    return phase, fx, fy, weight if level.weighted else UNIFORM, float(numbers[-1])
+    phase, fx, fy, amplitude = np.split(numbers[: -2 if level.skew else -1], ends)
+    return phase, fx, fy, amplitude if level.weighted else UNIFORM, float(numbers[-1])
 
 
 def turned_fit(
-    level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray, weight: np.ndarray, azimuth_deg: float
+    level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray, amplitude: np.ndarray, azimuth_deg: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return phase, fx, fy and weight of a fit without symmetry, in the sensor's axes, in those of an azimuth.
+    """Return phase, fx, fy and amplitude of a fit without symmetry, in the sensor's axes, in those of an azimuth.
 
     Seen from there an angle about the pupil is θ − α, which mixes every cos mθ with its sin mθ, and (fx, fy) turns as
     a vector does.
@@ -205,8 +202,8 @@ def turned_fit(
     x = _turned(np.append(fx[odd:], fx[:odd]), level.map_order, turn)  # of fx the odd terms come first
     y = _turned(fy, level.map_order, turn)
     x, y = x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
-    phase, weight = _turned(phase, level.wave_order, turn), _turned(weight, level.map_order, turn)
-    return phase, np.append(x[-odd:], x[:-odd]), y, weight
+    phase, amplitude = _turned(phase, level.wave_order, turn), _turned(amplitude, level.map_order, turn)
+    return phase, np.append(x[-odd:], x[:-odd]), y, amplitude
 
 
 def _turned(form: np.ndarray, order: int, turn: float) -> np.ndarray:

@@ -10,8 +10,9 @@ from p2sf.database.build import build_exact
 from p2sf.database.departure import scattered
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
-from p2sf.errors import DatabaseError, GeometryError
+from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens, check_aligned, seen_from, with_mask
+from p2sf.lens.misalignment import averaged
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
@@ -19,8 +20,7 @@ from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike import terms
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for, pencil_forms
-from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import RayData, ray_data
+from p2sf.raytrace.pencil import Rays, pencil, reaching
 from p2sf.threads import one_blas_thread
 
 START = {3: (4, 4, 4), 4: (4, 5, 5, 4)}  # nodes along s, h² and wavelength, or s, h_y, h_x and wavelength
@@ -49,7 +49,7 @@ def build_fitted(
     if space.field_x_slopes is None:
         check_aligned(lens, Message("a database of fields along one line"), ACROSS)
     stop = stop or find_stop(lens)
-    seidel = replace(build_exact(lens, space.line, stop), space=space)
+    seidel = replace(build_exact(averaged(lens), space.line, stop), space=space)
     axes = axes_of(space, seidel)
     level, left = _level_for(lens, axes, stop, numbers)
     lens = with_mask(lens, CLEAR)  # the fits are those of the whole disc; their residuals are those of its open part
@@ -99,8 +99,8 @@ def _row(lens: Lens, source: Source, level: Level, stop: Stop) -> np.ndarray:
     """Return the numbers of one source, divided by `powers`."""
     found = fit(lens, source, level.numbers, stop=stop)
     chief = pencil(lens, source, np.zeros(1), np.zeros(1), stop=stop).chief_y
-    weight = found.weight[: found.weight.size * level.weighted]
-    numbers = np.concatenate([found.phase, found.fx, found.fy, weight, np.ravel(chief)])
+    amplitude = found.amplitude[: found.amplitude.size * level.weighted]
+    numbers = np.concatenate([found.phase, found.fx, found.fy, amplitude, np.ravel(chief)])
     scale = powers(level, source)
     row: np.ndarray = np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
     return row
@@ -117,7 +117,7 @@ def _skew_rows(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray]
         sources = [axes.source((depth, *place, wave)) for depth, wave in product(depths, waves)]
         rays, chief = rays_on_sensor(lens, sources, level, stop)
         forms = pencil_forms(rays, level)
-        numbers = np.concatenate([forms.phase, forms.fx, forms.fy, forms.weight, chief], axis=1)
+        numbers = np.concatenate([forms.phase, forms.fx, forms.fy, forms.amplitude, chief], axis=1)
         numbers /= np.stack([powers(level, source) for source in sources])
         found.append(numbers.reshape(len(depths), len(waves), -1))
     return np.moveaxis(np.array(found), 0, 1)
@@ -125,7 +125,7 @@ def _skew_rows(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray]
 
 def rays_on_sensor(
     lens: Lens, sources: Sequence[Source], level: Level, stop: Stop | None = None
-) -> tuple[RayData, np.ndarray]:
+) -> tuple[Rays, np.ndarray]:
     """Return the rays of a level, (source, ray), in the sensor's axes, and where chief rays land, (source, 2) mm.
 
     The sources share one azimuth. The pupil's axes are those of the sensor as well. Raises GeometryError where a ray
@@ -135,21 +135,9 @@ def rays_on_sensor(
     sine, cosine = np.sin(np.deg2rad(azimuth)), np.cos(np.deg2rad(azimuth))
     several = Sources(*np.array([(s.depth_mm, s.field_slope, s.wavelength_um) for s in sources]).T)
     xi, eta, _ = level_rays(level)
-    seen = pencil(seen_from(lens, azimuth), several, xi * cosine - eta * sine, xi * sine + eta * cosine, stop=stop)
-    if not seen.passed.all():
-        raise GeometryError(
-            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
-            lost=int((~seen.passed).sum()),
-            total=seen.passed.size,
-        )
-
-    def on_sensor(across: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return across * cosine + along * sine, along * cosine - across * sine
-
-    data = ray_data(seen)
-    (fx, fy), (x_um, y_um) = on_sensor(data.fx, data.fy), on_sensor(data.x_um, data.y_um)
-    chief = on_sensor(np.broadcast_to(seen.chief_x, seen.chief_y.shape), seen.chief_y)
-    return RayData(data.phase, fx, fy, x_um, y_um, data.weight), np.concatenate(chief, axis=1)
+    points = xi * cosine - eta * sine, xi * sine + eta * cosine
+    rays = reaching(seen_from(lens, azimuth), several, *points, stop).turned(azimuth)
+    return rays, np.concatenate(np.broadcast_arrays(rays.chief_x, rays.chief_y), axis=1)
 
 
 def held_out(
@@ -161,10 +149,10 @@ def held_out(
         source = space.source(*point)
         if level.skew:
             several, _ = rays_on_sensor(lens, [source], level, stop)
-            rays = RayData(*(column[0] for column in vars(several).values()))
+            rays = several.of_source(0)
             yield source, fit_rays(rays, level, level.rays), rays.x_um, rays.y_um
         else:
-            rays = ray_data(pencil(lens, source, xi, eta, stop=stop))
+            rays = pencil(lens, source, xi, eta, stop=stop)
             yield source, fit(lens, source, level.numbers, stop=stop), rays.x_um, rays.y_um
 
 

@@ -13,7 +13,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf import pixel_integrals
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_image, check_window, seidel_psf
+from p2sf.psf.seidel import check_image, check_samples, check_window, seidel_psf, suitable_pixel_um
 from p2sf.psf.seidel_stack import stack_of
 from p2sf.pupil.mask import PupilMask
 from p2sf.threads import mapped, one_blas_thread
@@ -44,6 +44,9 @@ class Database(Protocol):
     @property
     def mask(self) -> PupilMask:
         """Return what stands in the pupil, as a source whose chief ray lands at +y sees it."""
+
+    def __hash__(self) -> int:
+        """Return the hash of its identity."""
 
     def coefficients(self, depth_mm: ArrayLike, field_slope: ArrayLike, wavelength_um: ArrayLike) -> Coefficients:
         """Return the six coefficients at one point or over broadcast arrays; DatabaseError outside the space."""
@@ -136,6 +139,22 @@ def samples_per_pixel(database: Database, sampling: Sampling) -> int:
     """Return how many samples across a pixel its light takes; 1 where samples stay at points."""
     critical = critical_pixel_um(database)
     return pixel_integrals.samples_across(sampling.pixels, sampling.pixel_um or critical, critical)
+
+
+def pixels_psf(
+    database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None, integrated: bool | None = None
+) -> Psf:
+    """Return `database_psf` as light per pixel or as samples, by default light where the pitch exceeds λ/(4 NA)."""
+    check_samples(pixels, pixel_um)
+    six = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
+    psf = pixel_integrals.integrated(
+        lambda count, pitch: database_psf(database, source, count, pitch),
+        pixels,
+        pixel_um or float(suitable_pixel_um(six, pixels)),
+        float(pixel_integrals.critical_pixel_um(six.wavelength_um, six.na)),
+        integrated,
+    )
+    return replace(psf, azimuth_deg=source.azimuth_deg)
 
 
 @one_blas_thread

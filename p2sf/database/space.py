@@ -3,15 +3,16 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, isfinite
+from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import NM_PER_UM, degrees_from_slope, vergence
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.errors import DatabaseError
 from p2sf.lens.source import Source, source_at
 from p2sf.messages import Message
+from p2sf.parameters import check_distance
 
 # Converted from degrees or nanometres and back, a limit is a rounding or two away from its node.
 ROUNDING = 1e-9
@@ -52,6 +53,9 @@ class Space:
             raise DatabaseError(
                 "depth {depth:g} mm is not in front of the lens; give positive depths", depth=float(self.depths_mm[0])
             )
+
+        for depth in self.depths_mm.tolist():
+            check_distance("depths_mm", depth)
 
     @cached_property
     def _limits(self) -> tuple[Limits, Limits, Limits]:
@@ -179,13 +183,3 @@ def _ascending(values: ArrayLike, axis: Message) -> np.ndarray:
         raise DatabaseError("a {axis} node is not finite; only a depth may be infinite", axis=axis)
     nodes.flags.writeable = False
     return nodes
-
-
-def depth_nodes(near_mm: float, far_mm: float = inf, count: int = 20) -> np.ndarray:
-    """Return depths uniform in 1/depth, nearest first, shape (count,), mm; ``far_mm`` may be inf."""
-    with np.errstate(divide="ignore"):
-        depths = 1 / np.linspace(vergence(near_mm), vergence(far_mm), count)
-    depths[0] = near_mm
-    if count > 1:
-        depths[-1] = far_mm
-    return depths

@@ -64,7 +64,7 @@ def same_database(one: bytes, other: bytes) -> bool:
 def _content(raw: bytes) -> tuple[Arrays, Meta]:
     arrays = opened(raw, MARK, "the database")
     meta = _meta(arrays.pop(MARK))
-    return arrays, {**meta, "versions": None}
+    return arrays, {**meta, "versions": None, "predicted_error": None}
 
 
 def _meta(mark: np.ndarray) -> Meta:

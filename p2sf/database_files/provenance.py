@@ -1,27 +1,29 @@
 """What a file says about its database: lens, glasses, method, units, conventions, versions."""
 
 import hashlib
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import cached_property
 from math import inf
 from typing import Any
 
 import numpy as np
 
+from p2sf.arguments import checked
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
-from p2sf.database.render import Database, database_psf
+from p2sf.database.accuracy import Accuracy, accuracy, accuracy_from
+from p2sf.database.render import Database, pixels_psf
 from p2sf.files.writing import plain
 from p2sf.glass.media import Medium
 from p2sf.glass.pages import data_version
 from p2sf.io.record import position_of, versions
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.positions import alone
-from p2sf.lens.source import Source
+from p2sf.lens.source import Source, check_one
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
 from p2sf.notebook import html_table
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.result import Psf
+from p2sf.psf.result import Psf, warned
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 COEFFICIENT_UNITS = {
@@ -59,19 +61,32 @@ class Stored:
         """Return the lens the database was built from; LensFileError or GlassError where it cannot be read."""
         return with_aim(parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"]), self.meta["aim"])
 
+    @cached_property
+    def accuracy(self) -> Accuracy:
+        """Return the predicted 1 − R² of the PSFs against exact rays; where no file states it, from the lens."""
+        stated = self.meta.get("predicted_error")
+        return accuracy_from(stated, self.meta["method"]) if stated else accuracy(self.database, self.lens)
+
+    @checked
     def coefficients(self, source: Source) -> Coefficients:
         """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
+        check_one(source)
         place = source.depth_mm, source.field_slope, source.wavelength_um
         found: Coefficients = self.database.coefficients(*map(float, place))
         return found
 
-    def psf(self, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
+    @checked
+    def psf(
+        self, source: Source, pixels: int = 64, pixel_um: float | None = None, *, integrated: bool | None = None
+    ) -> Psf:
         """Return the PSF of one source, looked up and not traced.
 
-        Without ``pixel_um`` the samples, ``pixels`` along each side, are as far apart as shows the whole PSF. Raises
+        Without ``pixel_um`` the samples, ``pixels`` along each side, are as far apart as shows the whole PSF;
+        ``integrated`` as `p2sf.render` has it. Raises
         DatabaseError outside what is covered, GeometryError and SamplingError where there is no PSF to sample.
         """
-        return replace(database_psf(self.database, source, pixels, pixel_um), azimuth_deg=source.azimuth_deg)
+        check_one(source)
+        return warned(pixels_psf(self.database, source, pixels, pixel_um, integrated), 4)
 
     def __repr__(self) -> str:
         nodes = " × ".join(map(str, self.meta["nodes"]))
@@ -101,6 +116,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             "method": database.method,
             "interpolant": database.interpolant,
             "errors_waves": database.errors,
+            "predicted_error": accuracy(database, lens).record,
             "lens": {
                 "name": lens.name,
                 "title": lens.title,

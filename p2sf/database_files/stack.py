@@ -18,6 +18,7 @@ from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.database_files import Stored, database_from_bytes
 from p2sf.database_files.place import Place, chunk_names, exists, place_of, reached, send
 from p2sf.errors import DatabaseError
+from p2sf.files.writing import plain
 
 SCHEMA = 1
 CHUNK_BYTES = 1 << 20  # a chunk is what is lost when a writer is killed, and the least that a reader loads
@@ -142,6 +143,7 @@ def _attributes(stored: Stored, pixel_um: float) -> dict[str, Any]:
     known = {
         key: stored.meta[key] for key in ("method", "interpolant", "aim", "lens", "glasses", "conventions", "versions")
     }
+    known["predicted_error"] = plain(stored.accuracy.record)
     units = {"psf": "fraction of the window's light per sample", "depth_mm": "mm, from the first vertex"}
     return {"p2sf_stack_schema": SCHEMA, "pixel_um": pixel_um, "units": units, **known}
 

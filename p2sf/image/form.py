@@ -7,7 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from p2sf.arguments import real_array
 from p2sf.errors import RequestError
 from p2sf.image.geometry import distorted, illumination
 from p2sf.image.lattice import Lattice, build_lattice
@@ -24,6 +26,7 @@ from p2sf.threads import mapped, one_blas_thread
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
 LIGHT_HEIGHTS = 4, 9  # at so many heights illumination is computed, for a preview and for the final picture
+SAME_DEPTH = 1e-6  # a relative difference that float32 makes
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: what a low rank may leave out
 
 
@@ -62,7 +65,7 @@ DEFAULT = Forming()
 @one_blas_thread
 def form_image(
     planned: Plan,
-    values: np.ndarray,
+    values: ArrayLike,
     depth_mm: np.ndarray | None = None,
     how: Forming = DEFAULT,
     watch: Progress | None = None,
@@ -72,16 +75,18 @@ def form_image(
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given when it is
-    known. Raises RequestError for shapes that do not fit, Cancelled when ``watch`` is cancelled.
+    known. Raises RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when
+    ``watch`` is cancelled.
     """
-    values, watch = checked(planned.scene, values), watch or Progress()
+    picture, watch = checked(planned.scene, values), watch or Progress()
     if depth_mm is None:
-        placed, lattice = _placed_and_lattice(planned, values, how, watch, lattice)
+        placed, lattice = _placed_and_lattice(planned, picture, how, watch, lattice)
         return _cropped_blur(planned, placed, lattice, how, watch)
-    weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), values.shape[:2])
+    _check_depths(planned.scene, depth_mm)
+    weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2])
     if how.geometry:
         weights = distorted(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, order=1)
-    lit = _placed(planned, values, planned.vergences[0], how)
+    lit = _placed(planned, picture, planned.vergences[0], how)
     used = [k for k in range(weights.shape[-1]) if weights[..., k].any()]
     layers = []
     for k in used:
@@ -105,10 +110,14 @@ def _placed_and_lattice(
     return placed[0], found
 
 
-def checked(scene: Scene, values: np.ndarray) -> np.ndarray:
+def checked(scene: Scene, values: ArrayLike) -> np.ndarray:
     """Return the picture as float32; RequestError unless it fits the scene."""
     sensor, channels = scene.sensor, len(scene.channels)
-    values = np.asarray(values, np.float32)
+    if np.ma.asarray(values).dtype.kind in "iu":
+        raise RequestError(
+            "the picture holds whole numbers, as codes of sRGB are; convert it to linear light, in floats with white 1"
+        )
+    values = real_array("values", values).astype(np.float32)
     if values.shape != (sensor.rows, sensor.columns, channels):
         raise RequestError(
             "the picture has the shape ({shape}), but the scene's sensor needs {rows} rows, {columns} columns and "
@@ -121,6 +130,20 @@ def checked(scene: Scene, values: np.ndarray) -> np.ndarray:
     if not np.isfinite(values).all():
         raise RequestError("the picture holds values that are not finite; replace them first")
     return values
+
+
+def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:
+    """Raise RequestError for a depth that the plan has no kernels for."""
+    near, far = scene.near_mm * (1 - SAME_DEPTH), scene.far_mm * (1 + SAME_DEPTH)
+    if ((depth_mm > 0) & ((depth_mm < near) | (depth_mm > far))).any():
+        raise RequestError(
+            "the depth map reaches from {low:g} mm to {high:g} mm, and the scene from {near:g} mm to {far:g} mm; give "
+            "depths in mm from the first vertex, and the scene a range that holds them",
+            low=float(np.min(depth_mm)),
+            high=float(np.max(depth_mm)),
+            near=scene.near_mm,
+            far=scene.far_mm,
+        )
 
 
 def _placed(planned: Plan, values: np.ndarray, vergence: float, how: Forming) -> np.ndarray:

@@ -20,8 +20,7 @@ from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, TAIL
-from p2sf.raytrace.pencil import hexapolar, pencil
-from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.scene.field_points import FieldMap, field_map
 from p2sf.scene.reference import landed_pixels, landed_point
 from p2sf.scene.scene import Channel, Scene
@@ -142,6 +141,6 @@ def _waves(channel: Channel) -> list[tuple[float, float]]:
 
 def _reach_um(lens: Lens, source: Source) -> float:
     """Return how far from the chief ray light lands, rays and the nearest rings around them, µm."""
-    data = ray_data(pencil(lens, source, *hexapolar(RINGS)))
+    data = pencil(lens, source, *to_the_rim(RINGS))
     radius = float(np.nanmax(np.hypot(data.fx, data.fy)))
     return float(np.nanmax(np.hypot(data.x_um, data.y_um))) + TAIL / radius

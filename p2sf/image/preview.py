@@ -5,7 +5,7 @@ from math import inf
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, depth_of
 from p2sf.errors import GeometryError
 from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
@@ -18,7 +18,7 @@ from p2sf.raytrace.fit import levels
 from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost
 from p2sf.scene.plan import Plan
-from p2sf.scene.scene import Channel, Scene, depth_of
+from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.skew import scene_database
 from p2sf.scene.spectrum import reduced

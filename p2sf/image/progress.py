@@ -2,9 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import ceil
 from threading import Lock
 
 from p2sf.errors import Cancelled
+
+LEAST_SHARE, LEAST_SECONDS = 0.05, 1.0  # done, before a pace is one
 
 
 @dataclass(eq=False)
@@ -33,3 +36,10 @@ class Progress:
             part = min(self.done / max(self.expected, 1), 1.0)
         if self.progress:
             self.progress(part)
+
+
+def seconds_left(share: float, seconds: float) -> int | None:
+    """Return how long the rest takes at the pace so far, whole seconds; None as long as too little is done to tell."""
+    if share < LEAST_SHARE or seconds < LEAST_SECONDS:
+        return None
+    return ceil(seconds * (1 - share) / share)

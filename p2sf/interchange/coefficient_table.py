@@ -10,7 +10,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database_files import Stored
-from p2sf.files.writing import write_beside
+from p2sf.files.writing import plain, write_beside
 from p2sf.interchange.psf_cube import check_line
 
 COLUMNS = (
@@ -33,6 +33,7 @@ def write_csv(stored: Stored, path: str | os.PathLike[str]) -> Path:
     """Write the coefficients at every node, one row each, in waves where a column names no unit; ExportError."""
     check_line(stored)
     known = {key: value for key, value in stored.meta.items() if key not in ("lens", "numbers")}
+    known["predicted_error"] = plain(stored.accuracy.record)
     known["lens"] = {key: value for key, value in stored.meta["lens"].items() if key != "toml"}
     text = io.StringIO()
     text.write("# six coefficients in waves; an infinite depth or image distance is inf\n")

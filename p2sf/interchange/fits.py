@@ -3,6 +3,7 @@
 import io
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -74,9 +75,15 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
         ("INSTRUME", lens.name[:60], "lens"),
         ("AIM", cube.stored.meta["aim"], "exact rays fill the stop/paraxial pupil"),
         ("METHOD", cube.stored.database.method, "method of computing the PSF"),
+        *((name, value, f"predicted 1 - R2, {text}") for name, value, text in _accuracy(cube) if isfinite(value)),
         ("LENSHASH", cube.stored.meta["lens"]["sha256_of_toml"], ""),  # SHA-256 fills the card
         ("CREATOR", f"p2sf {__version__}", "software"),
     ]
+
+
+def _accuracy(cube: Cube) -> tuple[tuple[str, float, str], ...]:
+    known = cube.stored.accuracy
+    return ("ERRMED", known.median, "median"), ("ERRWORST", known.worst, "worst")
 
 
 def axis_keywords(cube: PsfArray) -> Iterator[tuple[str, object, str]]:

@@ -1,28 +1,34 @@
 """PSFs of chosen depths, fields and wavelengths as a sensor's pixels receive them, with what goes with each."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.database.accuracy import where
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.image import Progress
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, part_filled_kernel, samples_across
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
 from p2sf.pixel_kernels.ray_spread import RaySpread, part_filled_rays, ray_spread
-from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.psf.prediction import predicted_error
+from p2sf.raytrace.pencil import pencil
 from p2sf.threads import for_each, one_blas_thread
 
 EVERY_FRINGE = 2.0  # samples a λ/2NA, as `part_filled_kernel` needs
 WIDEST_SUM = 2048  # samples a side of a sum of waves; over so wide a blur pixels average what diffraction adds
 MOST_PIXELS = 1024  # a side
+LEAST_LIGHT = 0.9  # of a PSF in its pixels: below, a warning is due
+PIXELS = 65  # a side, of one that nobody names: odd, for a chief ray on the middle one
+PIXEL_UM = 4.0  # of a sensor that nobody names
 MOST_BYTES = 1 << 31  # of the PSFs of one set
 
 Light = FrequencyPupil | RaySpread
@@ -71,7 +77,8 @@ class PsfSet:
     """PSFs (depth, field, wavelength, y, x) float32: the share of a point's light that each pixel receives.
 
     Rows are +y, along the field; the chief ray of each PSF's own wavelength meets the centre of pixel N//2 (from 0).
-    ``chief_mm``: where that is on the sensor, mm from the axis. ``captured``: the share of the point's light that these
+    ``chief_mm``: where that is on the sensor, mm from the axis, along y; ``chief_x_mm`` along x, which is 0 but for a
+    lens without symmetry. ``captured``: the share of the point's light that these
     pixels receive. ``collected``: the light that the lens lets through from a point of an even object, over that on the
     axis. ``error``: the predicted 1 − R² of waves, NaN for rays. ``methods``: "fitted", whose waves are summed, or
     "rays", whose density is taken where waves cannot be summed. These all have the shape (depth, field, wavelength).
@@ -83,6 +90,7 @@ class PsfSet:
     clip: bool
     values: np.ndarray
     chief_mm: np.ndarray
+    chief_x_mm: np.ndarray
     captured: np.ndarray
     collected: np.ndarray
     error: np.ndarray
@@ -117,6 +125,7 @@ def psf_set(lens: Lens, axes: SetAxes, grid: PixelGrid, clip: bool = False, watc
     RequestError where the set would be too large, Cancelled through ``watch``.
     """
     watch = watch or Progress()
+    _check_size(prod(axes.shape), grid.pixels or 1)
     points = [
         Source(depth, float(slope_from_degrees(field)), wave / NM_PER_UM)
         for depth, field, wave in product(axes.depths_mm, axes.fields_deg, axes.wavelengths_nm)
@@ -142,8 +151,9 @@ def psf_set(lens: Lens, axes: SetAxes, grid: PixelGrid, clip: bool = False, watc
         clip=clip,
         values=values.reshape(*axes.shape, pixels, pixels),
         chief_mm=figures[:, 0].reshape(axes.shape),
+        chief_x_mm=figures[:, 1].reshape(axes.shape),
         captured=values.sum((1, 2), dtype=float).reshape(axes.shape),
-        collected=figures[:, 1].reshape(axes.shape),
+        collected=figures[:, 2].reshape(axes.shape),
         error=np.array([_error(light) for light in lights]).reshape(axes.shape),
         methods=np.array(["rays" if isinstance(x, RaySpread) else "fitted" for x in lights]).reshape(axes.shape),
     )
@@ -173,11 +183,9 @@ def _light(lens: Lens, point: Source, grid: PixelGrid, clip: bool) -> Light:
         return ray_spread(lens, point, clip)
     except GeometryError as error:
         raise GeometryError(
-            "the point at {depth:g} mm, slope {slope:.4g}, {wave:g} nm: {error}",
-            depth=point.depth_mm,
-            slope=point.field_slope,
-            wave=point.wavelength_um * NM_PER_UM,
-            error=error,
+            "the point {where}: {error}",
+            where=where(point.depth_mm, point.field_deg, point.wavelength_um * NM_PER_UM),
+            error=error.message,
         ) from error
 
 
@@ -202,17 +210,34 @@ def _on_pixels(light: Light, grid: PixelGrid, pixels: int) -> np.ndarray:
     return whole[first : first + pixels, first : first + pixels]
 
 
-def _figures(lens: Lens, point: Source, clip: bool) -> tuple[float, float]:
-    """Return where the chief ray lands, mm, and the light collected over that on the axis."""
+def _figures(lens: Lens, point: Source, clip: bool) -> tuple[float, float, float]:
+    """Return where the chief ray lands along y and x, mm, and the light collected over that on the axis."""
     axis = Source(point.depth_mm, 0.0, point.wavelength_um)
     share = light_collected(lens, point, clip) / light_collected(lens, axis, clip)
-    return float(chief_heights(lens, point)), share
+    rays = pencil(lens, point, [0.0], [0.0])
+    x, y = (float(np.ravel(place)[0]) for place in (rays.chief_x, rays.chief_y))
+    return y, x if lens.misaligned else 0.0, share
 
 
 def _error(light: Light) -> float:
     return predicted_error(light.residual_waves, "fitted") if isinstance(light, FrequencyPupil) else float("nan")
 
 
-def axes_of(depths_mm: Sequence[float], fields_deg: Sequence[float], wavelengths_nm: Sequence[float]) -> SetAxes:
-    """Return axes from any sequences, each value once and in order."""
+def left_out(found: PsfSet) -> Message | None:
+    """Return a warning where the pixels of a PSF receive little of the light that falls on its sensor."""
+    shares = found.captured / found.grid.fill_factor
+    little = int((shares < LEAST_LIGHT).sum())
+    if not little:
+        return None
+    return Message(
+        "{count} of {total} PSFs are wider than their windows, which hold as little as {share:.2g} % of the light; "
+        "ask for more pixels a side, or larger ones",
+        count=little,
+        total=shares.size,
+        share=100 * float(shares.min()),
+    )
+
+
+def axes_of(depths_mm: Iterable[float], fields_deg: Iterable[float], wavelengths_nm: Iterable[float]) -> SetAxes:
+    """Return axes from any numbers, each once and in order."""
     return SetAxes(*(tuple(sorted({float(x) for x in axis})) for axis in (depths_mm, fields_deg, wavelengths_nm)))

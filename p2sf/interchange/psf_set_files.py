@@ -62,6 +62,7 @@ def arrays(psfs: PsfSet) -> dict[str, np.ndarray]:
         "pixel_um": np.array(psfs.pixel_um),
         "fill_factor": np.array(psfs.grid.fill_factor),
         "chief_mm": psfs.chief_mm,
+        "chief_x_mm": psfs.chief_x_mm,
         "captured": psfs.captured,
         "collected": psfs.collected,
         "predicted_error": psfs.error,
@@ -111,13 +112,15 @@ def _write_csv(psfs: PsfSet, path: PathLike) -> Path:
 
 def table(psfs: PsfSet) -> list[list[object]]:
     """Return the figures, a row for each PSF, names first."""
-    names = ["depth_mm", "field_deg", "wavelength_nm", "chief_mm", "captured", "collected", "peak", "centroid_x_um"]
-    rows: list[list[object]] = [[*names, "centroid_y_um", "rms_radius_um", "predicted_error", "method"]]
+    names = ["depth_mm", "field_deg", "wavelength_nm", "chief_mm", "chief_x_mm", "captured", "collected", "peak"]
+    rows: list[list[object]] = [
+        [*names, "centroid_x_um", "centroid_y_um", "rms_radius_um", "predicted_error", "method"]
+    ]
     axes = product(*(range(n) for n in psfs.axes.shape))
     for at in axes:
         values = psfs.values[at]
         place = psfs.axes.depths_mm[at[0]], psfs.axes.fields_deg[at[1]], psfs.axes.wavelengths_nm[at[2]]
-        light = (float(x[at]) for x in (psfs.chief_mm, psfs.captured, psfs.collected))
+        light = (float(x[at]) for x in (psfs.chief_mm, psfs.chief_x_mm, psfs.captured, psfs.collected))
         x, y, radius = moments(values, psfs.pixel_um)
         figures = float(values.max()), x, y, radius, float(psfs.error[at])
         rows.append([*place, *light, *figures, str(psfs.methods[at])])

@@ -6,7 +6,7 @@ from itertools import product
 from pathlib import Path
 
 from p2sf import __version__
-from p2sf.files.writing import write_beside
+from p2sf.files.writing import plain, write_beside
 from p2sf.interchange.psf_cube import Cube, PsfArray
 from p2sf.io.record import CONVENTIONS
 
@@ -17,6 +17,7 @@ ORIENTATION = (274, "H", 1, 4, True)
 def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
     about = {"method": cube.stored.meta["method"], "aim": cube.stored.meta["aim"], "integrated": cube.integrated}
+    about["predicted_error"] = plain(cube.stored.accuracy.record)
     return write_pages(cube, path, {**about, "lens": cube.stored.meta["lens"]["name"]})
 
 

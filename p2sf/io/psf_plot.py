@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from p2sf.arguments import argument
 from p2sf.colour.colorimetry import srgb_from_linear
 from p2sf.psf.polychromatic import ColourPsf, faint_rgb
 from p2sf.psf.result import Psf
@@ -25,6 +26,7 @@ def draw_psf(handle: BinaryIO, psf: Psf, title: str = "", metadata: dict | None 
     from matplotlib.colors import PowerNorm
     from matplotlib.figure import Figure
 
+    psf = argument("psf", psf, Psf)
     figure = Figure(figsize=(6.4, 5.4), dpi=150, layout="constrained")
     axes = figure.add_subplot()
     root = PowerNorm(0.5, vmin=0, vmax=1)

@@ -84,7 +84,9 @@ def facts(psf: Psf) -> dict:
 
 def psf_from(values: np.ndarray, known: dict) -> Psf:
     """Return a PSF of its samples and its `facts`; TypeError where these are not a PSF's."""
-    return Psf(values, **{**known, "sampling": Message(str(known.get("sampling", "")))})
+    peak = known.get("peak_um")
+    read = {"sampling": Message(str(known.get("sampling", ""))), "peak_um": peak and tuple(peak)}
+    return Psf(values, **{**known, **read})
 
 
 def caption(meta: dict) -> str:

@@ -1,11 +1,13 @@
 """The lens and the point source as plain frozen data: surfaces, media, sensor, aperture. Nothing here traces a ray."""
 
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, lens_range_um, with_f_number, with_mask, with_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.source import Source
+from p2sf.lens.transmission import Transmission
 
 __all__ = [
     "Aperture",
@@ -19,6 +21,10 @@ __all__ = [
     "Rim",
     "Source",
     "Surface",
+    "Transmission",
+    "XYPolynomial",
+    "ZernikeFringeSag",
+    "ZernikeStandardSag",
     "indices",
     "lens_range_um",
     "with_f_number",

@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Surface
-from p2sf.lens.shapes import Qbfs, Qcon, RadialPolynomial
+from p2sf.lens.shapes import Qcon, RadialPart
 
 SAMPLES = 400  # along the radius: far more than a polynomial of 30 terms has bends
 
@@ -30,15 +30,15 @@ def even_asphere(surface: Surface, terms: int = 12) -> EvenAsphere:
     shape = surface.shape
     if shape is None:
         return EvenAsphere(surface, 0.0)
-    first, second, third, _ = shape.series(surface.curvature)
-    if first or third or not (isinstance(shape, Qbfs | Qcon) or shape.even):
+    powers = shape.powers
+    if not isinstance(shape, RadialPart):
+        raise GeometryError("the surface is not of revolution, which no even terms describe; keep its shape")
+    if powers is not None and any(a for power, a in powers.items() if power % 2):
         raise GeometryError("the surface has odd powers of the radius, which no even terms describe; keep its shape")
-    if isinstance(shape, Qbfs) or second:
+    if powers is None or powers.get(2):
         return _fitted(surface, terms)
-    if isinstance(shape, Qcon):
-        more = shape.even_terms()
-    else:
-        more = tuple(a / shape.normalisation_mm ** (4 + 2 * k) for k, a in enumerate(shape.coefficients[3::2]))
+    top = max(powers, default=2)
+    more = tuple(powers.get(k, 0.0) / shape.normalisation_mm**k for k in range(4, top + 1, 2))
     return EvenAsphere(replace(surface, aspheric=_added(surface.aspheric, more), shape=None), 0.0)
 
 
@@ -55,30 +55,16 @@ def _fitted(surface: Surface, terms: int) -> EvenAsphere:
         rim = surface.shape.normalisation_mm if surface.shape else 1.0
     r = rim * np.sin(np.linspace(0, np.pi / 2, SAMPLES))
     plain = replace(surface, radius=1 / curvature if curvature else np.inf, aspheric=(), shape=None)
-    departure = sag(surface, r) - sag(plain, r)
+    departure = surface.sag(0.0, r) - plain.sag(0.0, r)
     basis = [Qcon((*[0.0] * m, 1.0), rim).sag_and_slope(r * r, 0.0)[0] for m in range(terms)]
     found, *_ = np.linalg.lstsq(np.column_stack(basis), departure, rcond=None)
     made = replace(plain, aspheric=Qcon(tuple(found.tolist()), rim).even_terms())
-    return EvenAsphere(made, float(np.abs(sag(made, r) - sag(surface, r)).max()))
+    return EvenAsphere(made, float(np.abs(made.sag(0.0, r) - surface.sag(0.0, r)).max()))
 
 
 def power_terms(surface: Surface) -> tuple[float, dict[int, float]]:
-    """Return a normalisation radius, and coefficients by the powers of r over it, mm; those of Qbfs are left out."""
-    shape = None if isinstance(surface.shape, Qbfs) else surface.shape
-    radius = shape.normalisation_mm if shape else 1.0
+    """Return a normalisation radius, and coefficients by the powers of r over it, mm; other shapes are left out."""
+    more = (surface.shape.powers if surface.shape else None) or {}
+    radius = surface.shape.normalisation_mm if surface.shape and more else 1.0
     terms = {power: a * radius**power for power, a in zip(range(4, 99, 2), surface.aspheric, strict=False)}
-    if isinstance(shape, RadialPolynomial):
-        more = dict(enumerate(shape.coefficients, 1))
-    else:
-        more = {4 + 2 * k: a for k, a in enumerate(shape.scaled_terms())} if shape else {}
     return radius, {power: a for power in {*terms, *more} if (a := terms.get(power, 0.0) + more.get(power, 0.0))}
-
-
-def sag(surface: Surface, r: np.ndarray) -> np.ndarray:
-    """Return the sag of a surface at radii r, mm; NaN beyond the edge of its conic."""
-    c, square = surface.curvature, r * r
-    with np.errstate(invalid="ignore"):
-        depth: np.ndarray = c * square / (1 + np.sqrt(1 - (1 + surface.conic) * c * c * square))
-        for power, term in enumerate(surface.aspheric, 2):
-            depth = depth + term * square**power
-        return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c, surface.conic)[0]

@@ -5,7 +5,9 @@ from math import cos, hypot, radians, sin
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, FloatOrArray
+from p2sf.lens.shapes import Part
+from p2sf.messages import Message
 
 # A fringe is a deviation of the surface that changes the reflected wavefront by one wavelength (ISO 14999-4): half a
 # wave of sag, here of the green line of mercury.
@@ -13,7 +15,7 @@ FRINGE_MM = 0.54607 / 2 / UM_PER_MM
 
 
 @dataclass(frozen=True)
-class Irregularity:
+class Irregularity(Part):
     """How far a surface is from one of revolution: Zernike's Z(2, ±2), astigmatism, on top of its sag.
 
     z = (F/2)·(N·(y² − x²) + N₄₅·2xy)/R² with fringes F of 273 nm: over the disc of radius R, √(N² + N₄₅²) fringes from
@@ -39,6 +41,16 @@ class Irregularity:
         return self.fringes, self.fringes_45, self.normalisation_mm
 
     @property
+    def words(self) -> Message:
+        """Return it in numbers."""
+        return Message(
+            "irregular: {fringes:g} fringes, at 45° {turned:g}, over a radius of {radius:g} mm",
+            fringes=self.fringes,
+            turned=self.fringes_45,
+            radius=self.normalisation_mm,
+        )
+
+    @property
     def idle(self) -> bool:
         """Return whether there is none."""
         return not (self.fringes or self.fringes_45)
@@ -48,7 +60,9 @@ class Irregularity:
         """Return how many fringes the highest point is above the lowest."""
         return hypot(self.fringes, self.fringes_45)
 
-    def sag_and_gradient(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def sag_and_gradient(
+        self, x: FloatOrArray, y: FloatOrArray, curvature: float = 0.0, conic: float = 0.0
+    ) -> tuple[FloatOrArray, np.ndarray]:
         """Return what it adds to the sag, mm, and to ∂z/∂x and ∂z/∂y, (2, …), at places in mm."""
         upright, turned = self.terms
         gradient = 2 * np.stack([turned * y - upright * x, upright * y + turned * x])

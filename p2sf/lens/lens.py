@@ -10,13 +10,16 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.arguments import check_fields, checked
 from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
+from p2sf.lens.properties import PROPERTIES, turned_breaks
 from p2sf.lens.rim import Rim
-from p2sf.lens.shapes import Diffraction, Shape
+from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, SagAndSlope, Shape
+from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
 from p2sf.notebook import html_table
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -67,6 +70,8 @@ class Surface:
         Where the clear aperture stands, if it is decentred or a rectangle.
     irregularity : Irregularity, optional
         What was ground into the surface by mistake, and is added to its sag.
+    transmission : Transmission, optional
+        The share of energy that it passes, or a mirror reflects; all of it if not given.
     """
 
     radius: float = inf
@@ -83,11 +88,61 @@ class Surface:
     ideal_focal_length: float = inf
     rim: Rim | None = None
     irregularity: Irregularity | None = None
+    transmission: Transmission | None = None
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+    def __getstate__(self) -> dict:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def curvature(self) -> float:
         """Return 1/radius, per mm."""
         return 1.0 / self.radius
+
+    @cached_property
+    def base(self) -> Conic:
+        """Return the sphere or the other conic that all other parts stand on."""
+        return Conic(self.curvature, self.conic)
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """Return what adds up to the sag: the conic first, then even terms, a shape and an irregularity."""
+        terms = EvenTerms(self.aspheric) if any(self.aspheric) else None
+        return self.base, *(part for part in (terms, self.shape, self.irregularity) if part is not None)
+
+    @cached_property
+    def radial_parts(self) -> tuple[RadialPart, ...]:
+        """Return the parts of revolution beside the conic."""
+        return tuple(part for part in self.parts[1:] if isinstance(part, RadialPart))
+
+    @cached_property
+    def uneven_parts(self) -> tuple[Part, ...]:
+        """Return the parts that are not of revolution."""
+        return tuple(part for part in self.parts if not part.radial)
+
+    @cached_property
+    def addends_mm(self) -> float:
+        """Return how large the numbers are whose sum is the sag, mm, beyond the sag itself."""
+        return sum(part.addends_mm for part in self.parts)
+
+    def sag(self, x: FloatOrArray, y: FloatOrArray) -> FloatOrArray:
+        """Return the sag at a place, mm; NaN beyond the edge of the conic."""
+        with np.errstate(invalid="ignore"):
+            depth, _ = self.sag_and_slope(x * x + y * y)
+            for part in self.uneven_parts:
+                depth = depth + part.sag_and_gradient(x, y, self.curvature, self.conic)[0]
+        return depth
+
+    def sag_and_slope(self, square: FloatOrArray) -> SagAndSlope:
+        """Return the sag, mm, and dz/d(r²) of the parts of revolution at squared radii, mm²; NaN beyond the edge."""
+        base = self.base
+        sag, slope = base.sag_and_slope(square)
+        for part in self.radial_parts:
+            more, steeper = part.sag_and_slope(square, base.curvature, base.constant)
+            sag, slope = sag + more, slope + steeper
+        return sag, slope
 
     @property
     def vertex_curvature(self) -> float:
@@ -99,12 +154,12 @@ class Surface:
     @property
     def flat(self) -> bool:
         """Return whether the surface is a plane."""
-        return not self.curvature and not any(self.aspheric) and self.shape is None and self.irregularity is None
+        return not self.curvature and len(self.parts) == 1
 
     @property
     def bare(self) -> bool:
-        """Return whether the surface is a plane that neither diffracts nor is ideal: between equal media it is idle."""
-        return self.flat and self.diffraction is None and not self.ideal
+        """Return whether the surface is a plane that does nothing to light between equal media."""
+        return self.flat and self.diffraction is None and not self.ideal and self.transmission is None
 
     @property
     def ideal(self) -> bool:
@@ -121,11 +176,16 @@ class Surface:
 class Aperture:
     """How wide the lens is open: the stop's radius or the pupil's diameter in mm, or the f-number.
 
-    The pupil's diameter and the f-number (focal length/pupil diameter) hold at the lens's reference wavelength.
+    The pupil's diameter and the f-number (focal length/pupil diameter) hold at the lens's reference wavelength, and for
+    the lens as it is: if `dataclasses.replace` changes a surface, the stop's radius follows from the new surfaces.
+    `p2sf.paraxial.pupils.with_fixed_stop` keeps the radius.
     """
 
     kind: ApertureKind
     value: float
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
 
 @dataclass(frozen=True)
@@ -184,6 +244,7 @@ class Lens:
     sensor_before: tuple[Placement, ...] = ()
 
     def __post_init__(self) -> None:
+        check_fields(self)
         _check_surfaces(self.surfaces)
         for placement in self.sensor_before:
             placement.check(len(self.surfaces) + 1)
@@ -256,11 +317,17 @@ class Lens:
 
     @cached_property
     def misaligned(self) -> bool:
-        """Return whether anything is tilted, decentred or irregular, folding mirrors and clear rims included."""
-        if any(surface.rim or surface.irregularity for surface in self.surfaces):
+        """Return whether anything is tilted, decentred or not of revolution, mirrors and clear rims included."""
+        if any(surface.rim or surface.uneven_parts for surface in self.surfaces):
             return True
         placements = *(p for s in self.surfaces for p in (*s.before, *s.after)), *self.sensor_before
         return not all(placement.idle for placement in placements)
+
+    @cached_property
+    def shading_surface(self) -> int | None:
+        """Return the first surface, from 1, whose transmission changes with the height; None where none does."""
+        passed = (surface.transmission for surface in self.surfaces)
+        return next((number for number, one in enumerate(passed, 1) if one and one.per_mm2), None)
 
     @cached_property
     def motions(self) -> tuple[Motion, ...]:
@@ -306,6 +373,7 @@ def with_aim(lens: Lens, aim: Aim) -> Lens:
     return lens if lens.aim == aim else replace(lens, aim=aim)
 
 
+@checked
 def with_mask(lens: Lens, mask: PupilMask) -> Lens:
     """Return the same lens with this mask in its stop."""
     return lens if lens.mask == mask else replace(lens, mask=mask)
@@ -324,27 +392,22 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     """Return a lens as a source in this azimuth sees it that is described in the plane x = 0: turned about its axis.
 
     Every break of the coordinates stands in axes that are turned with the source, so that the stop's and the sensor's
-    own are as well; the surfaces are round, and only rims and irregularities are turned. A lens that is not misaligned
-    is returned.
+    own are as well. A lens that is not misaligned is returned.
     """
     if not azimuth_deg or not lens.misaligned:
         return lens
-    into, back = Placement(tilt_z_deg=azimuth_deg), Placement(tilt_z_deg=-azimuth_deg)
-
-    def turned(placements: tuple[Placement, ...]) -> tuple[Placement, ...]:
-        return (into, *placements, back) if placements else ()
-
     surfaces = tuple(
-        replace(
-            s,
-            before=turned(s.before),
-            after=turned(s.after),
-            rim=s.rim and s.rim.turned(azimuth_deg),
-            irregularity=s.irregularity and s.irregularity.turned(azimuth_deg),
-        )
+        replace(s, **{each.name: each.turned(getattr(s, each.name), azimuth_deg) for each in PROPERTIES})
         for s in lens.surfaces
     )
-    return replace(lens, surfaces=surfaces, sensor_before=turned(lens.sensor_before))
+    return replace(lens, surfaces=surfaces, sensor_before=turned_breaks(lens.sensor_before, azimuth_deg))
+
+
+def scaled(surface: Surface, factor: float) -> Surface:
+    """Return a surface whose lengths are in units ``factor`` mm long, in mm."""
+    if factor == 1:
+        return surface
+    return replace(surface, **{each.name: each.scaled(getattr(surface, each.name), factor) for each in PROPERTIES})
 
 
 SET_STRAIGHT = Message("align it")
@@ -354,8 +417,8 @@ def check_aligned(lens: Lens, what: Message, remedy: Message = SET_STRAIGHT) -> 
     """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are not symmetric."""
     if lens.misaligned:
         raise GeometryError(
-            "surface {surface} is tilted, decentred or irregular, and {what} supports only rotational symmetry; "
-            "{remedy}",
+            "surface {surface} is tilted, decentred or not of revolution, and {what} supports only rotational "
+            "symmetry; {remedy}",
             surface=_first_misaligned(lens),
             what=what,
             remedy=remedy,
@@ -368,8 +431,7 @@ def _first_misaligned(lens: Lens) -> int:
     The sensor is that behind the last.
     """
     placed = (
-        s.rim is not None or s.irregularity is not None or any(not p.idle for p in (*s.before, *s.after))
-        for s in lens.surfaces
+        s.rim is not None or s.uneven_parts or any(not p.idle for p in (*s.before, *s.after)) for s in lens.surfaces
     )
     return next((number for number, found in enumerate(placed, 1) if found), len(lens.surfaces) + 1)
 
@@ -419,6 +481,12 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
             raise GeometryError(
                 "surface {surface}: radius {radius} mm; write inf for a plane", surface=number, radius=surface.radius
             )
+        if not hasattr(surface.medium, "label"):
+            raise GeometryError(
+                "surface {surface}: medium {medium}; give one of p2sf.glass.media, such as ConstantIndex(1.5)",
+                surface=number,
+                medium=repr(surface.medium),
+            )
         if not isfinite(surface.thickness):
             raise GeometryError(
                 "surface {surface}: thickness {thickness} mm; give a finite number",
@@ -467,6 +535,15 @@ def _check_shape(surface: Surface, number: int) -> None:
                 "surface {surface}: a number of its shape, its phase or its irregularity is not finite; correct it",
                 surface=number,
             )
+    passed = surface.transmission
+    if passed and not (0 <= passed.vertex <= 1 and isfinite(passed.per_mm2)):
+        raise GeometryError(
+            "surface {surface}: transmission {vertex:g} with {slope:g} per mm²; give a share from 0 to 1 and a finite "
+            "number",
+            surface=number,
+            vertex=passed.vertex,
+            slope=passed.per_mm2,
+        )
     focal = surface.ideal_focal_length
     plain = surface.flat and surface.diffraction is None
     if isnan(focal) or (surface.ideal and not (plain and focal)):

@@ -8,6 +8,7 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
+from p2sf.lens.properties import PROPERTIES
 
 
 def displaced(lens: Lens, first: int, last: int, placement: Placement) -> Lens:
@@ -52,9 +53,19 @@ def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
 
 @lru_cache(maxsize=16)
 def straightened(lens: Lens) -> Lens:
-    """Return the lens without tilts, decentres and irregularities, as the Seidel sums take it; its rims stay."""
-    surfaces = tuple(replace(s, before=(), after=(), irregularity=None) for s in lens.surfaces)
+    """Return the lens without tilts, decentres and what is not of revolution; its rims stay."""
+    surfaces = tuple(
+        replace(s, **{each.name: each.aligned(getattr(s, each.name)) for each in PROPERTIES}) for s in lens.surfaces
+    )
     return replace(lens, surfaces=surfaces, sensor_before=())
+
+
+def averaged(lens: Lens) -> Lens:
+    """Return the lens as paraxial rays see it: with the mean over all azimuths of every shape, and without shading."""
+    if lens.shading_surface is None and all(s.shape is None or s.shape.radial for s in lens.surfaces):
+        return lens
+    surfaces = tuple(replace(s, shape=s.shape and s.shape.mean, transmission=None) for s in lens.surfaces)
+    return replace(lens, surfaces=surfaces)
 
 
 def folding(placement: Placement) -> dict[str, tuple[Placement, ...]]:

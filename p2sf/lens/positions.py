@@ -11,6 +11,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError, RequestError
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.properties import PROPERTIES
 from p2sf.messages import Message
 
 if TYPE_CHECKING:
@@ -293,9 +294,9 @@ def steps_between(lens: Lens) -> tuple[Message, ...]:
     )
     found = []
     for number, rows in enumerate(zip(*(column.surfaces for column in columns), strict=True), 1):
-        for name, words in STEPS.items():
-            if len({getattr(row, name) for row in rows}) > 1:
-                found.append(Message(STEP, surface=number, what=words, near=near))
+        for each in PROPERTIES:
+            if each.steps and len({getattr(row, each.name) for row in rows}) > 1:
+                found.append(Message(STEP, surface=number, what=each.label, near=near))
     for name, words in DISCRETE.items():
         if len({getattr(column, name) for column in columns}) > 1:
             found.append(
@@ -307,13 +308,6 @@ def steps_between(lens: Lens) -> tuple[Message, ...]:
 
 
 STEP = "surface {surface}: {what} is not one in all columns; it is that of the nearest, {near}"
-STEPS = {
-    "medium": Message("the medium behind it"),
-    "shape": Message("its shape"),
-    "diffraction": Message("its diffraction"),
-    "before": Message("its tilt or decentre"),
-    "after": Message("its tilt or decentre"),
-}
 DISCRETE = {"wavelengths_nm": Message("wavelengths"), "stop_surface": Message("stops")}
 
 

@@ -6,6 +6,7 @@ from math import cos, isfinite, radians, sin
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.messages import Message
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,18 @@ class Rim:
         """Return the rim with lengths in units ``factor`` mm long, in mm."""
         sides = (self.half_widths[0] * factor, self.half_widths[1] * factor) if self.half_widths else None
         return replace(self, decentre=(self.decentre[0] * factor, self.decentre[1] * factor), half_widths=sides)
+
+    @property
+    def words(self) -> Message:
+        """Return the rim in numbers."""
+        if self.half_widths is None:
+            return Message("rim about ({centre:g}) mm", centre=self.decentre)
+        return Message(
+            "rectangular rim about ({centre:g}) mm, half-widths {widths:g} mm, turned by {turn:g}°",
+            centre=self.decentre,
+            widths=self.half_widths,
+            turn=self.turn_deg,
+        )
 
     def check(self, surface: int) -> None:
         """Raise GeometryError for numbers that cannot be; ``surface`` counts from 1."""

@@ -1,32 +1,124 @@
-"""Shapes of surfaces of revolution beyond a conic with even terms: each is sag to be added to that of the conic.
+"""The parts of revolution whose sags add up to that of a surface: a conic, even terms, and further shapes.
 
-Every shape knows its sag and dz/d(r²) at squared radii r², mm², and its power series at the vertex, which is what first
-and third order see. Lengths are mm.
+Every part knows its sag and dz/d(r²) at squared radii r², mm², and its power series at the vertex, which is what first
+and third order see. Lengths are mm. `freeform` and `irregularity` have the parts that are not of revolution.
 """
 
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import comb, fsum, sqrt
-from typing import TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 
 from p2sf.conventions import FloatOrArray
+from p2sf.messages import Message
 
 SagAndSlope: TypeAlias = tuple[FloatOrArray, FloatOrArray]
 Series: TypeAlias = tuple[float, float, float, float]
 """Coefficients of r, r², r³ and r⁴, mm⁰ … mm⁻³."""
 
 
-@dataclass(frozen=True)
-class RadialPolynomial:
-    """Terms Σ aₖρᵏ, k = 1, 2, 3 …, of ρ = r/``normalisation_mm``, as OpticStudio's odd and extended aspheres have them.
+class Part(ABC):
+    """What adds to the sag of a surface; ``curvature`` and ``conic`` are those of the conic that all parts stand on."""
 
-    ``coefficients``: a₁, a₂, …, mm. With a normalisation radius of 1 mm they are those of powers of r in mm.
+    radial: ClassVar[bool] = False
+    """Whether the part is of revolution about the axis."""
+
+    @property
+    def addends_mm(self) -> float:
+        """Return how large the numbers are whose sum is the sag, mm; 0 where that is about as large as they are."""
+        return 0.0
+
+    @abstractmethod
+    def sag_and_gradient(
+        self, x: FloatOrArray, y: FloatOrArray, curvature: float = 0.0, conic: float = 0.0
+    ) -> tuple[FloatOrArray, np.ndarray]:
+        """Return the sag, mm, and ∂z/∂x and ∂z/∂y, (2, …), at places in mm."""
+
+    @abstractmethod
+    def turned(self, angle_deg: float) -> Self:
+        """Return the part turned about the vertex, from x towards y."""
+
+    @abstractmethod
+    def scaled(self, factor: float) -> Self:
+        """Return the part with its lengths in units ``factor`` mm long, in mm."""
+
+
+class RadialPart(Part):
+    """A part of revolution: a function of r² alone."""
+
+    radial = True
+
+    @abstractmethod
+    def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
+        """Return the sag, mm, and dz/d(r²), per mm, at squared radii, mm²."""
+
+    def sag_and_gradient(
+        self, x: FloatOrArray, y: FloatOrArray, curvature: float = 0.0, conic: float = 0.0
+    ) -> tuple[FloatOrArray, np.ndarray]:
+        """Return the sag, mm, and ∂z/∂x and ∂z/∂y, (2, …), at places in mm."""
+        sag, slope = self.sag_and_slope(x * x + y * y, curvature, conic)
+        return sag, np.stack(np.broadcast_arrays(2 * slope * x, 2 * slope * y))
+
+    def turned(self, angle_deg: float) -> Self:
+        """Return the part itself."""
+        return self
+
+
+@dataclass(frozen=True)
+class Conic(RadialPart):
+    """A sphere, or another conic of revolution: cr²/(1 + √(1 − (1 + K)c²r²)).
+
+    ``curvature``: c, per mm; ``constant``: K.
     """
 
+    curvature: float
+    constant: float = 0.0
+
+    def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
+        """Return the sag and dz/d(r²); NaN beyond the edge."""
+        c = self.curvature
+        root = np.sqrt(1 - (1 + self.constant) * (c * c) * square)
+        return c * square / (1 + root), c / (2 * root)
+
+    def scaled(self, factor: float) -> "Conic":
+        """Return the conic ``factor`` times as large."""
+        return Conic(self.curvature / factor, self.constant)
+
+
+@dataclass(frozen=True)
+class EvenTerms(RadialPart):
+    """Terms A₄r⁴ + A₆r⁶ + …; ``coefficients``: A₄, A₆, … in mm⁻³, mm⁻⁵ and so on."""
+
     coefficients: tuple[float, ...]
-    normalisation_mm: float = 1.0
+
+    def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
+        """Return the sag and dz/d(r²)."""
+        value: FloatOrArray = self.coefficients[-1]
+        slope: FloatOrArray = 0.0
+        for coefficient in self.coefficients[-2::-1]:
+            slope = slope * square + value
+            value = value * square + coefficient
+        fourth = square * value
+        return square * fourth, 2 * fourth + square * square * slope
+
+    def scaled(self, factor: float) -> "EvenTerms":
+        """Return the terms ``factor`` times as large."""
+        return EvenTerms(tuple(a * factor ** -(2 * k + 3) for k, a in enumerate(self.coefficients)))
+
+
+class Shape(Part):
+    """A part that a surface may have besides a conic and even terms: polynomials over a normalisation radius."""
+
+    coefficients: tuple[float, ...]
+    normalisation_mm: float
+    endings: ClassVar[frozenset[str]] = frozenset((".toml",))
+    """Of the lens files that have a type for it."""
+    ends: ClassVar[bool] = False
+    """Whether its polynomials describe a surface up to the normalisation radius only."""
 
     @property
     def numbers(self) -> tuple[float, ...]:
@@ -34,11 +126,102 @@ class RadialPolynomial:
         return (*self.coefficients, self.normalisation_mm)
 
     @property
+    @abstractmethod
+    def kind(self) -> str:
+        """Return the type in a lens file in TOML, one of `SHAPES`."""
+
+    @property
+    @abstractmethod
+    def name(self) -> Message:
+        """Return the name of the shape, OpticStudio's."""
+
+    @property
+    def stated(self) -> tuple[float, ...]:
+        """Return the coefficients as files and words list them."""
+        return self.coefficients
+
+    @property
+    def words(self) -> Message:
+        """Return the shape in numbers."""
+        return Message(
+            "{kind}: normalisation radius {radius:g} mm, coefficients {numbers:.6g} mm",
+            kind=self.name,
+            radius=self.normalisation_mm,
+            numbers=self.stated,
+        )
+
+    @property
+    def powers(self) -> dict[int, float] | None:
+        """Return the coefficients of the powers of r over the normalisation radius, mm; None where it has others."""
+        return None
+
+    @property
+    @abstractmethod
+    def mean(self) -> "RadialShape | None":
+        """Return the mean of the shape over all azimuths, which is what paraxial rays see; None for a plane."""
+
+    @abstractmethod
+    def series(self, curvature: float) -> Series:
+        """Return the coefficients of r … r⁴ of the mean over all azimuths, on a base of this curvature, per mm."""
+
+
+class RadialShape(RadialPart, Shape):
+    """A shape of revolution."""
+
+    @property
+    def mean(self) -> "RadialShape | None":
+        """Return the shape itself."""
+        return self
+
+
+@dataclass(frozen=True)
+class RadialPolynomial(RadialShape):
+    """Terms Σ aₖρᵏ, k = 1, 2, 3 …, of ρ = r/``normalisation_mm``, as OpticStudio's odd and extended aspheres have them.
+
+    ``coefficients``: a₁, a₂, …, mm. With a normalisation radius of 1 mm they are those of powers of r in mm.
+    """
+
+    coefficients: tuple[float, ...]
+    normalisation_mm: float = 1.0
+    endings = frozenset((".toml", ".zmx", ".seq", ".json"))
+
+    @property
     def even(self) -> bool:
         """Return whether all terms are even."""
         return not any(self.coefficients[::2])
 
-    def sag_and_slope(self, square: FloatOrArray, curvature: float, conic: float = 0.0) -> SagAndSlope:
+    @property
+    def kind(self) -> str:
+        """Return the type in a lens file in TOML: in powers of r itself, of ρ, or of ρ²."""
+        if self.normalisation_mm == 1:
+            return ODD
+        return EXTENDED if self.even and len(self.coefficients) % 2 == 0 else EXTENDED_ODD
+
+    @property
+    def name(self) -> Message:
+        """Return the name of the shape, OpticStudio's."""
+        if self.kind == ODD:
+            return Message("odd asphere")
+        return Message("extended asphere") if self.kind == EXTENDED else Message("extended odd asphere")
+
+    @property
+    def stated(self) -> tuple[float, ...]:
+        """Return the coefficients as files list them: of an extended asphere those of even powers."""
+        return self.coefficients[1::2] if self.kind == EXTENDED else self.coefficients
+
+    @property
+    def words(self) -> Message:
+        """Return the shape in numbers."""
+        if self.kind == ODD:
+            return Message("odd asphere: coefficients of r, r², … in mm {numbers:.6g}", numbers=self.coefficients)
+        return super().words
+
+    @property
+    def powers(self) -> dict[int, float] | None:
+        """Return the coefficients by the powers of ρ, mm."""
+        return dict(enumerate(self.coefficients, 1))
+
+    def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
         """Return the sag and dz/d(r²); at the vertex itself a term in ρ has the slope of its mean, 0."""
         scale = self.normalisation_mm**-2
         u = square * scale
@@ -58,12 +241,14 @@ class RadialPolynomial:
         return a, b, c, d
 
     def scaled(self, factor: float) -> "RadialPolynomial":
-        """Return the shape ``factor`` times as large."""
+        """Return the shape ``factor`` times as large; powers of r in mm stay so."""
+        if self.kind == ODD:
+            return RadialPolynomial(tuple(a * factor ** (1 - k) for k, a in enumerate(self.coefficients, 1)))
         return RadialPolynomial(_times(self.coefficients, factor), self.normalisation_mm * factor)
 
 
 @dataclass(frozen=True)
-class Qcon:
+class Qcon(RadialShape):
     """Forbes's u⁴Σ aₘQₘ(u²) over a conic, u = r/``normalisation_mm`` (Forbes 2007): what sag departs from it.
 
     ``coefficients``: a₀, a₁, …, mm. Qₘ(x) = P⁽⁰⁴⁾ₘ(2x − 1), Jacobi's polynomials.
@@ -71,16 +256,20 @@ class Qcon:
 
     coefficients: tuple[float, ...]
     normalisation_mm: float
+    endings = frozenset((".toml", ".zmx", ".seq", ".json"))
+    ends = True
+    kind = "Qcon"
+    name = Message("Qcon asphere")
 
     @property
-    def numbers(self) -> tuple[float, ...]:
-        """Return every number of the shape."""
-        return (*self.coefficients, self.normalisation_mm)
+    def powers(self) -> dict[int, float] | None:
+        """Return the coefficients of ρ⁴, ρ⁶, …, mm."""
+        return {4 + 2 * k: a for k, a in enumerate(self.scaled_terms())}
 
-    def sag_and_slope(self, square: FloatOrArray, curvature: float, conic: float = 0.0) -> SagAndSlope:
+    def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
         """Return the sag and dz/d(r²)."""
         x = square / self.normalisation_mm**2
-        value, derivative = _clenshaw(self.coefficients, _jacobi_steps(len(self.coefficients)), x)
+        value, derivative = clenshaw(self.coefficients, jacobi_steps(len(self.coefficients), 4), x)
         return x * x * value, x * (2 * value + x * derivative) / self.normalisation_mm**2
 
     def series(self, curvature: float) -> Series:
@@ -102,7 +291,7 @@ class Qcon:
 
 
 @dataclass(frozen=True)
-class Qbfs:
+class Qbfs(RadialShape):
     """Forbes's u²(1 − u²)/cos·Σ aₘQₘ(u²) over the best-fit sphere or conic, u = r/``normalisation_mm`` (Forbes 2007).
 
     cos is that of the angle between the base's normal and the axis, √(1 − c²r²) for a sphere, so that the departure is
@@ -113,13 +302,12 @@ class Qbfs:
 
     coefficients: tuple[float, ...]
     normalisation_mm: float
+    endings = frozenset((".toml", ".zmx"))
+    ends = True
+    kind = "Qbfs"
+    name = Message("Qbfs asphere")
 
-    @property
-    def numbers(self) -> tuple[float, ...]:
-        """Return every number of the shape."""
-        return (*self.coefficients, self.normalisation_mm)
-
-    def sag_and_slope(self, square: FloatOrArray, curvature: float, conic: float = 0.0) -> SagAndSlope:
+    def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
         """Return the sag and dz/d(r²) over a conic of this curvature, per mm; NaN beyond its edge."""
         scale, bend = self.normalisation_mm**-2, curvature * curvature
         x = square * scale
@@ -143,7 +331,7 @@ class Qbfs:
         return Qbfs(_times(self.coefficients, factor), self.normalisation_mm * factor)
 
 
-Shape: TypeAlias = RadialPolynomial | Qcon | Qbfs
+ODD, EXTENDED_ODD, EXTENDED = "odd asphere", "extended odd asphere", "extended asphere"
 
 
 @dataclass(frozen=True)
@@ -163,6 +351,16 @@ class Diffraction:
     def numbers(self) -> tuple[float, ...]:
         """Return every number of the surface's phase."""
         return (*self.coefficients, self.normalisation_mm, self.order)
+
+    @property
+    def words(self) -> Message:
+        """Return the phase in numbers."""
+        return Message(
+            "diffracts in order {order:g}: normalisation radius {radius:g} mm, phase in rad of ρ², ρ⁴, … {numbers:.6g}",
+            order=self.order,
+            radius=self.normalisation_mm,
+            numbers=self.coefficients,
+        )
 
     def phase_and_slope(self, square: FloatOrArray) -> SagAndSlope:
         """Return the phase in radians and its derivative with respect to r², per mm², at squared radii in mm²."""
@@ -208,9 +406,12 @@ Steps: TypeAlias = tuple[tuple[float, float, float], ...]
 """(α, β, γ) of the recurrences Pₘ = (α + βx)Pₘ₋₁ + γPₘ₋₂, m = 1, 2, …"""
 
 
-def _clenshaw(coefficients: tuple[float, ...], steps: Steps, x: FloatOrArray) -> SagAndSlope:
-    """Return Σ cₘPₘ(x), P₀ = 1, and its derivative by Clenshaw's recurrence, which is stable on 0 ≤ x ≤ 1."""
-    none: FloatOrArray = 0.0 * x
+def clenshaw(coefficients: Sequence[complex], steps: Steps, x: FloatOrArray) -> tuple[Any, Any]:
+    """Return Σ cₘPₘ(x), P₀ = 1, and its derivative by Clenshaw's recurrence, which is stable on 0 ≤ x ≤ 1.
+
+    Both are complex where the coefficients are.
+    """
+    none: Any = 0.0 * x
     value, value_next, slope, slope_next = none, none, none, none
     after = 0.0
     for coefficient, (alpha, beta, gamma) in zip(reversed(coefficients), reversed(steps), strict=True):
@@ -221,15 +422,15 @@ def _clenshaw(coefficients: tuple[float, ...], steps: Steps, x: FloatOrArray) ->
     return value, slope
 
 
-@lru_cache(maxsize=32)
-def _jacobi_steps(count: int) -> Steps:
-    """Return the recurrence of P⁽⁰⁴⁾ₘ(2x − 1) (Abramowitz and Stegun 1964, ch. 22)."""
-    steps = []
-    for m in range(1, count + 1):
-        s, scale = 2 * m + 4, 1 / (2 * m * (m + 4) * (2 * m + 2))
+@lru_cache(maxsize=64)
+def jacobi_steps(count: int, beta: int) -> Steps:
+    """Return the recurrence of P⁽⁰ᵝ⁾ₘ(2x − 1) (Abramowitz and Stegun 1964, ch. 22)."""
+    steps = [(-(beta + 1.0), beta + 2.0, 0.0)]
+    for m in range(2, count + 1):
+        s, scale = 2 * m + beta, 1 / (2 * m * (m + beta) * (2 * m + beta - 2))
         along = scale * (s - 1) * s * (s - 2)
-        steps.append((-along - 16 * scale * (s - 1), 2 * along, -2 * scale * (m - 1) * (m + 3) * s))
-    return tuple(steps)
+        steps.append((-along - beta**2 * scale * (s - 1), 2 * along, -2 * scale * (m - 1) * (m + beta - 1) * s))
+    return tuple(steps[:count])
 
 
 @lru_cache(maxsize=32)
@@ -248,7 +449,7 @@ def _slope_orthogonal(coefficients: tuple[float, ...], x: FloatOrArray) -> SagAn
     """
     count = len(coefficients)
     steps = tuple(SLOPE_STEPS[min(m, 1)] for m in range(count))
-    return _clenshaw(_auxiliary(coefficients), steps, x)
+    return clenshaw(_auxiliary(coefficients), steps, x)
 
 
 @lru_cache(maxsize=256)

@@ -2,15 +2,19 @@
 
 from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, inf, radians, sin
+from typing import Any
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
+from p2sf.arguments import argument, in_own_unit
+from p2sf.conventions import FARTHEST_MM, NM_PER_UM, degrees_from_slope, is_number, slope_from_degrees
 from p2sf.errors import RequestError
 from p2sf.messages import ParameterName
-from p2sf.parameters import check_angle, check_finite, check_positive
+from p2sf.parameters import check_angle, check_distance, check_finite, check_positive
 
 D_LINE_UM = 0.5875618
+NAMES = "depth_mm", "field_slope", "wavelength_um", "field_deg", "wavelength_nm", "azimuth_deg"
+PLAIN = frozenset((float, int, type(None)))
 _set = object.__setattr__  # what a frozen dataclass fills its own fields with
 
 
@@ -21,7 +25,7 @@ class Source:
     Parameters
     ----------
     depth_mm : float
-        Distance of the object plane from the first vertex, mm; inf (the default) is allowed.
+        Distance of the object plane from the first vertex, mm, up to 1e16; inf (the default) is allowed.
     field_slope : float
         Slope (tangent) of the chief ray at the entrance pupil; a positive one lands above the axis. 0 when not given.
     wavelength_um : float
@@ -62,6 +66,9 @@ class Source:
         wavelength_nm: float | None = None,
         azimuth_deg: float = 0.0,
     ):
+        given = (depth_mm, field_slope, wavelength_um, field_deg, wavelength_nm, azimuth_deg)
+        if not PLAIN.issuperset(map(type, given)):
+            depth_mm, field_slope, wavelength_um, field_deg, wavelength_nm, azimuth_deg = map(_number, NAMES, given)
         if depth_mm is None:
             raise RequestError("{parameter} is None; give a distance, inf for infinity", parameter="depth_mm")
         if field_deg is not None:
@@ -80,7 +87,11 @@ class Source:
         _set(self, "wavelength_um", wavelength_um)
         _set(self, "azimuth_deg", azimuth_deg)
         try:
-            possible = depth_mm > 0 and -inf < field_slope < inf and 0 < wavelength_um < inf
+            possible = (
+                (0 < depth_mm <= FARTHEST_MM or depth_mm == inf)
+                and -inf < field_slope < inf
+                and 0 < wavelength_um < inf
+            )
         except ValueError:  # arrays, which stand for many sources at once, are checked by what computes with them
             return
         if not possible or azimuth_deg:
@@ -117,12 +128,27 @@ def source_at(depth_mm: float, slope_x: float, slope_y: float, wavelength_um: fl
     return Source(depth_mm, hypot(slope_x, slope_y), wavelength_um, azimuth_deg=azimuth)
 
 
+def check_one(source: Source) -> None:
+    """Raise RequestError for a source that stands for many."""
+    for value in (source.depth_mm, source.field_slope, source.wavelength_um, source.azimuth_deg):
+        if not is_number(value):
+            raise RequestError(
+                "the source has values of shape {shape}, which are many sources; give one after the other",
+                shape=str(np.shape(value)),
+            )
+
+
+def _number(name: str, value: Any) -> Any:
+    """Return an argument without its unit; RequestError unless it is a number, or an array of them."""
+    return in_own_unit(name, value) if name == "field_deg" else argument(name, value, float | np.ndarray | None)
+
+
 def _shown(value: float | np.ndarray) -> str:
     return f"{value:.10g}" if np.ndim(value) == 0 else np.array2string(np.asarray(value), precision=6, threshold=6)
 
 
 def _check(source: Source) -> None:
-    check_positive("depth_mm", source.depth_mm, infinite=True)
+    check_distance("depth_mm", source.depth_mm)
     check_finite("field_slope", source.field_slope)
     check_positive("wavelength_um", source.wavelength_um)
     check_finite("azimuth_deg", source.azimuth_deg)

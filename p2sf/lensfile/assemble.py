@@ -7,10 +7,10 @@ from math import inf, isfinite
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium, TabulatedIndex, measured_index
-from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface, scaled
 from p2sf.lens.placement import Placement
-from p2sf.lens.shape_words import shape_words
-from p2sf.lens.shapes import RadialPolynomial, Shape
+from p2sf.lens.properties import PROPERTIES, words_of
+from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
@@ -163,9 +163,9 @@ def _lacks(medium: Medium, wavelength_um: float) -> bool:
 
 def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surface:
     """Return one surface in mm; an r² term on a plane makes a paraboloid. GeometryError for powers that cannot be."""
-    curvature, conic, terms = raw.curvature / unit, raw.conic, dict(raw.aspheric)
+    curvature, conic, terms = raw.curvature, raw.conic, dict(raw.aspheric)
     if terms.get(2) and not curvature:
-        curvature, conic = 2 * terms.pop(2) / unit, -1.0
+        curvature, conic = 2 * terms.pop(2), -1.0
     wrong = [power for power, value in terms.items() if value and not 1 <= power <= HIGHEST_ORDER]
     if wrong:
         raise GeometryError(
@@ -174,41 +174,25 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
             power=wrong[0],
             most=HIGHEST_ORDER,
         )
-    return Surface(
-        1 / curvature if curvature else inf,
-        raw.thickness * unit,
-        medium,
-        conic,
-        _coefficients(terms, unit),
-        raw.semi_diameter * unit if raw.semi_diameter > 0 else inf,
-        _shape(raw, {power: value for power, value in terms.items() if power == 2 or power % 2}, unit, number),
-        raw.diffraction.scaled(unit) if raw.diffraction else None,
-        inner_radius=raw.inner_radius * unit,
-        before=_scaled(raw.before, unit),
-        after=_scaled(raw.after, unit),
-        ideal_focal_length=raw.ideal_focal_length * unit,
-        rim=raw.rim.scaled(unit) if raw.rim else None,
-    )
-
-
-def _shape(raw: RawSurface, terms: dict[int, float], unit: float, number: int) -> Shape | None:
-    """Return the shape of a file, or the terms that are not even from r⁴ on; GeometryError where it has both."""
-    top = max((power for power, value in terms.items() if value), default=0)
-    if not top:
-        return raw.shape.scaled(unit) if raw.shape else None
-    if raw.shape:
+    odd = {power: value for power, value in terms.items() if value and (power == 2 or power % 2)}
+    if odd and raw.shape:
         raise GeometryError(
             "surface {surface}: a term in r^{power} beside another shape; put all terms into one",
             surface=number,
-            power=top,
+            power=max(odd),
         )
-    return RadialPolynomial(tuple(terms.get(power, 0.0) * unit ** (1 - power) for power in range(1, top + 1)))
+    stated = {each.name: getattr(raw, each.name) for each in PROPERTIES if hasattr(raw, each.name)}
+    stated |= {"radius": 1 / curvature if curvature else inf, "medium": medium, "conic": conic}
+    stated |= {"aspheric": _even(terms), "semi_diameter": raw.semi_diameter if raw.semi_diameter > 0 else inf}
+    if odd:
+        stated["shape"] = RadialPolynomial(tuple(odd.get(power, 0.0) for power in range(1, max(odd) + 1)))
+    return scaled(Surface(**stated), unit)
 
 
-def _coefficients(terms: dict[int, float], unit: float) -> tuple[float, ...]:
-    """Return A4, A6, … in mm^-3, mm^-5, …, up to the last that is not 0."""
+def _even(terms: dict[int, float]) -> tuple[float, ...]:
+    """Return A4, A6, … up to the last that is not 0."""
     top = max((power for power, value in terms.items() if value and power % 2 == 0), default=2)
-    return tuple(terms.get(power, 0.0) * unit ** (1 - power) for power in range(4, top + 1, 2))
+    return tuple(terms.get(power, 0.0) for power in range(4, top + 1, 2))
 
 
 def _primary_um(raw: RawLens, lens: Lens) -> float:
@@ -297,7 +281,7 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         angles=lens.fields_deg,
     )
     for number, surface in enumerate(lens.surfaces, 1):
-        for words in shape_words(surface):
+        for words in words_of(surface, "aspheric"):
             notes.add("read", "{shape}", number, shape=words)
         if surface.rim:
             kind = RECTANGLE if surface.rim.half_widths else CIRCLE

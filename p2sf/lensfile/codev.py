@@ -9,13 +9,15 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from math import inf, pi
+from typing import NamedTuple
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.glass.media import MIRROR, Medium
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.lens import Lens
 from p2sf.lens.rim import Rim
-from p2sf.lens.shapes import Diffraction, RadialPolynomial
+from p2sf.lens.shapes import Diffraction, RadialPolynomial, Shape
 from p2sf.lens.tilts import Breaks, decentred_surface
 from p2sf.lensfile.assemble import check_stop, private_glass
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
@@ -119,6 +121,18 @@ FIELD_KINDS: dict[str, RawFieldKind] = {
 }
 # No lens of a file has a surface of a shorter radius than this, mm.
 SMALLEST_LENS_MM = 0.1
+
+
+class Places(NamedTuple):
+    """The number of the first coefficient of a special surface, and how many it has."""
+
+    first: int
+    terms: int
+
+
+FREEFORMS = {"XYP": Places(2, 65), "ZRN": Places(2, 66), "ZFR": Places(4, 37)}
+# (n, m) of ZRN's terms, each 1 on the edge: by degree, from cos nθ down to the middle and on to sin nθ, θ from +x.
+BORN_WOLF = tuple((n, n - 2 * place) for n in range(11) for place in range(n + 1))
 ORDERS = {letter: 4 + 2 * place for place, letter in enumerate("ABCDEFGHJ")}
 
 
@@ -136,6 +150,7 @@ class CodeVReading:
     numbered: dict[int, RawSurface] = field(default_factory=dict)  # whose shape is the number after S, by their id
     fields: dict[str, list[float]] = field(default_factory=dict)
     special: dict[int, dict[str, float]] = field(default_factory=dict)
+    special_kinds: dict[int, str] = field(default_factory=dict)
     phase: dict[int, dict[str, float]] = field(default_factory=dict)
     tilts: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of XDE … CDE by the surface's id
     rims: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of RIM_NAMES by the surface's id
@@ -298,32 +313,42 @@ def _coefficient(reading: CodeVReading, command: CodeVCommand, surface: RawSurfa
 
 
 def _special(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    """Read SPS ODD radius, a polynomial in r; LensFileError for any other special surface."""
+    """Read SPS kind radius: ODD, a polynomial in r, XYP, one in x and y, ZRN or ZFR, Zernike's; LensFileError."""
     kind = command.words[0].upper() if command.words else ""
-    if kind != "ODD":
+    if kind not in ("ODD", *FREEFORMS):
         raise reading.source.error(
-            "{surface} is a special surface of type {kind}, which is not read; only ODD is",
+            "{surface} is a special surface of type {kind}, which is not read; {known} are",
             command.line,
             surface=surface.name,
             kind=kind[:20] or Message("nothing"),
+            known=("ODD", *FREEFORMS),
         )
+    reading.special_kinds[surface.number] = kind
     reading.special[surface.number] = {"NRADIUS": reading.number(command, 1, Message("normalisation radius"), 0.0)}
 
 
 def _special_value(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    """Read SCO name value; C1 is K, C2 is AR1, the coefficient of r, and C33 the normalisation radius."""
+    """Read SCO name value; C1 is K, and of ODD C2 is AR1, the coefficient of r, and C33 the normalisation radius."""
     name = command.words[0].upper() if command.words else ""
     place = int(name[1:]) if re.fullmatch(r"C\d{1,3}", name) else 0
-    if place:
-        name = {1: "K", 33: "NRADIUS"}.get(place, f"AR{place - 1}")
-    values = reading.special.get(surface.number)
-    if values is None or not re.fullmatch(r"K|NRADIUS|AR([1-9]|[12]\d|30)", name):
+    kind, values = reading.special_kinds.get(surface.number, ""), reading.special.get(surface.number)
+    if kind in FREEFORMS:
+        if place:
+            name = "K" if place == 1 else f"T{place - FREEFORMS[kind].first}"
+        if kind == "ZFR" and place == 3:
+            name = "NRADIUS"
+        known = name in ("K", "NRADIUS") or name in {f"T{term}" for term in range(FREEFORMS[kind].terms)}
+    else:
+        name = {0: name, 1: "K", 33: "NRADIUS"}.get(place, f"AR{place - 1}")
+        known = re.fullmatch(r"K|NRADIUS|AR([1-9]|[12]\d|30)", name) is not None
+    if values is None or not known:
         raise reading.source.error(
             "{surface}: coefficient {name} of a special surface is not known; K, AR1 to AR30 and NRADIUS after SPS ODD "
-            "are",
+            "are, and K, NRADIUS and the coefficients by their numbers after {known}",
             command.line,
             surface=surface.name,
-            name=name[:20] or Message("nothing"),
+            name=command.words[0][:20] if command.words else Message("nothing"),
+            known=tuple(FREEFORMS),
         )
     values[name] = reading.number(command, 1, Message("aspheric coefficient"))
 
@@ -666,6 +691,9 @@ def _shape(reading: CodeVReading, surface: RawSurface) -> None:
     radius = special.pop("NRADIUS", 0.0) or 1.0
     if special:
         surface.conic = special.pop("K", surface.conic)
+    kind = reading.special_kinds.get(surface.number, "")
+    if kind in FREEFORMS:
+        surface.shape, special = _freeform(kind, special, abs(radius)), {}
     terms = {int(name[2:]): value for name, value in special.items() if value}
     if terms and radius == 1:
         surface.aspheric = {power: surface.aspheric.get(power, 0.0) + value for power, value in terms.items()}
@@ -683,6 +711,17 @@ def _shape(reading: CodeVReading, surface: RawSurface) -> None:
     wave = 2 * pi * reading.raw.unit_mm * NM_PER_UM * UM_PER_MM / wavelength_nm
     numbers = tuple(wave * paths.get(place, 0.0) for place in range(1, max(paths) + 1))
     surface.diffraction = Diffraction(numbers, 1.0, order)
+
+
+def _freeform(kind: str, values: dict[str, float], radius: float) -> Shape | None:
+    """Return XYP's polynomial in x and y, or the Zernike terms of ZRN or ZFR, by their places from 0."""
+    numbers = {int(name[1:]): value for name, value in values.items() if value}
+    if not numbers:
+        return None
+    if kind == "ZRN":
+        return ZernikeStandardSag.of_terms({BORN_WOLF[place]: value for place, value in numbers.items()}, radius)
+    listed = tuple(numbers.get(place, 0.0) for place in range(max(numbers) + 1))
+    return XYPolynomial(listed, radius) if kind == "XYP" else ZernikeFringeSag(listed, radius)
 
 
 def _gather_fields(reading: CodeVReading) -> None:

@@ -8,15 +8,18 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
 from p2sf.lens.even_terms import power_terms
+from p2sf.lens.freeform import Freeform, XYPolynomial, ZernikeStandardSag
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
-from p2sf.lens.shapes import Diffraction, Qbfs
+from p2sf.lens.properties import CODE_V
+from p2sf.lens.shapes import Diffraction
 from p2sf.lens.tilts import decentred_surface
-from p2sf.lensfile.codev import ORDERS, TILT_NAMES
+from p2sf.lensfile.codev import BORN_WOLF, FREEFORMS, ORDERS, TILT_NAMES
 from p2sf.lensfile.conjugates import FAR, limiting_rim
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits
+from p2sf.lensfile.surface_endings import check_endings
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
@@ -44,6 +47,7 @@ def lens_to_seq(lens: Lens) -> str:
     DAR or BEN behind it. Glasses of no maker known here are private ones, with their indices at the lens's wavelengths.
     Of a zoom it is the present position.
     """
+    check_endings(lens, CODE_V)
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     private: dict[Medium, str] = {}
     rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _rows(lens, number)]
@@ -100,10 +104,6 @@ def _own_break(surface: Surface) -> tuple[str, Placement]:
 def _surface(lens: Lens, row: Row, stop: int, private: dict[Medium, str]) -> list[str]:
     """Return the commands of a row."""
     surface, number = row.surface, abs(row.number)
-    if surface.ideal:
-        raise LensFileError(
-            "surface {surface} is an ideal lens, which a CODE V file cannot express; save as TOML", surface=number
-        )
     radius = surface.radius if isfinite(surface.radius) else 0.0
     thickness = surface.thickness if row.number >= 0 else 0.0
     glass = "REFL" if surface.reflects else _glass(row.medium, private)
@@ -123,13 +123,9 @@ def _tilts(kind: str, placement: Placement) -> list[str]:
 
 
 def _shape(surface: Surface, number: int) -> list[str]:
-    """Return K and A to J, or the polynomial SPS ODD; LensFileError for what neither holds."""
-    if isinstance(surface.shape, Qbfs):
-        raise LensFileError(
-            "surface {surface} is a Qbfs asphere, which a CODE V file cannot express here; save as TOML, or convert "
-            "it to even terms",
-            surface=number,
-        )
+    """Return K and A to J, the polynomial SPS ODD or a freeform; LensFileError for what none holds."""
+    if isinstance(surface.shape, Freeform):
+        return _freeform(surface, surface.shape, number)
     radius, terms = power_terms(surface)
     if radius == 1 and all(power in LETTERS for power in terms):
         conic = [f"K {digits(surface.conic)}"] * bool(surface.conic or terms)
@@ -147,6 +143,28 @@ def _shape(surface: Surface, number: int) -> list[str]:
         )
     numbers = [("K", surface.conic), *((f"AR{power}", a) for power, a in sorted(terms.items()))]
     return [f"SPS ODD {digits(radius)}", *(f"SCO {name} {digits(value)}" for name, value in numbers if value)]
+
+
+def _freeform(surface: Surface, shape: Freeform, number: int) -> list[str]:
+    """Return XYP, ZRN or ZFR, with K and coefficients by their places; LensFileError for what these do not hold."""
+    if isinstance(shape, ZernikeStandardSag):
+        kind, places = "ZRN", {key: place for place, key in enumerate(BORN_WOLF)}
+        numbers = {places.get(key, -1): value for key, value in shape.terms.items() if value}
+    else:
+        kind = "XYP" if isinstance(shape, XYPolynomial) else "ZFR"
+        numbers = {place: value for place, value in enumerate(shape.coefficients) if value}
+    first, count = FREEFORMS[kind]
+    if any(surface.aspheric) or not all(0 <= place < count for place in numbers):
+        raise LensFileError(
+            "surface {surface} has even terms beside its shape ({kind}), or that of a higher degree than a CODE V file "
+            "holds; save as TOML",
+            surface=number,
+            kind=shape.name,
+        )
+    named = [("K", surface.conic), *((f"C{first + place}", value) for place, value in sorted(numbers.items()))]
+    radius = digits(shape.normalisation_mm)
+    lines = [f"SPS {kind} {radius}", f"SCO NRADIUS {radius}"]
+    return [*lines, *(f"SCO {name} {digits(value)}" for name, value in named if value)]
 
 
 def _phase(diffraction: Diffraction | None, lens: Lens) -> list[str]:

@@ -28,10 +28,11 @@ rim = { decentre = [0, 5.0] }    # the clear rim is elsewhere, or also half_widt
 inner_radius = 2.0               # rays within are lost: a hole, a shadow; left out: 0
 conic = -1.0
 aspheric = [1e-6, 0.0]           # A4, A6, … in unit⁻³, unit⁻⁵, …
-shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see SHAPES
+shape = { type = "Qcon", normalisation_radius = 10.0, coefficients = [1e-3] }  # added to it, see `shape_types`
 ideal_focal_length = 100.0       # an ideal lens in this plane, which needs no radius; left out: a real surface
 diffraction = { order = 1, normalisation_radius = 10.0, coefficients = [-300.0] }  # radians, of ρ², ρ⁴, …
 irregularity = { fringes = 0.5, fringes_45 = 0, normalisation_radius = 10.0 }  # a cylinder, 273 nm a fringe
+transmission = { vertex = 0.96, per_area = -1e-3 }  # of energy at height h: vertex + per_area·h², in unit⁻²
 before = [{ decentre = [0, 0.1, 0], tilt_deg = [0.5, 0, 0] }]  # how its axes stand in those before it: moved, then
 after = [{ tilt_deg = [-0.5, 0, 0], tilt_first = true }]       # turned about x, y, z; tilt_first: z, y, x, then moved
 
@@ -47,36 +48,22 @@ A lens that zooms, or focuses inside, has a table of columns, and entries with a
 import os
 import re
 import tomllib
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from json import dumps
-from math import inf, isfinite
+from math import inf
 from pathlib import Path
 from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.glass.media import (
-    AIR,
-    CatalogueGlass,
-    ConstantIndex,
-    Medium,
-    Mirror,
-    ModelGlass,
-    ShiftedIndex,
-    TabulatedIndex,
-)
-from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
 from p2sf.lens.positions import Axis, alone
-from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial, Shape
-from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.columns import KINDS as RINGS
 from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
 from p2sf.lensfile.source_text import digits, read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
-from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements, read_rim, rim_text
-from p2sf.lensfile.toml_table import Constraint, Table, find_line, shown
+from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements
+from p2sf.lensfile.toml_surface import OPENING, medium_text, read_surface, surface_lines
+from p2sf.lensfile.toml_table import Constraint, Table, find_line, list_text, shown, text_of
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns
 from p2sf.pupil.mask import PupilMask
@@ -103,7 +90,7 @@ def lens_to_toml(lens: Lens) -> str:
     lens = lens if as_in_columns(lens) else alone(lens)
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
     head = _joined(axes, [_head(replace(column, **_texts_of(lens))) for column in columns])
-    rings = "".join(axis_text(axis, _text, _list) for axis in axes)
+    rings = "".join(axis_text(axis, text_of, list_text) for axis in axes)
     opening = joined(axes, lens.aperture.kind, [digits(column.aperture.value) for column in columns])
     aperture = f"\n[aperture]\n{lens.aperture.kind} = {opening}\n"
     surfaces = [_surface_text(lens, columns, number) for number in range(1, len(lens.surfaces) + 1)]
@@ -118,16 +105,16 @@ def _texts_of(lens: Lens) -> dict[str, Any]:
 def _head(lens: Lens) -> tuple[_Line, ...]:
     stop = "" if lens.stop_surface is None else str(lens.stop_surface)
     return (
-        _Line("title", _text(lens.title), '""'),
-        _Line("name", _text(lens.name)),
-        _Line("character", _text(lens.character), '""'),
-        _Line("source", _text(lens.source), '""'),
-        _Line("comment", _text(lens.comment), '""'),
+        _Line("title", text_of(lens.title), '""'),
+        _Line("name", text_of(lens.name)),
+        _Line("character", text_of(lens.character), '""'),
+        _Line("source", text_of(lens.source), '""'),
+        _Line("comment", text_of(lens.comment), '""'),
         _Line("unit", '"mm"'),
         _Line("stop_surface", stop),
-        _Line("fields_deg", _list(lens.fields_deg)),
-        _Line("wavelengths_nm", _list(lens.wavelengths_nm)),
-        _Line("object_medium", _medium(lens.object_medium), '"air"'),
+        _Line("fields_deg", list_text(lens.fields_deg)),
+        _Line("wavelengths_nm", list_text(lens.wavelengths_nm)),
+        _Line("object_medium", medium_text(lens.object_medium), '"air"'),
         _Line("sensor_before", placements_text(lens.sensor_before), "[]"),
     )
 
@@ -145,80 +132,7 @@ def _surface_text(lens: Lens, columns: tuple[Lens, ...], number: int) -> str:
 
 
 def _lines(surface: Surface) -> tuple[_Line, ...]:
-    return (
-        _Line("radius", digits(surface.radius)),
-        _Line("thickness", digits(surface.thickness)),
-        _Line("glass", _medium(surface.medium), '"air"'),
-        _Line("semi_diameter", digits(surface.semi_diameter), "inf"),
-        _Line("inner_radius", digits(surface.inner_radius), "0.0"),
-        _Line("rim", rim_text(surface.rim) if surface.rim else ""),
-        _Line("conic", digits(surface.conic), "0.0"),
-        _Line("ideal_focal_length", digits(surface.ideal_focal_length), "inf"),
-        _Line("aspheric", _list(surface.aspheric), "[]"),
-        _Line("shape", _shape(surface.shape) if surface.shape else ""),
-        _Line("diffraction", _diffraction(surface.diffraction) if surface.diffraction else ""),
-        _Line("irregularity", _irregularity(surface.irregularity) if surface.irregularity else ""),
-        _Line("before", placements_text(surface.before), "[]"),
-        _Line("after", placements_text(surface.after), "[]"),
-    )
-
-
-def _shape(shape: Shape) -> str:
-    numbers = shape.coefficients
-    if isinstance(shape, RadialPolynomial):
-        if shape.normalisation_mm == 1:
-            return f'{{ type = "odd asphere", coefficients = {_list(numbers)} }}'
-        even = shape.even and len(numbers) % 2 == 0
-        kind, numbers = ("extended asphere", numbers[1::2]) if even else ("extended odd asphere", numbers)
-    else:
-        kind = type(shape).__name__
-    radius = digits(shape.normalisation_mm)
-    return f'{{ type = "{kind}", normalisation_radius = {radius}, coefficients = {_list(numbers)} }}'
-
-
-def _diffraction(diffraction: Diffraction) -> str:
-    order, radius = digits(diffraction.order), digits(diffraction.normalisation_mm)
-    numbers = _list(diffraction.coefficients)
-    return f"{{ order = {order}, normalisation_radius = {radius}, coefficients = {numbers} }}"
-
-
-def _irregularity(one: Irregularity) -> str:
-    first, second, radius = map(digits, (one.fringes, one.fringes_45, one.normalisation_mm))
-    return f"{{ fringes = {first}, fringes_45 = {second}, normalisation_radius = {radius} }}"
-
-
-def _list(numbers: Iterable[float]) -> str:
-    return f"[{', '.join(map(digits, numbers))}]"
-
-
-def _text(text: str) -> str:
-    """Return a TOML string; a text of several lines keeps them."""
-    escaped = dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if "\n" not in text:
-        return escaped
-    return '"""\n' + escaped[1:-1].replace("\\n", "\n") + '"""'
-
-
-def _medium(medium: Medium) -> str:
-    if medium == AIR:
-        return '"air"'
-    if isinstance(medium, ConstantIndex):
-        return digits(medium.value)
-    if isinstance(medium, CatalogueGlass | Mirror):
-        return _text(medium.label)
-    if isinstance(medium, ModelGlass):
-        return f"{{ nd = {digits(medium.nd)}, vd = {digits(medium.vd)} }}"
-    if isinstance(medium, TabulatedIndex):
-        label = "" if medium.label == "table" else f", label = {_text(medium.label)}"
-        return f"{{ wavelengths_um = {_list(medium.wavelengths_um)}, n = {_list(medium.values)}{label} }}"
-    if isinstance(medium, ShiftedIndex):
-        return f"{{ glass = {_medium(medium.medium)}, shift = {digits(medium.shift)} }}"
-    if isinstance(medium, FormulaGlass):
-        numbers = f"coefficients = {_list(medium.coefficients)}, range_um = {_list(medium.range_um)}"
-        return f"{{ agf_formula = {medium.formula}, {numbers}, name = {_text(medium.name)} }}"
-    raise LensFileError(
-        "medium {name} cannot be written to a file; give an index, a glass name or nd and vd", name=medium.label
-    )
+    return tuple(_Line(*line) for line in surface_lines(surface))
 
 
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
@@ -226,19 +140,7 @@ TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
-SHAPED = ("ideal_focal_length", "shape", "diffraction", "irregularity", "before", "after")
-SURFACE = ("radius", "thickness", "glass", "semi_diameter", "inner_radius", "rim", "conic", "aspheric", *SHAPED)
-# The names are OpticStudio's. Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius,
-# ρ², …, of ρ², ρ⁴, …, and of Forbes's polynomials Q₀, Q₁, … (all in units).
-SHAPES = ("odd asphere", "extended odd asphere", "extended asphere", "Qbfs", "Qcon")
-MOST_TERMS = 60
 
-RADIUS = Constraint(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
-THICKNESS = Constraint(isfinite, Message("write the distance to the next surface as a number"))
-RIM = Constraint(lambda x: x > 0, Message("write a positive number"))
-INNER = Constraint(lambda x: 0 <= x < inf, Message("write a number from 0"))
-FINITE = Constraint(isfinite, Message("write a finite number"))
-OPENING = Constraint(lambda x: 0 < x < inf, Message("write a positive number"))
 FIELD = Constraint(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
 WAVELENGTH = Constraint(lambda x: 50 <= x <= 50_000, Message("write a wavelength in nanometres, 50 to 50000"))
 
@@ -266,7 +168,7 @@ def parse_toml(text: str, path: str | os.PathLike = "lens.toml") -> Lens:
 def _plain(top: Table) -> Lens:
     """Return the lens of a file's values, or of one of its columns."""
     scale = _scale(top)
-    surfaces = tuple(_surface(table, scale) for table in _surface_tables(top))
+    surfaces = tuple(read_surface(table, scale, TOP) for table in _surface_tables(top))
     texts = {key: top.string(key) for key in TEXTS}
     texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
     lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
@@ -319,78 +221,6 @@ def _surface_tables(top: Table) -> list[Table]:
     if not rows:
         top.fail("the lens has no surfaces; write a [[surface]] for each")
     return [Table(top.path, top.text, row, "surface", number) for number, row in enumerate(rows, 1)]
-
-
-def _surface(table: Table, scale: float) -> Surface:
-    table.check_keys(SURFACE, TOP)
-    aspheric = table.numbers("aspheric", FINITE, ())
-    focal = table.number("ideal_focal_length", RADIUS, inf) * scale
-    return Surface(
-        radius=table.number("radius", RADIUS, None if focal == inf else inf) * scale,
-        thickness=table.number("thickness", THICKNESS) * scale,
-        medium=table.medium("glass"),
-        conic=table.number("conic", FINITE, 0.0),
-        aspheric=tuple(a * scale ** -(2 * k + 3) for k, a in enumerate(aspheric)),
-        semi_diameter=table.number("semi_diameter", RIM, inf) * scale,
-        inner_radius=table.number("inner_radius", INNER, 0.0) * scale,
-        shape=_read_shape(table, scale),
-        diffraction=_read_diffraction(table, scale),
-        before=read_placements(table, "before", scale),
-        after=read_placements(table, "after", scale),
-        ideal_focal_length=focal,
-        rim=read_rim(table, scale),
-        irregularity=_read_irregularity(table, scale),
-    )
-
-
-def _read_shape(surface: Table, scale: float) -> Shape | None:
-    table = surface.inline("shape")
-    if table is None:
-        return None
-    table.check_keys(("type", "normalisation_radius", "coefficients"))
-    kind = table.string("type")
-    if kind not in SHAPES:
-        table.fail('type "{kind}" of a shape is unknown; write one of {kinds}', kind=kind, kinds=SHAPES)
-    if kind == "odd asphere" and "normalisation_radius" in table.values:
-        table.fail('an odd asphere has no normalisation radius; write type = "extended odd asphere"')
-    numbers = _terms(table)
-    radius = 1.0 if kind == "odd asphere" else table.number("normalisation_radius", OPENING)
-    if kind == "odd asphere":
-        return RadialPolynomial(tuple(a * scale ** (1 - k) for k, a in enumerate(numbers, 1)))
-    if kind == "Qbfs":
-        return Qbfs(numbers, radius).scaled(scale)
-    if kind == "Qcon":
-        return Qcon(numbers, radius).scaled(scale)
-    if kind == "extended asphere":
-        numbers = tuple(x for number in numbers for x in (0.0, number))
-    return RadialPolynomial(numbers, radius).scaled(scale)
-
-
-def _read_diffraction(surface: Table, scale: float) -> Diffraction | None:
-    table = surface.inline("diffraction")
-    if table is None:
-        return None
-    table.check_keys(("order", "normalisation_radius", "coefficients"))
-    radius = table.number("normalisation_radius", OPENING) * scale
-    return Diffraction(_terms(table), radius, table.number("order", FINITE, 1.0))
-
-
-def _read_irregularity(surface: Table, scale: float) -> Irregularity | None:
-    table = surface.inline("irregularity")
-    if table is None:
-        return None
-    table.check_keys(("fringes", "fringes_45", "normalisation_radius"))
-    upright, turned = (table.number(key, FINITE, 0.0) for key in ("fringes", "fringes_45"))
-    found = Irregularity(upright, turned, table.number("normalisation_radius", OPENING)).scaled(scale)
-    return None if found.idle else found
-
-
-def _terms(table: Table) -> tuple[float, ...]:
-    """Return the coefficients of a shape or a phase, at least one."""
-    numbers = table.numbers("coefficients", FINITE, ())
-    if not 1 <= len(numbers) <= MOST_TERMS:
-        table.fail("coefficients are {count} numbers; write 1 to {most}", count=len(numbers), most=MOST_TERMS)
-    return numbers
 
 
 def _aperture(top: Table, scale: float) -> Aperture:

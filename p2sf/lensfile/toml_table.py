@@ -4,12 +4,14 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
+from json import dumps
 from math import nan
 from typing import Any, NoReturn, TypeGuard
 
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import Medium, parse_medium
 from p2sf.lensfile.agf import COEFFICIENTS, DIRECT, SQUARED, FormulaGlass
+from p2sf.lensfile.source_text import digits
 from p2sf.messages import Message
 
 KEYS = {"agf_formula", "coefficients", "range_um", "name"}
@@ -147,6 +149,19 @@ class Table:
             remedy = quoted_number(value) or rule.remedy
             self.fail("{name} is {found}; {remedy}", key, name=key, found=shown(value), remedy=remedy)
         return number
+
+
+def list_text(numbers: Iterable[float]) -> str:
+    """Return a TOML list of numbers with all their digits."""
+    return f"[{', '.join(map(digits, numbers))}]"
+
+
+def text_of(text: str) -> str:
+    """Return a TOML string; a text of several lines keeps them."""
+    escaped = dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if "\n" not in text:
+        return escaped
+    return '"""\n' + escaped[1:-1].replace("\\n", "\n") + '"""'
 
 
 def quoted_number(value: object) -> Message | None:

@@ -12,7 +12,9 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
 from p2sf.lens.even_terms import even_asphere, power_terms
+from p2sf.lens.freeform import Freeform, ZernikeSag
 from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.properties import ISET, PROPERTIES, ZEMAX
 from p2sf.lens.shapes import Qbfs
 from p2sf.lens.tilts import break_rows
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
@@ -22,7 +24,9 @@ from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits, write_text
+from p2sf.lensfile.surface_endings import check_endings
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.zemax import FREEFORMS
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns, focused_vergence
 
@@ -57,16 +61,6 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
             path,
             ending=ending,
         )
-    irregular = [number for number, surface in enumerate(lens.surfaces, 1) if surface.irregularity]
-    if ending != ".toml" and irregular:
-        raise LensFileError(
-            "surface {surface} is irregular, which a file that ends in {ending} cannot express; save as TOML",
-            path,
-            surface=irregular[0],
-            ending=ending,
-        )
-    if ending == ".json":
-        _check_aligned(lens, Message("a file that ends in {ending}", ending=ending))
     text = writers[ending](lens)
     catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
     if catalogue:
@@ -89,6 +83,7 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
 
     The columns of a zoom are its configurations, the present position the one that its surfaces show if it is a column.
     """
+    check_endings(lens, ZEMAX)
     _check_zemax_columns(lens)
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
@@ -145,10 +140,10 @@ def _check_zemax_columns(lens: Lens) -> None:
     for number, rows in enumerate(zip(*(column.surfaces for column in lens.positions.lenses), strict=True), 1):
         unnamed = [row.medium for row in rows if not isinstance(row.medium, CatalogueGlass | FormulaGlass)]
         different = len({row.medium for row in rows}) > 1
-        shapes = {(row.aspheric, row.shape, row.diffraction, row.ideal_focal_length) for row in rows}
-        if len(shapes) > 1 or (different and unnamed):
+        fixed = {tuple(getattr(row, each.name) for each in PROPERTIES if not each.operand) for row in rows}
+        if len(fixed) > 1 or (different and unnamed):
             raise LensFileError(
-                "surface {surface} differs between columns in its aspheric terms or in a medium without a name, for "
+                "surface {surface} differs between columns in its shape, its rim or a medium without a name, for "
                 "which a Zemax file has no line; save as TOML",
                 surface=number,
             )
@@ -226,8 +221,8 @@ def _zemax_rim(surface: Surface, number: int) -> list[str]:
         return [f"  OBSC 0 {digits(hole)}"] * bool(hole)
     if rim.turn_deg or (rim.half_widths and hole):
         raise LensFileError(
-            "surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save "
-            "as TOML",
+            "surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; "
+            "save as TOML",
             surface=number,
         )
     x, y = map(digits, rim.decentre)
@@ -249,8 +244,8 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     odd, top = any(power % 2 for power in terms), max(terms, default=0)
     step = 1 if odd else 2
     parameters = [f"  PARM {power // step} {digits(value)}" for power, value in sorted(terms.items())]
-    if isinstance(surface.shape, Qbfs):
-        return "QED_TYPE", _forbes_data(surface, surface.shape, number)
+    if isinstance(surface.shape, Qbfs | Freeform):
+        return _own_type(surface, surface.shape, number)
     if surface.ideal:
         return "PARAXIAL", [f"  PARM 1 {digits(surface.ideal_focal_length)}"]
     if surface.diffraction is not None:
@@ -274,15 +269,24 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     return "XOSPHERE" if odd else "XASPHERE", _extra_data(radius, listed)
 
 
-def _forbes_data(surface: Surface, shape: Qbfs, number: int) -> list[str]:
-    """Return the extra data of Qbfs: type 0, then as those of other shapes."""
-    if any(surface.aspheric) or surface.diffraction is not None:
+def _own_type(surface: Surface, shape: Qbfs | Freeform, number: int) -> tuple[str, list[str]]:
+    """Return the type of a shape that has one of its own, and its lines: even terms where it takes them, extra data."""
+    terms, data = len(surface.aspheric), _extra_data(shape.normalisation_mm, shape.coefficients)
+    held = 0 if not isinstance(shape, ZernikeSag) else HIGHEST_ZEMAX_ORDER // 2 - 1
+    if (any(surface.aspheric) and terms > held) or surface.diffraction is not None:
         raise LensFileError(
-            "surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no "
-            "line; save as TOML",
+            "surface {surface} has even terms or diffraction beside its shape ({kind}), for which Zemax has no line; "
+            "save as TOML",
             surface=number,
+            kind=shape.name,
         )
-    return _extra_lines((0, len(shape.coefficients), shape.normalisation_mm, *shape.coefficients))
+    if isinstance(shape, Qbfs):  # type 0 of Forbes's
+        return "QED_TYPE", _extra_lines((0, len(shape.coefficients), shape.normalisation_mm, *shape.coefficients))
+    kind = next(kind for kind, known in FREEFORMS.items() if isinstance(shape, known))
+    if isinstance(shape, ZernikeSag):  # parameter 0: the terms hold beyond the normalisation radius too
+        even = [f"  PARM {place} {digits(value)}" for place, value in enumerate(surface.aspheric, 2) if value]
+        return kind, ["  PARM 0 1", *even, *data]
+    return kind, data
 
 
 def _extra_data(radius: float, numbers: tuple[float, ...]) -> list[str]:
@@ -348,17 +352,15 @@ def lens_to_iset(lens: Lens, spectral: bool = False) -> str:
     """
     if lens.object_medium != AIR:
         raise LensFileError("the object stands in a medium, which an ISET file cannot express; save as TOML")
+    check_endings(lens, ISET)
+    if lens.sensor_before:
+        _check_aligned(lens, Message("an ISET file"))
     if any(surface.reflects for surface in lens.surfaces):
         raise LensFileError("the lens has mirrors, which an ISET file cannot express; save as TOML")
     wave = lens.reference_wavelength_um
     stop = lens.stop_surface or limiting_rim(lens, wave)[0]
     rows = []
     for number, surface in enumerate(lens.surfaces, 1):
-        if surface.inner_radius:
-            raise LensFileError(
-                "surface {surface} has a hole or an obscuration, which an ISET file cannot express; save as TOML",
-                surface=number,
-            )
         row = _iset_row(_iset_surface(surface, number), _iset_index(surface.medium, wave, spectral))
         plain = not surface.bare or surface.medium != lens.media[number - 1]
         if number == stop:

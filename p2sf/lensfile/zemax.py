@@ -11,6 +11,7 @@ from math import inf
 from typing import NoReturn
 
 from p2sf.glass.media import MIRROR
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.lens import Lens
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
@@ -40,7 +41,15 @@ REFUSED_TYPES = {
     "GRINSUR1": Message("a gradient index"),
     "ALTERNAT": Message("the root of the sphere on its other side"),
 }
-READ_TYPES = ("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "QED_TYPE", "PARAXIAL")
+FREEFORMS: dict[str, type[XYPolynomial] | type[ZernikeStandardSag] | type[ZernikeFringeSag]] = {
+    "XPOLYNOM": XYPolynomial,
+    "SZERNSAG": ZernikeStandardSag,
+    "FZERNSAG": ZernikeFringeSag,
+}
+READ_TYPES = (
+    *("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "QED_TYPE", "PARAXIAL"),
+    *FREEFORMS,
+)
 MOST_TERMS = 60  # of an extended asphere or a phase
 UNKNOWN_TYPE = Message("which P2SF does not trace")
 HARMLESS = (
@@ -639,6 +648,8 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
     step = 1 if kind in ("ODDASPHE", "XOSPHERE") else 2
     if kind in ("EVENASPH", "ODDASPHE", "BINARY_2"):
         surface.aspheric = {step * place: value for place, value in parameters.items() if place and value}
+    if kind in FREEFORMS:
+        _freeform(reading, surface, kind, parameters)
     if kind == "QED_TYPE":
         _forbes(reading, surface)
     if kind not in ("XASPHERE", "XOSPHERE", "BINARY_2"):
@@ -669,11 +680,29 @@ def _forbes(reading: ZemaxReading, surface: RawSurface) -> None:
         surface.shape = Qcon(terms, radius) if kind else Qbfs(terms, radius)
 
 
-def _extra_terms(reading: ZemaxReading, surface: RawSurface, first: int = 1) -> tuple[tuple[float, ...], float]:
+def _freeform(reading: ZemaxReading, surface: RawSurface, kind: str, parameters: dict[int, float]) -> None:
+    """Give a surface a polynomial in x and y, or Zernike's beside even terms from r² to r¹⁶, parameters 1 to 8."""
+    shape = FREEFORMS[kind]
+    if kind != "XPOLYNOM":
+        surface.aspheric = {2 * place: value for place, value in parameters.items() if 0 < place <= 8 and value}
+        if any(parameters.get(place) for place in (9, 10)):
+            raise reading.source.error(
+                "{surface} has Zernike terms that are decentred, which is not read; centre them",
+                surface.line,
+                surface=surface.name,
+            )
+    terms, radius = _extra_terms(reading, surface, most=shape.most)
+    if any(terms):
+        surface.shape = shape(terms, radius)
+
+
+def _extra_terms(
+    reading: ZemaxReading, surface: RawSurface, first: int = 1, most: int = MOST_TERMS
+) -> tuple[tuple[float, ...], float]:
     """Return coefficients and normalisation radius of the extra data: from ``first`` their number, the radius, each."""
     extra = reading.extra.get(surface.number, {})
     count, radius = extra.get(first, 0.0), extra.get(first + 1, 1.0)
-    if not (0 <= count <= MOST_TERMS and count == int(count) and radius > 0):
+    if not (0 <= count <= most and count == int(count) and radius > 0):
         raise reading.source.error(
             "{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up "
             "to {most} terms and a positive radius",
@@ -681,6 +710,6 @@ def _extra_terms(reading: ZemaxReading, surface: RawSurface, first: int = 1) -> 
             surface=surface.name,
             count=count,
             radius=radius,
-            most=MOST_TERMS,
+            most=most,
         )
     return tuple(extra.get(place, 0.0) for place in range(first + 2, first + 2 + int(count))), radius

@@ -25,14 +25,17 @@ CERTAIN = 3.0  # standard deviations from which a number differs from 0
 
 
 def lens_as_built(whole: FrameFit, tilted: bool = True) -> Lens:
-    """Return the lens as designed with the errors and the sensor that the frame tells.
+    """Return the lens as designed with the errors, the stop and the sensor that the frame tells.
 
     ``tilted``: tilt the sensor too. Field polynomials are no part of a lens (`left_out`). Raises RequestError for a
-    frame that was measured without a lens.
+    frame that was measured without a lens, or that its numbers do not explain.
     """
-    lens = whole.model.lens
-    if lens is None:
+    if whole.model.lens is None:
         raise RequestError("the lens as built is the designed lens with its departures; measure relative to the lens")
+    if not whole.reliable:
+        raise RequestError("there is no lens as built: {why}", why=whole.warnings[0])
+    lens = whole.known_stop.lens
+    assert lens is not None
     told = dict(zip(whole.model.unknowns, whole.values.tolist(), strict=True))
     errors = whole.model.errors
     moved = build(lens, tuple(errors.values()), [told[name] for name in errors])

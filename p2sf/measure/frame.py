@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
+from p2sf.messages import Message
 from p2sf.parameters import check_positive
 
 MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
@@ -66,8 +67,11 @@ class Noise:
 class Frame:
     """Counts (rows, columns), row 0 the top, with dark and flat field already applied; ``bad``: pixels not to use.
 
-    ``psf``: the whole frame is the intensity of one point, at points and not over pixels, its chief ray at the sample
-    of row (rows − 1)//2 and column columns//2.
+    ``psf``: the whole frame is the intensity of one point, its chief ray at the sample of row (rows − 1)//2 and column
+    columns//2. ``integrated``: its samples are light of whole pixels, as those of a photograph always are, and not
+    intensities at points. ``field_deg``: of a PSF, the angle of its field, along +y; None where it is not known.
+    ``encoding``: "srgb" or "linear", as which whole numbers of a file were read; "" for others. ``notes``: what a
+    reader has to know of how the file was read.
     """
 
     values: np.ndarray
@@ -75,6 +79,10 @@ class Frame:
     noise: Noise = field(default_factory=Noise)
     bad: np.ndarray | None = None
     psf: bool = False
+    integrated: bool = True
+    field_deg: float | None = None
+    encoding: str = ""
+    notes: tuple[Message, ...] = ()
 
     def __post_init__(self) -> None:
         if self.values.ndim != 2 or self.values.shape != (self.geometry.rows, self.geometry.columns):
@@ -89,17 +97,20 @@ class Frame:
         """Return the median of all counts: points cover few pixels."""
         return float(np.median(self.values[np.isfinite(self.values)]))
 
-    @cached_property
+    @property
     def read_noise(self) -> float:
-        """Return the stated noise of a dark pixel in counts, or that estimated from the median absolute deviation.
+        """Return the stated noise of a dark pixel in counts, or that of the background."""
+        return self.background_noise if self.noise.read_noise is None else self.noise.read_noise
 
-        The estimate contains the background's shot noise.
+    @cached_property
+    def background_noise(self) -> float:
+        """Return the noise beside the points in counts, from the median absolute deviation.
+
+        It contains the background's shot noise, and its unevenness. A frame without noise has that stated.
         """
-        if self.noise.read_noise is not None:
-            return self.noise.read_noise
         finite = self.values[np.isfinite(self.values)]
         deviation = MAD * float(np.median(np.abs(finite - self.background)))
-        return deviation or float(np.std(finite)) or 1.0
+        return deviation or self.noise.read_noise or float(np.std(finite)) or 1.0
 
     def variance(self, light: np.ndarray) -> np.ndarray:
         """Return the variance of counts whose mean is ``light``: read noise, and shot noise where the gain is known."""

@@ -2,7 +2,7 @@
 
 A fit to traced rays gives f(ξ, η) about the meridian; a point at another azimuth turns it, and its rows are no longer
 even in anything. Row j follows fy(u, v) = c_j between two points of the rim, c_j = middle + half·cos θ_j, which is
-Gauss–Chebyshev quadrature as in `separable_sum`, for any map that rises steadily.
+Gauss–Chebyshev quadrature as in `frequency_rows`, for any map that rises steadily.
 """
 
 from dataclasses import dataclass, replace
@@ -12,6 +12,7 @@ import numpy as np
 from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.measure.frequency_rows import scaled
 from p2sf.measure.point_model import Optics
 from p2sf.measure.pupil_model import PupilModel, turned
 from p2sf.measure.pupil_nodes import (
@@ -25,7 +26,6 @@ from p2sf.measure.pupil_nodes import (
     open_nodes,
     placed_nodes,
 )
-from p2sf.psf.disc_rows import scaled
 from p2sf.pupil.mask_nodes import ClearNodes, throughput
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.zernike import basis, gradient
@@ -122,7 +122,7 @@ def lens_nodes(
         return _disc(TurnedMap(scaled(found, radius), azimuth), radius, counts_of(radius, counts))
 
     def place(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        return *whole.at(u, v), found.weight_at(*turned(u, v, azimuth))
+        return *whole.at(u, v), found.amplitude_at(*turned(u, v, azimuth))
 
     if clear is not None:
         return placed_nodes(clear, found.wavelength_um, lambda xi, eta: place(*turned(xi, eta, -azimuth)))
@@ -180,7 +180,7 @@ def _disc(seen: TurnedMap, radius: float, counts: tuple[int, int]) -> PupilRows:
         raise SamplingError("the pupil map of this lens folds over; stop the lens down or take a smaller field")
     # (1/π)∫dfy∫du/|∂fy/∂v|, with dfy = (top − bottom)/2·sin θ dθ
     area = abs(top - bottom) / (4 * (rows + 1)) * (ends[1] - ends[0]) * share * np.sin(theta)[:, None] / np.abs(slope)
-    light = seen.found.weight_at(*turned(u, v, seen.azimuth))
+    light = seen.found.amplitude_at(*turned(u, v, seen.azimuth))
     return PupilRows(fy, seen.at(u, v)[0], radius * u, radius * v, radius**2 * area * light)
 
 

@@ -12,7 +12,6 @@ from p2sf.errors import RequestError
 LARGEST_BYTES = 200_000_000
 NUMBER = r"[-+]?\d+(?:\.\d*)?(?:[Ee][-+]?\d+)?"
 UNITS_UM = {"µm": 1.0, "um": 1.0, "microns": 1.0, "μm": 1.0, "mm": 1000.0, "nm": 1e-3}
-AGREE = 1e-3  # of the sizes that a head and its table may differ by
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,8 +20,8 @@ class Listing:
 
     ``kind``: "psf", relative intensity at points, or "wavefront", waves over a square about the pupil, 0 outside.
     ``pitch_um``: between samples of a PSF. ``centre``: row and column of the chief ray or the pupil's centre.
-    ``chief_mm``: x and y on the sensor where the chief ray of a PSF lands. ``strehl``, ``peak_to_valley`` and ``rms``,
-    waves, as listed; None where the head does not say so.
+    ``chief_mm``: x and y on the sensor where the chief ray of a PSF lands. ``strehl``, ``peak_to_valley`` and
+    ``rms_with_tilt``, waves, as listed; None where the head does not say so.
     """
 
     kind: str
@@ -34,7 +33,7 @@ class Listing:
     chief_mm: tuple[float, float] | None = None
     strehl: float | None = None
     peak_to_valley: float | None = None
-    rms: float | None = None
+    rms_with_tilt: float | None = None
 
     @property
     def inside(self) -> np.ndarray:
@@ -44,14 +43,9 @@ class Listing:
 
     @property
     def statistics(self) -> tuple[float, float]:
-        """Return peak-to-valley and RMS about the mean of a wavefront's cells in the pupil, waves."""
+        """Return peak-to-valley and RMS about the mean, tilt included, of a wavefront's cells in the pupil, waves."""
         waves = self.values[self.inside]
         return float(np.ptp(waves)), float(waves.std())
-
-
-def is_listing(data: bytes) -> bool:
-    """Return whether a file begins as OpticStudio's listings do."""
-    return "Listing of" in _decoded(data[:400])
 
 
 def read_listing(path: str | os.PathLike[str]) -> Listing:

@@ -17,21 +17,34 @@ from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.measure.frame import Frame
-from p2sf.measure.frame_fit import FrameFit, fit_frame
-from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint, six_of_unknowns
+from p2sf.measure.frame_fit import FrameFit, Tell, fit_frame, share_of
+from p2sf.measure.frame_terms import (
+    F_NUMBER,
+    F_NUMBER_ERROR,
+    FIELD,
+    FOCUS,
+    FrameModel,
+    FramePoint,
+    six_of_unknowns,
+)
 from p2sf.measure.lens_pupil import designed_pupil
-from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point
+from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point, no_numbers
 from p2sf.measure.point_model import Optics
+from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, window_half, window_of
 from p2sf.measure.pupil_model import SIX, pupil_model
+from p2sf.measure.starting_values import seen
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 from p2sf.parameters import check_finite
+from p2sf.threads import for_each
 
 FEWEST = 5  # points of a frame whose field is fitted too
 STRAIGHT = 0.017  # radians off +y within which the fast rows of a map are taken
 LEAST_HEIGHT_MM = 1e-3  # of the farthest point
-WHOLE = 0.5  # of the time, as progress is told
+LEAST_CHI2 = 0.5  # that noise as stated leaves: the windows have hundreds of pixels
+PASSES, SETTLED = 4, 0.98  # fits about the errors and the f-number found before, while χ² falls by more than this
+WHOLE, FIRST = 0.5, 0.5  # of the time, as progress is told: the frame, and of it the first fit
 NEAR_MM = 0.05  # points of two measurements that lie as near are the same
 
 
@@ -73,6 +86,20 @@ class Measurement:
         """Return how many points were fitted."""
         return sum(found is not None for found in self.fits)
 
+    @property
+    def warnings(self) -> tuple[Message, ...]:
+        """Return what a reader has to know of the pictures, beside the warnings of each point and of the frame."""
+        out = tuple(note for frame in self.frames for note in frame.notes)
+        chi2 = [one.chi2 for one in self.fits if one is not None] or [self.whole.chi2 if self.whole else 1.0]
+        if not self.frames[0].psf and (low := float(np.median(chi2))) < LEAST_CHI2:
+            why = Message(
+                "what is left is {chi2:.2g} times the variance of the noise, so the noise is less than taken and the "
+                "errors are too large; check the read noise and the gain, and that the picture was not smoothed",
+                chi2=low,
+            )
+            out = (*out, why)
+        return out
+
 
 def measured(
     frames: Sequence[Frame],
@@ -86,6 +113,7 @@ def measured(
     singly: bool = True,
     clip: bool = False,
     target: Target | None = None,
+    f_number_error: float = F_NUMBER_ERROR,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurement:
@@ -94,40 +122,55 @@ def measured(
     ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself.
     ``lens``: as designed, from which the whole frame departs by ``unknowns``, and every point by four coefficients,
     which are added to the lens's own; a model with a map starts from the lens's. ``clip``: its rims end pupils.
-    ``target``: tells where points belong and where the axis meets the sensor, which is the frame's otherwise. A frame
-    of fewer than five usable points is fitted point by point only. Raises RequestError where no point can be used.
+    ``target``: tells where points belong and where the axis meets the sensor, which is the frame's otherwise.
+    ``f_number_error``: one standard deviation of the f-number as stated, percent; unless 0, the f-number is the last
+    unknown of the frame, and single points are fitted with the one found. A frame of fewer than five usable points is
+    fitted point by point only. Raises RequestError where no point can be used.
     """
+    _check(frames, focus_um, model, f_number_error)
+    points = in_grid(find_points(frames[0], optics))
+    half = window_half(points)
+    if frames[0].psf:
+        points, half = [_at_field(points[0], frames[0], lens, depth_mm, optics.wavelength_um)], points[0].half
+        optics = optics if frames[0].integrated else replace(optics, fill=0.0)
+    match = None
+    if target is not None:
+        points, match = _on_target(points, target, lens, depth_mm, optics.wavelength_um)
+    taken = [_Taken(frames, point, points, half, focus_um, optics) for point in points]
+    height = max([one.height_mm for one in taken if one.pictures] + [LEAST_HEIGHT_MM])
+    names = tuple(name for name in unknowns if name != F_NUMBER) + (F_NUMBER,) * (f_number_error > 0)
+    design = FrameModel(optics, height, names, lens, depth_mm, clip=clip, f_number_error=f_number_error or 1.0)
+    whole = _whole(taken, design, share_of(progress, 0.0, WHOLE if singly else 1.0), cancelled)
+    fits, failures = _singly(taken if singly else [], whole, design, model, share_of(progress, WHOLE, 1.0), cancelled)
+    if not singly:
+        fits, failures = [None] * len(points), [one.failure for one in taken]
+    return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole, match)
+
+
+def _check(frames: Sequence[Frame], focus_um: Sequence[float], model: str, f_number_error: float) -> None:
     if len(frames) != len(focus_um):
         raise RequestError(
             "{frames} frames and {focus} focus positions; give one for each", frames=len(frames), focus=len(focus_um)
         )
     for moved_um in focus_um:
         check_finite("focus_um", moved_um)
+    check_finite("f_number_error", f_number_error)
+    if f_number_error < 0:
+        raise RequestError(
+            "{parameter} is {value:g} %; give 0 or more, 0 where the f-number is known exactly",
+            parameter="f_number_error",
+            value=f_number_error,
+        )
     pupil_model(model)  # refuses a name that is none
-    points = in_grid(find_points(frames[0]))
-    half = window_half(points)
-    if frames[0].psf:
-        half, optics = points[0].half, replace(optics, fill=0.0)
-    match = None
-    if target is not None:
-        points, match = _on_target(points, target, lens, depth_mm, optics.wavelength_um)
-    taken = [_Taken(frames, point, points, half, focus_um, optics) for point in points]
-    height = max([one.height_mm for one in taken if one.pictures] + [LEAST_HEIGHT_MM])
-    design = FrameModel(optics, height, tuple(unknowns), lens, depth_mm, clip=clip)
-    whole = _whole(taken, design, progress, cancelled)
-    fits: list[PointFit | None] = [None] * len(points)
-    failures: list[Message | None] = [None] * len(points)
-    for k, one in enumerate(taken if singly else ()):
-        if cancelled and cancelled():
-            raise Cancelled("the measurement was cancelled before it was done")
-        if one.pictures:
-            try:
-                fits[k] = _single(one, whole, design, model)
-            except P2SFError as error:
-                failures[k] = error.message
-        if progress:
-            progress(WHOLE + (1 - WHOLE) * (k + 1) / len(points))
-    return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole, match)
+
+
+def _at_field(point: FoundPoint, frame: Frame, lens: Lens | None, depth_mm: float, wavelength_um: float) -> FoundPoint:
+    """Return the point of a PSF where the chief ray of its field lands, if lens and field are known."""
+    if lens is None or frame.field_deg is None:
+        return point
+    target = Target(np.array([1]), np.array([[0.0, frame.field_deg]]), "deg")
+    ((x, y),) = expected_places(target, lens, depth_mm, wavelength_um).tolist()
+    return replace(point, x_mm=x, y_mm=y)
 
 
 def _on_target(
@@ -164,15 +207,21 @@ class _Taken:
         focus_um: Sequence[float],
         optics: Optics,
     ):
-        self.point, self.focus_um = point, focus_um
+        self.point, self.focus_um, self.na = point, focus_um, optics.na
         pitch = frames[0].geometry.pixel_um / UM_PER_MM
         right, down = (place - round(place) for place in (point.column, point.row))
         self.place = point.known_mm or (point.x_mm - right * pitch, point.y_mm + down * pitch)
         waves = [shift * optics.na**2 / (2 * optics.wavelength_um) for shift in focus_um]
         found = [window_of(frame, point, half, wave, others) for frame, wave in zip(frames, waves, strict=True)]
         self.pictures = [one for one in found if one is not None]
+        self.failure: Message | None = None
         if not point.good or None in found:
             self.pictures = []
+        try:
+            for one in self.pictures:
+                seen(one, optics)
+        except RequestError as error:
+            self.pictures, self.failure = [], error.message
 
     @property
     def height_mm(self) -> float:
@@ -184,6 +233,11 @@ class _Taken:
         """Return the point's direction from the axis, radians from +y towards +x."""
         return float(np.arctan2(*self.place))
 
+    def at(self, na: float) -> list[PointPicture]:
+        """Return the pictures, what is known of their focus in waves at this numerical aperture."""
+        ratio = (na / self.na) ** 2
+        return [replace(picture, defocus_waves=ratio * picture.defocus_waves) for picture in self.pictures]
+
     @property
     def placed(self) -> list[FramePoint]:
         """Return the pictures as a frame's fit takes them."""
@@ -194,33 +248,73 @@ class _Taken:
 def _whole(
     taken: Sequence[_Taken],
     design: FrameModel,
-    progress: Callable[[float], None] | None,
+    progress: Tell,
     cancelled: Callable[[], bool] | None,
 ) -> FrameFit | None:
     """Return what explains all points together; None for too few of them."""
     if sum(bool(one.pictures) for one in taken) < FEWEST:
         return None
-    told = (lambda share: progress(WHOLE * share)) if progress else None
     placed = [point for one in taken for point in one.placed]
-    found = fit_frame(placed, design, progress=told, cancelled=cancelled)
+    found = fit_frame(placed, design, None, share_of(progress, 0.0, done := FIRST), cancelled)
     known = any(one.point.known_mm for one in taken)
-    if design.lens is None or (known and not design.errors):
+    nonlinear = bool(design.errors) or F_NUMBER in design.unknowns
+    if design.lens is None or (known and not nonlinear):
         return found
-    # Centroids lie a pixel or so from where chief rays land, which coma moves them by.
-    about = replace(design, about=tuple(found.values.tolist())) if design.errors else design
-    return fit_frame(placed if known else _replaced(found), about, found.values, cancelled=cancelled)
+    for _ in range(PASSES if nonlinear else 1):
+        # Centroids lie a pixel or so from where chief rays land, which coma moves them by.
+        about = replace(design, about=tuple(found.values.tolist())) if nonlinear else design
+        before = found
+        told = share_of(progress, done, done := (1 + done) / 2)  # how many will follow is not known
+        found = fit_frame(placed if known else _replaced(before), about, before.values, told, cancelled)
+        if found.explains or found.chi2 > SETTLED * before.chi2:
+            break
+    return found
+
+
+def _singly(
+    taken: Sequence[_Taken],
+    whole: FrameFit | None,
+    design: FrameModel,
+    model: str,
+    progress: Tell,
+    cancelled: Callable[[], bool] | None,
+) -> tuple[list[PointFit | None], list[Message | None]]:
+    """Return the fit of every point, None for those that cannot be used, and why there is none. Raises Cancelled."""
+    found: list[tuple[PointFit | None, Message | None]] = []
+
+    def fitted(one: _Taken) -> tuple[PointFit | None, Message | None]:
+        if cancelled and cancelled():
+            raise Cancelled("the measurement was cancelled before it was done")
+        try:
+            return (_single(one, whole, design, model) if one.pictures else None), one.failure
+        except Cancelled:
+            raise
+        except P2SFError as error:
+            return None, error.message
+
+    def take(pair: tuple[PointFit | None, Message | None]) -> None:
+        found.append(pair)
+        if progress:
+            progress(len(found) / len(taken))
+
+    for_each(fitted, taken, take)
+    return [fit for fit, _ in found], [why for _, why in found]
 
 
 def _single(one: _Taken, whole: FrameFit | None, design: FrameModel, model: str) -> PointFit:
     """Return the fit of a point."""
+    if whole is not None and not whole.reliable:
+        whole = None
+    design = design if whole is None else whole.known_stop
     if whole is not None and design.lens is not None and model == SIX:
         return _departure(whole, one)
-    pictures, optics, own = one.pictures, design.optics, None
+    optics, own = design.optics, None
+    pictures = one.at(optics.na)
     if model != SIX and design.lens is not None:
         half_um = max(pictures[0].values.shape) / 2 * optics.pixel_um
         source = design.source(one.height_mm, one.azimuth)
         own = designed_pupil(design.lens, source, pupil_model(model), optics.cycles, half_um, design.clip)
-    near = _expected(whole, one) if model == SIX else None
+    near = _expected(whole, one, design) if model == SIX else None
     azimuth = 0.0 if model != SIX and abs(one.azimuth) < STRAIGHT else float(np.rad2deg(one.azimuth))
     return fit_point(pictures, optics, model, azimuth, near=near, design=own)
 
@@ -233,7 +327,7 @@ def _replaced(whole: FrameFit) -> list[FramePoint]:
 
 def _departure(whole: FrameFit, one: _Taken) -> PointFit:
     """Return what a point tells beyond the lens's exact wavefront, added to the lens's own coefficients."""
-    model = replace(whole.model, unknowns=("w40", "w31", "w22", "w20"), alone=True)
+    model = replace(whole.known_stop, unknowns=("w40", "w31", "w22", "w20"), alone=True)
     own = model.six_of_lens(one.height_mm)
     found = fit_frame(one.placed, model, six_of_unknowns(*one.place, whole.model) @ whole.values)
     left = max(1, sum(int(part.usable.sum()) for part in one.pictures) - found.values.size - found.frames.size)
@@ -247,16 +341,16 @@ def _departure(whole: FrameFit, one: _Taken) -> PointFit:
         modelled=found.modelled,
         r2=found.r2,
         chi2=found.chi2,
-        warnings=chi2_warning(found.chi2, left),
+        warnings=chi2_warning(found.chi2, left) if found.reliable else (no_numbers(found.chi2),),
     )
 
 
-def _expected(whole: FrameFit | None, one: _Taken) -> np.ndarray | None:
-    """Return W40, W31, W22 and W20 + Wd that the frame suggests for a point: all points then take the same twin."""
+def _expected(whole: FrameFit | None, one: _Taken, design: FrameModel) -> np.ndarray | None:
+    """Return W40, W31, W22 and W20 + Wd that frame and lens suggest for a point: all points then take the same twin."""
     if whole is None:
-        return None
+        return design.six_of_lens(one.height_mm) if design.lens is not None else None
     of_frame = six_of_unknowns(*one.place, whole.model) @ whole.values
-    expected: np.ndarray = whole.model.six_of_lens(one.height_mm) + of_frame
+    expected: np.ndarray = design.six_of_lens(one.height_mm) + of_frame
     return expected
 
 
@@ -264,8 +358,8 @@ def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
     """Write the numbers of a measurement as .npz and return the path. Raises ExportError.
 
     ``places_mm`` (points, 2), ``numbers``, ``errors`` and ``bounds`` (points, numbers), ``twins``, ``r2``, ``chi2``
-    and, on a target, ``target_numbers`` of every point used; ``whole``, ``whole_errors``, ``whole_bounds`` of the
-    frame; ``meta`` names them.
+    and, on a target, ``target_numbers`` of every point used, numbers NaN where the model leaves too much;
+    ``whole``, ``whole_errors``, ``whole_bounds`` of the frame; ``meta`` names them.
     """
     used = [(point, one) for point, one in zip(found.points, found.fits, strict=True) if one is not None]
     arrays: dict[str, np.ndarray] = {
@@ -278,13 +372,14 @@ def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
     scale = {name: value for name, value in vars(found.optics).items() if name != "mask"}
     meta: dict[str, object] = {"optics": scale, "points_found": len(found.points)}
     if used:
-        arrays["numbers"], arrays["errors"], arrays["bounds"] = (
-            np.array([getattr(one, name) for _, one in used]) for name in ("numbers", "errors", "bounds")
-        )
         none = np.full(used[0][1].numbers.size, np.nan)
-        arrays["twins"] = np.array([one.others[0] if one.others else none for _, one in used])
+        arrays["numbers"], arrays["errors"], arrays["bounds"] = (
+            np.array([getattr(one, name) if one.reliable else none for _, one in used])
+            for name in ("numbers", "errors", "bounds")
+        )
+        arrays["twins"] = np.array([one.others[0] if one.others and one.reliable else none for _, one in used])
         meta |= {"model": used[0][1].model.name, "names": used[0][1].names}
-    if found.whole is not None:
+    if found.whole is not None and found.whole.reliable:
         whole = found.whole
         arrays |= {"whole": whole.values, "whole_errors": whole.errors, "whole_bounds": whole.bounds}
         model = whole.model
@@ -334,6 +429,8 @@ def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> C
     """
     (one, named), (two, also) = (read_measurement(path) for path in (first, second))
     pairs = _pairs(one["places_mm"], two["places_mm"])
+    if "numbers" in one and "numbers" in two:
+        pairs = [(a, b) for a, b in pairs if np.isfinite([one["numbers"][a, 0], two["numbers"][b, 0]]).all()]
     rows = []
     if pairs and named.get("names") == also.get("names") and "numbers" in one and "numbers" in two:
         here, there = (np.array(k) for k in zip(*pairs, strict=True))

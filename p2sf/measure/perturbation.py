@@ -19,8 +19,8 @@ from p2sf.measure.pupil_model import turned
 from p2sf.measure.pupil_nodes import PupilNodes
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.pupil.zernike import basis
-from p2sf.tolerance.differentials import fly
-from p2sf.tolerance.errors_of_build import GRADES, MOVES, UNITS, Kind, Tolerance, build
+from p2sf.raytrace.pencil import reaching
+from p2sf.tolerance.errors_of_build import GRADES, MOVES, UNITS, Kind, Tolerance, build, source_of_build
 
 NAME = re.compile(rf"({'|'.join(UNITS)}):(\d+)(?:-(\d+))?")
 STEPS = GRADES["high"]  # of differences of rays: so small that W changes linearly
@@ -99,9 +99,10 @@ def perturbed(lens: Lens, source: Source, errors: tuple[Tolerance, ...], values:
 def _seen(lens: Lens, source: Source, errors: Sequence[Tolerance], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return W of the lens with errors, (terms,), and where its chief ray lands along the sensor's axes, µm."""
     xi, eta, weight = whole_disc(*RAYS)
-    found = fly(build(lens, errors, values.tolist()), source, xi, eta)
-    across, along = found.chief_um
+    built = build(lens, errors, values.tolist())
+    found = reaching(built, source_of_build(lens, built, source), xi, eta)
     # The way back from the field's axes to the sensor's.
+    across, along = found.chief_um
     x, y = turned(across, along, -float(np.deg2rad(source.azimuth_deg)))
     return -_ray_terms() @ (weight * found.phase), np.array([x, y])  # W has the other sign than the phase of rays
 

@@ -32,6 +32,7 @@ SAME_WAVES = 0.02  # by which numbers of one solution may differ
 LEAST_SINGULAR = 1e-9
 LEAST_LIGHT = 0.75
 AS_GOOD = 9.0  # in χ²: three standard deviations
+MOST_CHI2 = 3.0  # from which a point, or a frame, has no numbers
 UNLIKELY = 5.0  # standard deviations of χ² above its mean that noise alone does not reach
 
 
@@ -60,7 +61,9 @@ class PointFit:
         Numbers of other solutions that explain the pictures as well, the twin W(ξ, η) → −W(−ξ, −η) of a single
         focus first.
     warnings : tuple of Message
-        What a reader has to know before using the numbers.
+        What a reader has to know before using the numbers, or why there are none.
+    computed : bool
+        Whether the pictures are of a computed PSF, whose noise is assumed: χ² says nothing of the numbers then.
     """
 
     model: PupilModel
@@ -74,6 +77,12 @@ class PointFit:
     chi2: float
     others: tuple[np.ndarray, ...] = ()
     warnings: tuple[Message, ...] = ()
+    computed: bool = False
+
+    @property
+    def reliable(self) -> bool:
+        """Return whether enough is explained for the numbers to mean anything: beyond, they may be of any minimum."""
+        return self.computed or self.chi2 <= MOST_CHI2
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -307,6 +316,7 @@ def _result(problem: Problem, minima: Sequence[_Minimum], near: np.ndarray | Non
         r2=problem.r2(modelled),
         chi2=chi2,
         others=tuple(others),
+        computed=any(picture.computed for picture in problem.pictures),
     )
     return replace(fit, warnings=_warnings(fit, problem))
 
@@ -340,6 +350,17 @@ def _inverse(slopes: np.ndarray, scales: np.ndarray) -> np.ndarray:
     return covariance
 
 
+def no_numbers(chi2: float) -> Message:
+    """Return why a point has no numbers."""
+    return Message(
+        "no numbers: what the model leaves is {chi2:.3g} times the variance of the noise, and {most:g} is the most. "
+        "Try more numbers; check f-number, wavelength, pixel and stated noise, state the gain of bright points, and "
+        "see that the picture is linear and sharp, and the points much smaller than a pixel",
+        chi2=chi2,
+        most=MOST_CHI2,
+    )
+
+
 def chi2_warning(chi2: float, freedom: int) -> tuple[Message, ...]:
     """Return a warning where a model leaves more than the noise; none where it does not."""
     if chi2 <= most_chi2(freedom):
@@ -354,7 +375,9 @@ def chi2_warning(chi2: float, freedom: int) -> tuple[Message, ...]:
 
 
 def _warnings(fit: PointFit, problem: Problem) -> tuple[Message, ...]:
-    """Return what a reader has to know before using the numbers."""
+    """Return what a reader has to know before using the numbers, or why there are none."""
+    if not fit.reliable:
+        return (no_numbers(fit.chi2),)
     out = list(chi2_warning(fit.chi2, problem.freedom))
     one_sign = _open_sign(problem)
     if one_sign:

@@ -142,8 +142,15 @@ class PixelSum:
         if size[1] == 1 and size[0] > SCATTERED * grid_rows(fy, self.y):
             scattered = ScatteredNodes(fx, fy, self.x, self.y)
             return Block(some, size, scattered.up, scattered.across, scattered)
-        up, across = np.multiply.outer(self.y, fy.reshape(size)[:, 0]), np.multiply.outer(fx.reshape(size), self.x)
-        return Block(some, size, wave(up), wave(across))
+        up = self._waves(fy.reshape(size)[:, 0], self.y)
+        return Block(some, size, np.ascontiguousarray(up.T), self._waves(fx.reshape(size), self.x))
+
+    def _waves(self, cycles: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Return exp(i2π·f·x), (*f, x), as the wave at each pixel times that from there to its parts."""
+        first = places.reshape(-1, self.share.size)
+        pixels, parts = (wave(np.multiply.outer(cycles, at)) for at in (first[:, 0], first[0] - first[0, 0]))
+        waves: np.ndarray = pixels[..., None] * parts[..., None, :]
+        return waves.reshape(*cycles.shape, places.size)
 
     def fields(self, phase: np.ndarray, terms: np.ndarray) -> np.ndarray:
         """Return Σ w·exp(i2π·phase)·(1, terms…)·wave, (y points, 1 + terms, x points); ``terms`` (terms, nodes)."""

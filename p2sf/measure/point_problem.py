@@ -26,13 +26,14 @@ class PointPicture:
     """A window (y, x) around one point, rows towards +y, and the variance of each pixel's noise.
 
     ``defocus_waves``: what is known to be added to W20 + Wd here, as by a second focus: NA²Δz/(2n'λ), Δz away from
-    the lens. ``good``: pixels that count, all when None.
+    the lens. ``good``: pixels that count, all when None. ``computed``: a PSF without noise, for which some is assumed.
     """
 
     values: np.ndarray
     variance: float | np.ndarray = 1.0
     defocus_waves: float = 0.0
     good: np.ndarray | None = None
+    computed: bool = False
 
     @property
     def usable(self) -> np.ndarray:

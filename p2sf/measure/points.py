@@ -7,18 +7,22 @@ lens are not.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.measure.frame import Frame
+from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.pupil_nodes import counts_for, paraxial_nodes
 from p2sf.messages import Message
 
 SMOOTH_PIXELS = 1.0
 SIGNIFICANT = 5.0  # standard deviations of the smoothed noise
 LEAST_PIXELS = 4  # of a point: fewer are hot pixels and cosmic rays
 LONE = 0.85  # of the light in one pixel: the sharpest point centred on a large pixel leaves a tenth in its rings
+PAIR_PIXELS = 9  # of the window over which the sharpest point is summed
 BRIDGE = 3  # pixels between parts of one point, such as the rings of its diffraction
 WIDE = 1.7  # times the median extent: two points in one
 FAINT = 0.05  # of the median light
@@ -63,10 +67,11 @@ class FoundPoint:
         return not self.flags
 
 
-def find_points(frame: Frame) -> list[FoundPoint]:
+def find_points(frame: Frame, optics: Optics | None = None) -> list[FoundPoint]:
     """Return the points of a frame, the brightest first, those that cannot be used flagged.
 
-    Of a PSF, its one point, wherever its light lies. Raises RequestError where nothing stands out of the noise.
+    Of a PSF, its one point, wherever its light lies. ``optics``: what has more light in one pixel, or in two, than
+    a point without aberrations is made by hot pixels. Raises RequestError where nothing stands out of the noise.
     """
     from scipy import ndimage
 
@@ -74,12 +79,13 @@ def find_points(frame: Frame) -> list[FoundPoint]:
         return [_of_psf(frame)]
     labels, _ = _labels(frame)
     boxes = ndimage.find_objects(labels)
-    measured = (_measured(frame, box, labels[box] == k) for k, box in enumerate(boxes, 1) if box is not None)
+    most = (LONE,) if optics is None else _most_light(optics)
+    measured = (_measured(frame, box, labels[box] == k, most) for k, box in enumerate(boxes, 1) if box is not None)
     points = [point for point in measured if point is not None]
     if not points:
         raise RequestError(
             "no point rises above the noise of {noise:.3g} counts; expose longer, or check the dark field",
-            noise=frame.read_noise,
+            noise=frame.background_noise,
         )
     points.sort(key=lambda point: -point.flux)
     return _flagged(frame, points)
@@ -103,17 +109,39 @@ def _labels(frame: Frame) -> tuple[np.ndarray, int]:
         light[frame.bad] = 0.0
     smooth = ndimage.gaussian_filter(light, SMOOTH_PIXELS)
     # Averaging over a Gaussian leaves 1/(2√π·width) of white noise.
-    bright = smooth > SIGNIFICANT * frame.read_noise / (2 * np.sqrt(np.pi) * SMOOTH_PIXELS)
+    bright = smooth > SIGNIFICANT * frame.background_noise / (2 * np.sqrt(np.pi) * SMOOTH_PIXELS)
     joined = ndimage.binary_dilation(bright, iterations=BRIDGE)
     labels, count = ndimage.label(joined, np.ones((3, 3)))
     return np.where(bright, labels, 0), int(count)
 
 
-def _measured(frame: Frame, box: tuple[slice, slice], pixels: np.ndarray) -> FoundPoint | None:
-    """Return one point from its pixels in a box of the frame; None for too few of them."""
+@lru_cache(maxsize=16)
+def _most_light(optics: Optics) -> tuple[float, ...]:
+    """Return shares of light that no point has in its brightest pixel, its brightest two, three and four.
+
+    They lie halfway from those of a point without aberrations, in the middle of as many pixels, to all of the light.
+    """
+    counts = counts_for(0.0, optics.cycles, PAIR_PIXELS * optics.pixel_um)
+    nodes, half = paraxial_nodes(counts, optics.cycles, optics.mask, optics.wavelength_um), optics.pixel_um / 2
+    sharp = PixelSum(nodes, (PAIR_PIXELS, PAIR_PIXELS), optics)
+    shares = []
+    for pixels, (x, y) in ((1, (0.0, 0.0)), (2, (half, 0.0)), (4, (half, half))):
+        light = sharp.light(nodes.waves - nodes.fx * x - nodes.fy * y)
+        shares.append((1 + float(np.sort(light.ravel())[-pixels:].sum())) / 2)
+    return shares[0], shares[1], shares[2], shares[2]
+
+
+def _measured(frame: Frame, box: tuple[slice, slice], pixels: np.ndarray, most: Sequence[float]) -> FoundPoint | None:
+    """Return one point from its pixels in a box of the frame; None for too few of them.
+
+    ``most``: the shares of light that no point has in one pixel, in two and so on.
+    """
     rows, columns = (part.start + inside for part, inside in zip(box, np.nonzero(pixels), strict=True))
     light = np.nan_to_num(frame.values[rows, columns] - frame.background)
-    if rows.size < LEAST_PIXELS or not light.sum() > 0 or light.max() > LONE * light.sum():
+    if rows.size < LEAST_PIXELS or not light.sum() > 0:
+        return None
+    brightest = np.cumsum(np.sort(light)[::-1][: len(most)])
+    if (brightest > np.multiply(most, light.sum())).any():
         return None
     row, column = (float(axis @ light / light.sum()) for axis in (rows, columns))
     x, y = frame.geometry.place_of(row, column)
@@ -227,4 +255,4 @@ def window_of(
         reach = other.half + 1
         if other is not point and min(down, right) > -reach and max(down, right) <= 2 * half + reach:
             good[max(down - reach, 0) : down + reach + 1, max(right - reach, 0) : right + reach + 1] = False
-    return PointPicture(values, frame.variance(light), defocus_waves, good[::-1])
+    return PointPicture(values, frame.variance(light), defocus_waves, good[::-1], frame.psf)

@@ -10,9 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.measure.frequency_rows import frequency_rows, scaled
 from p2sf.measure.pupil_model import PupilModel
-from p2sf.psf.disc_rows import scaled
-from p2sf.psf.separable_sum import frequency_rows
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, edge_nodes, throughput
 from p2sf.pupil.quadrature import chord_rows, chords_for, disc_nodes, even_count

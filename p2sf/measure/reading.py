@@ -8,12 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import RequestError
+from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.raster_size import OversizedError, check_samples
+from p2sf.io.fits_psf import read_psf_fits
 from p2sf.io.photo_files import READABLE, read_photo
+from p2sf.io.psf_files import read_psf
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
 from p2sf.measure.listings import read_listing
+from p2sf.messages import Message
 from p2sf.parameters import check_positive
 
 FITS = (".fits", ".fit", ".fts")
@@ -27,15 +30,20 @@ PSF_NOISE = 1e-3  # of the peak: what residuals of a computed PSF, which has no 
 class Counts:
     """What a file holds: counts (rows, columns), row 0 the top, and what it says of them.
 
-    ``pixel_um``: None where it does not say. ``full``: the largest count. ``psf``: intensity of one point, at points;
-    ``chief_mm``: where its chief ray lands.
+    ``pixel_um``: None where it does not say. ``full``: the largest count. ``psf``: intensity of one point, at points
+    unless ``integrated`` over pixels; ``chief_mm``: where its chief ray lands; ``field_deg``: of its field.
+    ``encoding``: as which whole numbers were read.
     """
 
     values: np.ndarray
     pixel_um: float | None = None
     full: float = np.inf
     psf: bool = False
+    integrated: bool = True
     chief_mm: tuple[float, float] | None = None
+    field_deg: float | None = None
+    encoding: str = ""
+    notes: tuple[Message, ...] = ()
 
 
 def read_frame(
@@ -46,14 +54,16 @@ def read_frame(
     flat: str | os.PathLike[str] | None = None,
     noise: Noise | None = None,
     channel: str = "green",
+    encoding: str | None = None,
 ) -> Frame:
     """Return the frame of a picture, its dark field subtracted and divided by its flat field.
 
     ``pixel_um`` is needed where the file does not say it: listings and this program's own PSFs do. Whole numbers are
     counts, and saturate at their largest value unless ``noise`` says so; of a colour picture one ``channel`` is taken.
+    ``encoding``: "srgb" or "linear"; 8 bits of a PNG or TIFF, JPEG and HEIF are sRGB when not given, and made linear.
     Raises RequestError for a file that cannot be read, and for fields of another size.
     """
-    found = read_counts(path, channel)
+    found = read_counts(path, channel, encoding)
     pitch = pixel_um or found.pixel_um
     if pitch is None:
         raise RequestError(
@@ -61,7 +71,7 @@ def read_frame(
         )
     check_positive("pixel_um", pitch)
     saturated = found.values >= min(found.full, noise.full_scale if noise else np.inf)
-    fields = [None if other is None else read_counts(other, channel).values for other in (dark, flat)]
+    fields = [None if other is None else read_counts(other, channel, encoding).values for other in (dark, flat)]
     counts = calibrated(found.values, *fields)
     kept = noise or Noise()
     read_noise = kept.read_noise
@@ -72,10 +82,12 @@ def read_frame(
     if found.psf:
         x, y = (mm * UM_PER_MM / pitch for mm in found.chief_mm or (0.0, 0.0))
         axis = (rows - 1) // 2 + y, columns // 2 - x
-    return Frame(counts, FrameGeometry(rows, columns, pitch, axis), Noise(kept.gain, read_noise), saturated, found.psf)
+    geometry, known = FrameGeometry(rows, columns, pitch, axis), Noise(kept.gain, read_noise)
+    about = {name: getattr(found, name) for name in ("psf", "integrated", "field_deg", "encoding", "notes")}
+    return Frame(counts, geometry, known, saturated, **about)
 
 
-def read_counts(path: str | os.PathLike[str], channel: str = "green") -> Counts:
+def read_counts(path: str | os.PathLike[str], channel: str = "green", encoding: str | None = None) -> Counts:
     """Return what a file holds. Raises RequestError."""
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
@@ -89,34 +101,63 @@ def read_counts(path: str | os.PathLike[str], channel: str = "green") -> Counts:
         listing = read_listing(path)
         if listing.kind != "psf":
             raise RequestError("{path} lists a wavefront, not a PSF; list the PSF of the same point", path=str(path))
-        return Counts(listing.values[::-1], listing.pitch_um, psf=True, chief_mm=listing.chief_mm)
+        return Counts(listing.values[::-1], listing.pitch_um, psf=True, integrated=False, chief_mm=listing.chief_mm)
+    own = _own_psf(path, ending)
+    if own is not None:
+        return own
     if ending in (".npy", ".npz"):
-        values, pitch, psf = _arrays(path, ending)
-        return Counts(_plane(values, path, channel), pitch, psf=psf)
+        values, pitch = _arrays(path, ending)
+        return Counts(_plane(values, path, channel), pitch)
     if ending in FITS:
         return Counts(_plane(_from_fits(path), path, channel))
-    photo = read_photo(path, "linear")
+    return _from_photo(path, channel, encoding)
+
+
+def _own_psf(path: str | os.PathLike[str], ending: str) -> Counts | None:
+    """Return the PSF in a file that this program wrote, None for other files."""
+    try:
+        psf, meta = read_psf_fits(path) if ending in FITS else read_psf(path)
+        field = meta.get("setup", {}).get("field_deg")
+    except (ExportError, AttributeError):
+        return None
+    field = float(field) if isinstance(field, int | float) else None
+    return Counts(psf.values[::-1], psf.pixel_um, psf=True, integrated=psf.integrated, field_deg=field)
+
+
+def _from_photo(path: str | os.PathLike[str], channel: str, encoding: str | None) -> Counts:
+    """Return the counts of a PNG, TIFF, JPEG or HEIF file: its numbers, or the light they encode."""
+    photo, read_as = read_photo(path, encoding or "linear"), encoding or "linear"
+    notes: tuple[Message, ...] = ()
+    if encoding is None and photo.depth == "8":
+        photo, read_as = read_photo(path, "srgb"), "srgb"
+        notes = (
+            Message(
+                "{path}: numbers of 8 bits are taken for sRGB and made linear; if they are counts, {parameter} linear "
+                "says so",
+                path=str(path),
+                parameter="encoding",
+            ),
+        )
     full = FULL.get(photo.depth, np.inf)
     scale = full if np.isfinite(full) else 1.0
-    return Counts(_plane(photo.values.astype(float) * scale, path, channel), full=full)
+    values = _plane(photo.values.astype(float) * scale, path, channel)
+    return Counts(values, full=full, encoding=read_as if np.isfinite(full) else "", notes=notes)
 
 
-def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, float | None, bool]:
-    """Return the picture in an array file, its pixel in µm, and whether it is a PSF, whose rows run towards +y."""
+def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, float | None]:
+    """Return the picture in an array file, and its pixel in µm where it says it."""
     try:
         if ending == ".npy":
             with warnings.catch_warnings(action="ignore"):
-                return np.load(path, allow_pickle=False), None, False
+                return np.load(path, allow_pickle=False), None
         found = read_arrays(path)
     except (OSError, ValueError, *DAMAGED) as error:
         raise _unreadable(path) from error
-    if "psf" in found and "y_um" in found and found["y_um"].size > 1:
-        return found["psf"][..., ::-1, :], float(np.diff(found["y_um"]).mean()), True
     planes = [values for name, values in found.items() if values.ndim >= 2]
     if not planes:
         raise _unreadable(path)
     pitch = found.get("pixel_um")
-    return found.get("values", planes[0]), None if pitch is None or pitch.size != 1 else float(pitch), False
+    return found.get("values", planes[0]), None if pitch is None or pitch.size != 1 else float(pitch)
 
 
 def _from_fits(path: str | os.PathLike[str]) -> np.ndarray:

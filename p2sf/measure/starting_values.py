@@ -3,7 +3,8 @@
 The sum of squares has many minima, of which only the deepest is the answer. The mean square of |∇W| over the pupil is
 the mean square distance at which rays land, in units of λ/NA. So candidates are random directions in the space of
 coefficients, scaled to the width of the pictures seen; their PSFs, all sums over the same waves, are compared with the
-pictures, both a little blurred.
+pictures, both a little blurred. Of a whole frame, the second moments of all points are quadratic in the unknowns, and
+have few minima: those are the candidates (`frame_starts`).
 """
 
 from collections.abc import Sequence
@@ -22,6 +23,12 @@ from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
 
 CANDIDATES = 1024
+FRAME_CANDIDATES, MOMENT_STEPS = 512, 40
+SPREADS = 0.5, 1.0, 2.0, 4.0  # of a frame's candidates, in units of ``scale``
+RAY_ORDER = 6  # of polynomials of the wavefront over directions
+PULL = 0.03  # towards 0, where moments do not determine an unknown
+APART = 0.3  # by which candidates of a frame differ, in units of ``scale``
+FIRST_DAMPING, WEAKER, STRONGER, MOST_DAMPING = 1e-2, 0.3, 5.0, 1e6
 GENERAL_GOLDEN = 1.1673039782614187
 TOGETHER = 128  # candidates summed at a time
 BLUR_PIXELS = 1.0
@@ -33,13 +40,21 @@ NARROWEST = 0.2  # least scale of a candidate, waves of RMS slope: a point witho
 
 @dataclass(frozen=True)
 class Seen:
-    """Where the light of one picture is: centroid in µm from the middle pixel, all light, background, width² in µm²."""
+    """Where the light of one picture is: centroid in µm from the middle pixel, all light and background.
+
+    ``moments_um2``: the second moments xx, xy and yy about the centroid.
+    """
 
     x: float
     y: float
     flux: float
     background: float
-    square_um2: float
+    moments_um2: tuple[float, float, float]
+
+    @property
+    def square_um2(self) -> float:
+        """Return the mean square distance from the centroid."""
+        return self.moments_um2[0] + self.moments_um2[2]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,10 +74,7 @@ def seen(picture: PointPicture, optics: Optics) -> Seen:
     background = float(np.median(edge if edge.size else picture.values[good]))
     values = np.where(good, picture.values - background, 0.0)
     noise = np.sqrt(np.broadcast_to(picture.variance, values.shape))
-    kernel = blurring(values.shape[0], BLUR_PIXELS), blurring(values.shape[1], BLUR_PIXELS)
-    # Averaging over a Gaussian of this width leaves 1/(2√π·width) of white noise.
-    smooth = kernel[0] @ values @ kernel[1].T
-    light = np.where(smooth > SIGNIFICANT * noise / (2 * np.sqrt(np.pi) * BLUR_PIXELS), values, 0.0)
+    light = np.where(significant(values, noise), values, 0.0)
     flux = light.sum()
     if not flux > SIGNIFICANT * np.sqrt(np.sum(noise[light != 0] ** 2)):
         raise RequestError(
@@ -71,8 +83,24 @@ def seen(picture: PointPicture, optics: Optics) -> Seen:
         )
     y, x = ((np.arange(count) - count // 2) * optics.pixel_um for count in values.shape)
     at_x, at_y = (light.sum(0) @ x) / flux, (light.sum(1) @ y) / flux
-    square = (light.sum(0) @ (x - at_x) ** 2 + light.sum(1) @ (y - at_y) ** 2) / flux
-    return Seen(float(at_x), float(at_y), float(flux), background, float(max(square, 0.0)))
+    across, up = x - at_x, y - at_y
+    moments = light.sum(0) @ across**2, up @ light @ across, light.sum(1) @ up**2
+    wide_x, both, wide_y = (float(moment / flux) for moment in moments)
+    return Seen(float(at_x), float(at_y), float(flux), background, (max(wide_x, 0.0), both, max(wide_y, 0.0)))
+
+
+def significant(light: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    """Return where light, a little blurred, exceeds the noise, (y, x)."""
+    # Averaging over a Gaussian of this width leaves 1/(2√π·width) of white noise.
+    bright: np.ndarray = blurred(light) > SIGNIFICANT * noise / (2 * np.sqrt(np.pi) * BLUR_PIXELS)
+    return bright
+
+
+def blurred(picture: np.ndarray) -> np.ndarray:
+    """Return a picture (y, x), a little blurred."""
+    down, across = (blurring(count, BLUR_PIXELS) for count in picture.shape)
+    out: np.ndarray = down @ picture @ across.T
+    return out
 
 
 def without_spikes(picture: PointPicture, optics: Optics) -> np.ndarray:
@@ -141,6 +169,77 @@ def candidates(found: Sequence[Seen], pictures: Sequence[PointPicture], optics: 
     root = np.sqrt(np.maximum(linear**2 - known.size * constant, 0.0))
     waves: np.ndarray = direction * np.maximum((root - linear) / known.size, NARROWEST)[:, None]
     return waves
+
+
+def landings(waves: np.ndarray, fx: np.ndarray, fy: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return where rays land, x and y in µm without unknowns and per unit of each, (2, nodes, 1 + unknowns).
+
+    ``waves``: W without unknowns, then what each adds, (1 + unknowns, nodes). A ray lands at ∂W/∂f: the derivatives
+    are those of a polynomial in (fx, fy). ``weight``: of each node's light.
+    """
+    scale = max(float(np.abs(fx).max()), float(np.abs(fy).max()))
+    u, v = fx / scale, fy / scale
+    powers = [(i, j) for i in range(RAY_ORDER + 1) for j in range(RAY_ORDER + 1 - i)]
+    root = np.sqrt(np.abs(weight))
+    columns = np.stack([u**i * v**j for i, j in powers], 1)
+    factors = np.linalg.lstsq(columns * root[:, None], (waves * root).T, rcond=None)[0]
+    by_u = np.stack([i * u ** max(i - 1, 0) * v**j for i, j in powers], 1)
+    by_v = np.stack([j * u**i * v ** max(j - 1, 0) for i, j in powers], 1)
+    slopes: np.ndarray = np.stack([by_u @ factors, by_v @ factors]) / scale
+    return slopes
+
+
+def ray_moments(rays: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the moments xx, xy and yy about the centroid, as forms in (1, unknowns), (3, 1 + u, 1 + u), µm².
+
+    ``rays``: where they land (`landings`); ``weight``: of each one's light, (nodes,).
+    """
+    share = weight / weight.sum()
+    x, y = rays - np.einsum("n,anu->au", share, rays)[:, None]
+    both = (share[:, None] * x).T @ y
+    return np.stack([(share[:, None] * x).T @ x, (both + both.T) / 2, (share[:, None] * y).T @ y])
+
+
+def frame_starts(moments: np.ndarray, wide: np.ndarray, beyond: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Return unknowns of a frame under which points are as wide as seen, (starts, u), the best first.
+
+    ``moments``: of every point's rays as forms (`ray_moments`), (points, 3, 1 + u, 1 + u). ``wide``: those of the light
+    seen, and ``beyond``: those of a model's light less those of its rays, (points, 3), µm². ``scale``: steps of the
+    unknowns that change pictures clearly, (u,). Many random starts descend at once by Levenberg's and Marquardt's
+    method; those that end together are one.
+    """
+    steps, count = np.append(1.0, scale), scale.size
+    size = np.repeat(wide[:, 0] + wide[:, 2], 3)
+    forms = moments.reshape(-1, *moments.shape[2:]) * np.multiply.outer(steps, steps) / size[:, None, None]
+    right = (wide - beyond).ravel() / size
+
+    def residuals(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        whole = np.concatenate([np.ones((len(values), 1)), values], 1)
+        half = np.einsum("rij,cj->cri", forms, whole)
+        pull = np.broadcast_to(PULL * np.eye(count), (len(values), count, count))
+        rest = np.einsum("cri,ci->cr", half, whole) - right
+        return np.concatenate([rest, PULL * values], 1), np.concatenate([2 * half[..., 1:], pull], 1)
+
+    random = np.random.default_rng(0)
+    values = random.normal(size=(FRAME_CANDIDATES, count)) * random.choice(SPREADS, size=(FRAME_CANDIDATES, 1))
+    damping = np.full(FRAME_CANDIDATES, FIRST_DAMPING)
+    rest, slopes = residuals(values)
+    for _ in range(MOMENT_STEPS):
+        matrix = np.einsum("cri,crj->cij", slopes, slopes)
+        matrix += damping[:, None, None] * np.einsum("cii->ci", matrix)[:, None] * np.eye(count)
+        step = np.linalg.solve(matrix, np.einsum("cri,cr->ci", slopes, rest)[..., None])[..., 0]
+        new_rest, new_slopes = residuals(values - step)
+        lower = np.sum(new_rest**2, 1) < np.sum(rest**2, 1)
+        values = np.where(lower[:, None], values - step, values)
+        rest = np.where(lower[:, None], new_rest, rest)
+        slopes = np.where(lower[:, None, None], new_slopes, slopes)
+        damping = np.clip(damping * np.where(lower, WEAKER, STRONGER), 0.0, MOST_DAMPING)
+    kept: list[np.ndarray] = []
+    for k in np.argsort(np.sum(rest**2, 1)):
+        if all(np.abs(values[k] - other).max() > APART for other in kept):
+            kept.append(values[k])
+    starts: np.ndarray = np.array(kept) * scale
+    return starts
 
 
 @lru_cache(maxsize=64)

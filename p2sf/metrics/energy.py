@@ -1,71 +1,65 @@
 """Encircled energy from the pupil, of all light and without a window (handbook 6.3).
 
-With OTF the transfer function in two dimensions about a point, the light within a radius R of that point is
+The light within a radius R of a point is that of the field on circles about it,
 
-    E(R) = ∫∫ OTF(ν)·R·J₁(2πRν)/ν d²ν,
+    E(R) = ∫₀ᴿ I(r) dr,  I(r) = r·∫|Σ area·D·exp(2πi(w + f·X(r, θ)))|² dθ / Σ area·D²,
 
-Parseval's theorem with the transform of a disc (Goodman 2005, eq. 2-35). The transfer function is the autocorrelation
-of the pupil on an even grid, by FFT, gathered in rings of equal |ν|.
+which by Parseval's theorem is a share of all light, wherever the rest of it lands. The sums are over Gauss nodes of the
+pupil, so that no edge is laid on a grid and nothing repeats itself, at the points of the circles by a non-uniform FFT
+(Barnett, Magland and af Klinteberg 2019); I is a Chebyshev series in r, and its integral another.
 """
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import pi
+from math import ceil, hypot, pi
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebint, chebval, chebvander
 from scipy import fft
-from scipy.special import j1
 
 from p2sf.conventions import protected
 from p2sf.errors import SamplingError
-from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of, uniform_disc
-from p2sf.metrics.mask_lines import masked_cells
-from p2sf.metrics.perfect import circle_energy
+from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
+from p2sf.metrics.mask_lines import box_edges, open_intervals, places_between
+from p2sf.pupil.mask import mask_slopes
 from p2sf.pupil.phasors import cosine_sine
-from p2sf.pupil.quadrature import even_count
+from p2sf.pupil.quadrature import MOST_KEPT, even_count, gauss_legendre
 
-FEWEST, PER_WAVE = 192, 4.5  # samples across the pupil: two blurs side by side fit into the period of the PSF
-MOST_ACROSS = 3072  # 300 MB; beyond, at some 650 waves of slope, the landing points of rays are as exact
-STRIPS = 8  # of a cell, over which the part inside the edge is averaged
-RINGS = 8  # per step of frequency
 RADII = 128  # of a tabulated curve
-BEYOND = 12.0  # λ/2NA beyond the outermost ray up to which a curve is tabulated
-HALF_PERIOD = 0.5  # of the PSF, which repeats
+BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge
+FARTHEST = 48.0  # the same, where radii are asked for that are so large
+MOST_WAVES = 640.0  # of slope: 2 s and 0.5 GB; beyond, the landing points of rays are as exact
+NODES, NODES_LEAST = 0.7, 9  # per harmonic of the phase over half the pupil, and more; see `landed` for the margins
+FEWEST_LINES, LINE_EXCESS = 96, 1.5  # of a pupil with corners or a mask; nodes in an angle per even node
+CIRCLES, DIRECTIONS = 0.8, 0.75  # per harmonic that interference of opposite edges would have
+SINGLE, FINE_GRID = 3e-5, 1.25  # relative error and oversampling of the FFT
 GEOMETRIC = 400  # rows and columns of landing points
 JUDGED = 180.0  # waves of slope, to which a pupil is scaled where both roads are compared
 COMPARED = 64  # radii
 
 
 @dataclass(frozen=True, eq=False)
-class RingSums:
-    """The transfer function of one pupil about a point, summed over rings: Σ E = ``sums``·(transform of a disc).
+class EncircledLight:
+    """The share of all light within a radius of a point: a Chebyshev series in 2·radius/``top_um`` − 1."""
 
-    ``radius``: mean |ν| of each ring in steps of the grid, (rings,); ``step``: cycles per µm; ``across``: samples.
-    """
-
-    radius: np.ndarray
-    sums: np.ndarray
-    step: float
-    across: int
+    series: np.ndarray
+    top_um: float
 
     def within(self, radius_um: np.ndarray) -> np.ndarray:
         """Return the share of all light within each radius, (n,).
 
-        The sum is periodic. Beyond HALF_PERIOD there are only the wings of a hard edge, with light outside R that falls
-        as 1/R (Lommel 1885).
+        Beyond ``top_um`` there are only the wings of a hard edge, with light outside R that falls as 1/R (Lommel 1885).
         """
-        scaled = radius_um * self.step
-        inside = np.minimum(scaled, HALF_PERIOD)
-        found: np.ndarray = _disc_transform(inside, self.radius) @ self.sums + _missing(self.across, inside)
-        outside = (1 - found) * (HALF_PERIOD / np.maximum(scaled, HALF_PERIOD))
-        return np.clip(1 - outside, 0.0, 1.0)
+        inside = np.minimum(radius_um, self.top_um)
+        found: np.ndarray = chebval(2 * inside / self.top_um - 1, self.series)
+        outside = (1 - found) * (self.top_um / np.maximum(radius_um, self.top_um))
+        return np.where(inside > 0, np.clip(1 - outside, 0.0, 1.0), 0.0)
 
     def tabulated(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return RADII + 1 even radii from 0 to beyond the blur, µm, and the share within each, from a kept matrix."""
-        scaled, matrix = _kept_transform(self.across)
-        found = matrix @ self.sums + _missing(self.across, scaled)
+        """Return RADII + 1 even radii from 0 to beyond the blur, µm, and the share within each."""
+        radius = np.linspace(0, self.top_um, RADII + 1)
         # Energy rises, to 1 at most: held to that, the sum can only come closer to it.
-        return scaled / self.step, np.clip(np.maximum.accumulate(found), 0.0, 1.0)
+        return radius, np.clip(np.maximum.accumulate(self.within(radius)), 0.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,19 +85,22 @@ class LandingPoints:
 
 
 def energy_of(
-    pupil: FrequencyPupil, centre_um: float | None = None, aside_um: float | None = None
-) -> "RingSums | LandingPoints":
-    """Return the energy of a pupil about (``aside_um``, ``centre_um``), its centroid if not given."""
+    pupil: FrequencyPupil, centre_um: float | None = None, aside_um: float | None = None, radius_um: float = 0.0
+) -> "EncircledLight | LandingPoints":
+    """Return the energy of a pupil about (``aside_um``, ``centre_um``), its centroid if not given.
+
+    ``radius_um``: the largest that is asked for.
+    """
     centre = pupil.centroid_um if centre_um is None else centre_um
     aside = pupil.centroid_x_um if aside_um is None else aside_um
-    across = samples_across(pupil, centre, aside)
-    if across <= MOST_ACROSS:
-        return ring_sums(pupil, centre, across, aside)
+    waves = blur_waves(pupil, centre, aside)
+    if waves <= MOST_WAVES:
+        return landed(pupil, centre, aside, radius_um)
     if not pupil.mask.clear:
         raise SamplingError(
-            "a blur that takes {across} pupil samples a side behind a mask; bring the sensor nearer to the image or "
+            "a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or "
             "stop down",
-            across=across,
+            waves=waves,
         )
     return replace(landing_points(pupil, centre, aside), departure=departure_of_rays(pupil, centre, aside))
 
@@ -118,116 +115,173 @@ def departure_of_rays(pupil: FrequencyPupil, centre_um: float, aside_um: float =
     centroid = scale * pupil.centroid_um, scale * pupil.centroid_x_um
     smaller = replace(pupil, phase=scale * pupil.phase, centroid_um=centroid[0], centroid_x_um=centroid[1])
     centre, aside = scale * centre_um, scale * aside_um
-    waves = ring_sums(smaller, centre, samples_across(smaller, centre, aside), aside)
-    rays = landing_points(smaller, centre, aside)
+    waves, rays = landed(smaller, centre, aside), landing_points(smaller, centre, aside)
     radius = np.linspace(0, float(rays.radius_um[-1]), COMPARED)
     return float(np.abs(waves.within(radius) - rays.within(radius)).max())
 
 
-def samples_across(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> int:
-    """Return how many samples across the pupil its blur about a point takes."""
-    reach = reach_of(pupil)
-    beside = abs(aside_um - pupil.centroid_x_um) * pupil.half_x
-    above = abs(centre_um - pupil.centroid_um) * pupil.half_y
-    return even_count(FEWEST + PER_WAVE * max(reach.x + beside, reach.y + above))
+def blur_waves(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> float:
+    """Return how far from a point rays land at most along x or y, as waves over the pupil's larger radius."""
+    reach, mask = reach_of(pupil), pupil.mask
+    across = reach.x / pupil.half_x + abs(aside_um - pupil.centroid_x_um)
+    up = reach.y / pupil.half_y + abs(centre_um - pupil.centroid_um)
+    slopes = mask_slopes(mask)
+    more = hypot(slopes.path_radial_um, slopes.path_angular_um) / abs(pupil.wavelength_um) if mask.phased else 0.0
+    return max(across, up) * max(pupil.half_x, pupil.half_y) + more
 
 
-def ring_sums(pupil: FrequencyPupil, centre_um: float, across: int, aside_um: float = 0.0) -> RingSums:
-    """Return the transfer function about a point on a grid of ``across`` samples, summed over rings."""
-    step = 2 * max(pupil.half_x, pupil.half_y) / across
-    half = pupil.mask.clear and pupil.even
-    wave, kept = (
-        _cells(pupil, centre_um, step, across) if half else _whole_cells(pupil, (aside_um, centre_um), step, across)
-    )
-    length = fft.next_fast_len(2 * across + 4)
-    both = np.concatenate([wave[:, ::-1], wave], axis=1) if half else wave
-    field = fft.fft2(both, (length, length))
-    transfer = fft.rfft2(field.real**2 + field.imag**2).real
-    light = float(transfer[0, 0])
-    ring, radius = _rings(length)
-    transfer[:, 1 : (length + 1) // 2] *= 2  # the half at −ν
-    sums = np.bincount(ring, transfer.ravel(), radius.size) * (kept / light)
-    return RingSums(radius, sums, step, across)
+def landed(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0, radius_um: float = 0.0) -> EncircledLight:
+    """Return the energy about a point by waves, up to a radius or beyond the blur.
 
-
-def _cells(pupil: FrequencyPupil, centre_um: float, step: float, across: int) -> tuple[np.ndarray, float]:
-    """Return an even clear pupil's function (y, x > 0) on the cells of a grid, and how much of the light that is.
-
-    A cell on the edge has an amplitude equal to its share inside. The square of that is less than the share: what lacks
-    is light that the whole edge would send beyond half the period of the grid.
+    The counts of nodes, circles and directions are less than the harmonics of |field|² would need: those at which
+    opposite edges of the pupil interfere are there only where rays of both land. Sums of all give the same to 2e-5
+    (`tests/metrics/test_energy.py`).
     """
-    wide, high = step / pupil.half_x, step / pupil.half_y
-    x = (np.arange(across // 2 + 1) + 0.5) * wide
-    y = (np.arange(across + 2) - (across + 1) / 2) * high
-    area = np.zeros((y.size, x.size))
-    for strip in (np.arange(STRIPS) + 0.5) / STRIPS - 0.5:
-        area += np.clip((pupil.chords(y + strip * high)[:, None] - x) / wide + 0.5, 0, 1)
-    area /= STRIPS
-    phase, density = pupil.on_grid(x, y)
-    density *= area > 0
-    phase += centre_um * pupil.half_y * y[:, None]
-    return _waves(area * density, density, phase)
+    half = max(pupil.half_x, pupil.half_y)
+    blur = blur_waves(pupil, centre_um, aside_um)
+    waves = float(np.clip(radius_um * half, blur + BEYOND, blur + FARTHEST))
+    circles = _circles(even_count(waves), pupil.even and pupil.mask.clear)
+    nodes = _even_nodes if circles.halved else _nodes_of_lines
+    x, y, wave, light = nodes(pupil, (aside_um, centre_um), 2 * waves)
+    top = waves / half
+    field = _at_points(x * pupil.half_x * top, y * pupil.half_y * top, wave, circles)
+    mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
+    flux = mean * circles.radius * (2 * pi * top**2 * pupil.half_x * pupil.half_y / light)
+    series = fft.dct(flux, type=2) / flux.size
+    series[0] /= 2
+    return EncircledLight(chebint(series, lbnd=-1) / 2, top)
 
 
-def _whole_cells(
-    pupil: FrequencyPupil, centre_um: tuple[float, float], step: float, across: int
-) -> tuple[np.ndarray, float]:
-    """Return `_cells` of any pupil about a point (x, y), of the whole pupil, (y, x)."""
-    x, y = ((np.arange(across + 2) - (across + 1) / 2) * (step / half) for half in (pupil.half_x, pupil.half_y))
-    amplitude, density, phase = masked_cells(pupil, x, y)
-    phase += centre_um[0] * pupil.half_x * x + centre_um[1] * pupil.half_y * y[:, None]
-    return _waves(amplitude, density, phase)
+@dataclass(frozen=True, eq=False)
+class Circles:
+    """Points of circles about 0, ``x`` and ``y`` (points,), one circle behind the other from ``starts`` (circles,).
+
+    ``radius``: shares of the largest, first Chebyshev points between 0 and 1; ``directions``: points of each circle, on
+    the half x > 0 if ``halved``.
+    """
+
+    radius: np.ndarray
+    directions: np.ndarray
+    starts: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    halved: bool
+
+
+def _circles(waves: int, halved: bool) -> Circles:
+    return (_kept_circles if waves**2 <= MOST_KEPT else _kept_circles.__wrapped__)(waves, halved)
+
+
+@lru_cache(maxsize=8)
+def _kept_circles(waves: int, halved: bool) -> Circles:
+    """Return circles that resolve the light of a pupil up to where its edges' plane waves have turned so often."""
+    count = even_count(CIRCLES * _harmonics(2 * pi * waves))
+    radius = (1 + np.cos(pi * (np.arange(count) + 0.5) / count)) / 2
+    order = 4 * pi * waves * radius
+    half = np.ceil((DIRECTIONS * order + 8 * np.cbrt(order) + 8) / 4).astype(int) * 2
+    directions = half if halved else 2 * half
+    starts = np.cumsum(directions) - directions
+    angle = (np.arange(directions.sum()) - np.repeat(starts - 0.5, directions)) * np.repeat(pi / half, directions)
+    reach = np.repeat(radius, directions)
+    x, y = (protected((reach * turn).astype(np.float32)) for turn in (np.sin(angle), np.cos(angle)))
+    return Circles(protected(radius), protected(directions), protected(starts), x, y, halved)
+
+
+def _harmonics(order: float) -> float:
+    """Return how many harmonics a wave has that turns so many radians: until its Bessel functions end (A&S 9.3.23)."""
+    return order + 8 * float(np.cbrt(order)) + 8
+
+
+def _at_points(kx: np.ndarray, ky: np.ndarray, wave: np.ndarray, circles: Circles) -> np.ndarray:
+    """Return Σ wave·exp(2πi(kx·x + ky·y)) at the points of circles, (points,) complex64."""
+    import finufft
+
+    turns = [(2 * pi * k).astype(np.float32) for k in (kx, ky)]
+    # The relative error of all points together; chosen with the grid, so that the kernel stays within single precision.
+    how = {"eps": SINGLE, "upsampfac": FINE_GRID, "isign": 1, "nthreads": 1}
+    field: np.ndarray = finufft.nufft2d3(*turns, wave, circles.x, circles.y, **how)
+    return field
+
+
+Nodes = tuple[np.ndarray, np.ndarray, np.ndarray, float]
+"""x and y in the box's coordinates, area·density·exp(2πi·phase) (nodes,) complex64, and Σ area·density²."""
+
+
+def _counted(waves: float) -> int:
+    """Return how many even nodes resolve a phase of so many waves per radius over two radii."""
+    return even_count(NODES * pi * waves + NODES_LEAST)
+
+
+def _even_nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) -> Nodes:
+    """Return the nodes of an even clear pupil, whose phase has such a slope: rows and nodes along them.
+
+    Chebyshev rows times Gauss nodes of each chord, as `p2sf.pupil.quadrature.chord_rows`.
+    """
+    rows, columns = max(_counted(waves), FEWEST_LINES), _counted(waves)
+    angle = np.arange(1, rows + 1) * (pi / (rows + 1))
+    y, (node, weight) = np.cos(angle), (one[columns // 2 :] for one in gauss_legendre(columns))
+    chord = pupil.chords(y)
+    x = chord[:, None] * node
+    area = (np.sin(angle) * chord * (pi / (rows + 1)))[:, None] * weight
+    square = 2 * x * x - 1  # of which an even polynomial is one of half the order
+    phase, density = (_clenshaw(_lines(table, y)[:, ::2], square) for table in (pupil.phase, pupil.density))
+    phase += (centre_um[1] * pupil.half_y * y)[:, None]
+    wave, light = _waves(area * density, density, phase)
+    y = np.repeat(y, x.shape[1])
+    return np.append(x, -x), np.append(y, y), np.append(wave, wave), 2 * light
+
+
+def _nodes_of_lines(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) -> Nodes:
+    """Return the nodes of any pupil, `_even_nodes`: columns between the ends and corners of its edges, and of masks."""
+    light, dark = box_edges(pupil)
+    places, weights = places_between([*light, *dark], max(FEWEST_LINES, ceil(LINE_EXCESS * _counted(waves))))
+    parts = []
+    for low, high in zip(*open_intervals(light, dark, places), strict=True):
+        length = (high - low)[:, None] / 2
+        node, weight = gauss_legendre(_counted(waves * float(length.max())))
+        y = (low + high)[:, None] / 2 + length * node
+        parts.append(_column_nodes(pupil, centre_um, (places, y), weights[:, None] * length * weight))
+    x, y, wave = (np.concatenate(column) for column in zip(*(part[:3] for part in parts), strict=True))
+    return x, y, wave, sum(part[3] for part in parts)
+
+
+def _column_nodes(
+    pupil: FrequencyPupil, centre_um: tuple[float, float], at: tuple[np.ndarray, np.ndarray], area: np.ndarray
+) -> Nodes:
+    """Return nodes (columns, nodes) at x of columns, (columns,), and y, with their areas."""
+    x, y = at
+    phase, density = (_clenshaw(_lines(table.T, x), y) for table in (pupil.phase, pupil.density))
+    if pupil.mask.shaded or pupil.mask.phased:
+        xi, eta = (_clenshaw(_lines(table.T, x), y) for table in (pupil.xi, pupil.eta))
+        density = density * pupil.mask.amplitude(xi, eta)
+        if pupil.mask.phased:
+            phase += pupil.mask.path_um(xi, eta) / pupil.wavelength_um
+    phase += centre_um[0] * pupil.half_x * x[:, None] + centre_um[1] * pupil.half_y * y
+    wave, light = _waves(area * np.abs(density), np.abs(density), phase)
+    return np.repeat(x, y.shape[1]), y.ravel(), wave, light
+
+
+def _lines(table: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Return the coefficients along the other axis of Σ table[b, a]·T_b(place)·T_a, (places, a)."""
+    lines: np.ndarray = chebvander(places, len(table) - 1) @ table
+    return lines
+
+
+def _clenshaw(series: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Return Chebyshev series, (lines, terms), at points of each line, (lines, points) (Clenshaw 1955)."""
+    after, value = np.zeros_like(at), np.zeros_like(at)
+    for term in series.T[:0:-1]:
+        after, value = value, 2 * at * value - after + term[:, None]
+    found: np.ndarray = at * value - after + series[:, :1]
+    return found
 
 
 def _waves(amplitude: np.ndarray, density: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return amplitude·exp(2πi·phase), and how much of the light the amplitude keeps of density, without shares."""
+    """Return amplitude·exp(2πi·phase), flat, and Σ amplitude·density."""
     wave = np.empty(phase.shape, np.complex64)
     wave.real, wave.imag = cosine_sine(phase, np.float32)
     wave *= amplitude.astype(np.float32)
-    return wave, float(np.vdot(amplitude, amplitude) / np.vdot(amplitude, density))
-
-
-@lru_cache(maxsize=8)
-def _rings(length: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the ring of every sample of a real transform's half plane, flat, and the mean radius of each ring."""
-    along, across = fft.fftfreq(length, 1 / length), np.arange(length // 2 + 1)
-    radius = np.hypot(across, along[:, None]).ravel()
-    ring = np.rint(RINGS * radius).astype(np.int32)
-    count = np.maximum(np.bincount(ring), 1)
-    return protected(ring), protected(np.bincount(ring, radius) / count)
-
-
-def _disc_transform(radius: np.ndarray, frequency: np.ndarray) -> np.ndarray:
-    """Return R·J₁(2πRν)/ν, πR² at ν = 0, (radii, frequencies) (Goodman 2005, eq. 2-35)."""
-    wide = radius[:, None]
-    table: np.ndarray = wide * j1(2 * pi * wide * frequency) / np.where(frequency > 0, frequency, 1.0)
-    table[:, frequency == 0] = pi * wide**2
-    return table
-
-
-@lru_cache(maxsize=8)
-def _kept_transform(across: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return even radii up to BEYOND the blur that needs such a grid, in periods of the PSF, and the matrix of E(R)."""
-    top = min(
-        HALF_PERIOD, (2 * max(across - FEWEST, 0) / PER_WAVE + BEYOND) / across
-    )  # S waves land at S/half = 2S/(step·across)
-    scaled = np.linspace(0, top, RADII + 1)
-    radius = _rings(fft.next_fast_len(2 * across + 4))[1]
-    return protected(scaled), protected(_disc_transform(scaled, radius))
-
-
-@lru_cache(maxsize=16)
-def _missing_table(across: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return what the grid's energy of a uniform disc lacks of the closed form, at radii in periods of the PSF."""
-    scaled = np.linspace(0, HALF_PERIOD, 4 * RADII + 1)
-    found = ring_sums(uniform_disc(), 0.0, across)
-    exact = circle_energy(scaled / found.step)
-    return scaled, exact - _disc_transform(scaled, found.radius) @ found.sums
-
-
-def _missing(across: int, scaled: np.ndarray) -> np.ndarray:
-    missing: np.ndarray = np.interp(scaled, *_missing_table(across))
-    return missing
+    return wave.ravel(), float(np.vdot(amplitude, density))
 
 
 def landing_points(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> LandingPoints:

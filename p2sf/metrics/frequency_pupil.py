@@ -14,7 +14,7 @@ See handbook 6.3.
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from math import inf, nan
+from math import inf, nan, sqrt
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
@@ -28,17 +28,21 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.huygens import all_reach
+from p2sf.psf.smooth_pupil import all_reach
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.fit import FittedPencil
-from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.spot import Landing, landing
 from p2sf.raytrace.vignetting import clear_nodes, clear_outline, whole_nodes
 
-# RMS error of the phase up to which a higher order is tried: the transfer function's error is at most 2π√2 times it.
+# RMS error of phase and density from which a higher order is tried: the transfer function's is at most 2π√2 times it.
 RESIDUAL_WAVES = 5e-5
-MOST_RESIDUAL = 1e-3  # and above which no polynomial describes the pupil
+MOST_RESIDUAL = 2e-3  # and above which no polynomial describes the pupil
+JUDGED_AT = 18  # the order from which on a fold that the one before sees too is no error of either
+HOPELESS = 0.1  # waves at that order, which the highest does not bring down to MOST_RESIDUAL
+REACH_RINGS = 8  # of rays that show how much of the pupil reaches the sensor
+LEAST_REACHING = 0.05
 RIM = 64  # intervals of the rim's right half that are traced
 OUTLINE = 2048  # intervals of the outline: chords between them depart from it by 3e-7 of the radius
 CENTROID_CELLS = 256  # along each side, for the centroid of the light that a mask lets through: 1e-3 of its radius
@@ -65,6 +69,7 @@ ORDERS = (
     Sampling(32, 28, 48),
     Sampling(44, 40, 70),
 )
+STOP_ORDERS = 4  # more over the stop, which the same rays carry
 EXACT = Sampling(4, 6, 10)  # the six coefficients are a polynomial of fourth order
 
 
@@ -86,6 +91,18 @@ class PupilNodes:
     rim: int
 
 
+@dataclass(frozen=True)
+class RayMoments:
+    """Where the light of rays lands on the mean, and its RMS distance from there, µm from the chief ray."""
+
+    x_um: float = 0.0
+    y_um: float = 0.0
+    rms_um: float = 0.0
+
+
+ONE_POINT = RayMoments()
+
+
 @dataclass(frozen=True, eq=False)
 class FrequencyPupil:
     """The pupil over spatial frequencies (fx, fy), even in fx, its mask too, unless ``even`` is False.
@@ -101,11 +118,13 @@ class FrequencyPupil:
         The edge's right half from the largest to the smallest fy, in the box's coordinates; the whole, once around,
         where the pupil is not even.
     centroid_um : float
-        The light's centroid along y, µm from the chief ray: its mean landing point.
-    rms_um : float
-        RMS distance of the rays, weighted by their light, from the centroid, µm.
+        The light's centroid along y, µm from the chief ray: the mean landing point, weighted by the energy of the
+        waves, the square of their amplitude.
+    spot : RayMoments
+        Centroid of the rays and their RMS distance from it, weighted by the light that each carries, µm.
     residual_waves : float
-        RMS error of the phase.
+        RMS error of the phase, also of the method's description of it; that of the density counts as a phase of 1/2π
+        of it.
     rays : int
         How many rays were traced.
     mask : PupilMask
@@ -128,7 +147,7 @@ class FrequencyPupil:
     outline_x: np.ndarray
     outline_y: np.ndarray
     centroid_um: float
-    rms_um: float
+    spot: RayMoments
     residual_waves: float
     rays: int
     mask: PupilMask = CLEAR
@@ -139,6 +158,14 @@ class FrequencyPupil:
     centroid_x_um: float = 0.0
 
     @property
+    def predicted_error(self) -> float:
+        """Return the most that contrast and energy are predicted to be off: 2π√2 of the RMS error of the phase.
+
+        By Schwarz's inequality the product of two fields whose phases are off by δ each changes by 2π·√(2⟨δ²⟩) at most.
+        """
+        return min(2 * np.pi * sqrt(2) * self.residual_waves, 1.0)
+
+    @property
     def cut_off_per_um(self) -> tuple[float, float]:
         """Return the frequencies along x and along y from which on nothing is transferred, cycles per µm."""
         return 2 * self.half_x, 2 * self.half_y
@@ -146,7 +173,7 @@ class FrequencyPupil:
     def without_phase(self) -> "FrequencyPupil":
         """Return the same pupil of a perfect lens, whose light lands in one point but for diffraction."""
         mask = self.mask.without_phase()
-        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, centroid_x_um=0.0, rms_um=0.0, mask=mask)
+        return replace(self, phase=np.zeros((2, 2)), centroid_um=0.0, centroid_x_um=0.0, spot=ONE_POINT, mask=mask)
 
     @property
     def transposed(self) -> "FrequencyPupil":
@@ -302,7 +329,7 @@ def _derivative(order: int) -> np.ndarray:
 def uniform_disc(half: float = 1.0, even: bool = True) -> FrequencyPupil:
     """Return the pupil of a perfect lens whose cut-off is 2·half cycles per µm."""
     x, y = _rim(OUTLINE, even)
-    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), x, y, 0.0, 0.0, 0.0, 0, even=even)
+    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), x, y, 0.0, ONE_POINT, 0.0, 0, even=even)
 
 
 def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: float = 0.0) -> FrequencyPupil:
@@ -316,6 +343,8 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
     whole, even = not clip and all_reach(lens, source), not (lens.misaligned or turn_deg)
     if not (whole or mask.clear):
         check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
+    if not (whole or clip):
+        _check_reach(lens, source)
     edge = _rim(RIM, even) if whole else clear_outline(lens, source, OUTLINE // 4, clip, even)
 
     def traced(sampling: Sampling) -> PupilNodes:
@@ -324,15 +353,33 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         inside = inside if even else inside.unfolded()
         xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
         rays = pencil(lens, source, xi, eta)
-        data, passed = ray_data(rays), rays.passed  # where light is lost, an outline by directions misses a few rays
+        passed = rays.passed  # where light is lost, an outline by directions misses a few rays
         if whole and not passed.all():
             raise GeometryError(UNFOLLOWED)
-        across, up = turned(data.fx, data.fy, turn_deg)
-        columns = xi, eta, _shares(inside.weight, edge), data.weight, data.phase, across, up
+        across, up = turned(rays.fx, rays.fy, turn_deg)
+        columns = xi, eta, _shares(inside.weight, edge), rays.amplitude, rays.phase, across, up
         xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
         return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
-    return behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
+    found = behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
+    return found if mask.phased else replace(found, spot=_spot_of(landing(lens, source, clip), turn_deg))
+
+
+def _check_reach(lens: Lens, source: Source) -> None:
+    """Raise GeometryError where so few rays reach the sensor that to find their outline is long and tells nothing."""
+    share = float(pencil(lens, source, *hexapolar(REACH_RINGS)).passed.mean())
+    if share < LEAST_REACHING:
+        raise GeometryError(
+            "{percent:.1f} % of the rays that fill the pupil reach the sensor, too few for its contrast and energy; "
+            "move the source to a distance the lens is made for, or stop the lens down",
+            percent=100 * share,
+        )
+
+
+def _spot_of(found: Landing, turn_deg: float) -> RayMoments:
+    """Return the figures of the spot diagram, its centroid along turned axes."""
+    x, y = turned(*found.centroid_um, turn_deg)
+    return RayMoments(float(x), float(y), float(np.hypot(*found.rms_um)))
 
 
 def turned(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple[np.ndarray, np.ndarray]:
@@ -351,9 +398,10 @@ def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
     def evaluated(sampling: Sampling) -> PupilNodes:
         xi, eta, share = _over_disc(sampling, edge, even)
         phase, fx, fy = found.at(xi, eta)
-        return PupilNodes(xi, eta, share, found.weight_at(xi, eta), phase, *turned(fx, fy, turn_deg), edge[0].size)
+        return PupilNodes(xi, eta, share, found.amplitude_at(xi, eta), phase, *turned(fx, fy, turn_deg), edge[0].size)
 
-    known = replace(_settled(evaluated, ORDERS, True, even), rays=found.rays)
+    known = _settled(evaluated, ORDERS, True, even)
+    known = replace(known, rays=found.rays, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
     return behind_mask(known, found.mask, found.wavelength_um)
 
 
@@ -398,12 +446,19 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     slope_y, slope_x = np.gradient(phase, axis[1] - axis[0])
     # Differences across an edge of a phase that ends there are none.
     whole = inside if not mask.phased else inside & ~_beside(~inside)
-    light = np.where(whole, np.square(density * mask.amplitude(xi * inside, eta * inside)), 0.0)
-    light /= light.sum()
+    # Of rays the density is the light, of waves the amplitude.
+    light = np.where(whole, density * np.square(mask.amplitude(xi * inside, eta * inside)), 0.0)
     landing_x, landing_y = -slope_x / pupil.half_x, -slope_y / pupil.half_y
-    centre, aside = float((light * landing_y).sum()), 0.0 if pupil.even else float((light * landing_x).sum())
-    square = float((light * ((landing_x - aside) ** 2 + (landing_y - centre) ** 2)).sum())
-    return replace(pupil, centroid_um=centre, centroid_x_um=aside, rms_um=float(np.sqrt(square)))
+    spot, waves = (_moments(landing_x, landing_y, part, pupil.even) for part in (light, light * density))
+    return replace(pupil, centroid_um=waves.y_um, centroid_x_um=waves.x_um, spot=spot)
+
+
+def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray, even: bool) -> RayMoments:
+    """Return the moments of light that lands at x and y; where it is ``even`` the mean x is 0."""
+    share = light / light.sum()
+    aside, centre = 0.0 if even else float((share * x).sum()), float((share * y).sum())
+    square = float((share * ((x - aside) ** 2 + (y - centre) ** 2)).sum())
+    return RayMoments(aside, centre, float(np.sqrt(square)))
 
 
 def _beside(cells: np.ndarray) -> np.ndarray:
@@ -427,14 +482,16 @@ def _settled(
     nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling, ...], smooth: bool, even: bool = True
 ) -> FrequencyPupil:
     """Return the pupil through nodes, of the first order whose residual is small enough."""
-    counts, traced = (0, 0), 0
+    counts, traced, before = (0, 0), 0, 0.0
     for sampling in orders:
         if counts != (sampling.radii, sampling.directions):
             nodes, counts = nodes_of(sampling), (sampling.radii, sampling.directions)
             traced += nodes.xi.size
         found = _through(nodes, sampling.order, smooth, even)
-        if found.residual_waves < RESIDUAL_WAVES:
+        hopeless = sampling.order >= JUDGED_AT and min(before, found.residual_waves) > HOPELESS
+        if hopeless or found.residual_waves < RESIDUAL_WAVES:
             break
+        before = found.residual_waves
     if found.residual_waves == inf:
         raise GeometryError(
             "rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; "
@@ -459,12 +516,18 @@ def _through(nodes: PupilNodes, order: int, smooth: bool, even: bool) -> Frequen
     miss = least.values(phase) - nodes.phase[used]
     freedom = max(1 - least.unknowns / miss.size, 1e-3)
     share = nodes.share[used]
-    density, flat, xi, eta = least.density(nodes.xi[used], nodes.eta[used], nodes.weight[used])
-    light = share * nodes.weight[used] * least.values(density)  # D²df = D·weight·dξdη
-    light /= light.sum()
+    area = _area(nodes, (x, y), used, order + STOP_ORDERS, even)
+    true = nodes.weight[used] / np.abs(area)
+    density = least.solve(true)
+    light = share * nodes.weight[used]
     landing_x, landing_y = (-slope / half for slope, half in zip(least.slopes(phase), (half_x, half_y), strict=True))
-    aside, centroid = 0.0 if even else float(light @ landing_x), float(light @ landing_y)
-    square = light @ ((landing_x - aside) ** 2 + (landing_y - centroid) ** 2)
+    # Of rays weight·dξdη is the light, of waves D²df = D·weight·dξdη.
+    spot, waves = (_moments(landing_x, landing_y, part, even) for part in (light, light * true))
+    thin = light * true @ (least.values(density) / true - 1) ** 2 / (light @ true)
+    # An error of the amplitude changes the field as a phase of 1/2π of it does.
+    residual = float(np.sqrt((share @ miss**2 / share.sum() + thin / (2 * np.pi) ** 2) / freedom))
+    xi = least.solve(nodes.xi[used] / x[used] if even else nodes.xi[used])
+    xi = _times_x(xi) if even else xi
     return FrequencyPupil(
         half_x,
         half_y,
@@ -473,14 +536,14 @@ def _through(nodes: PupilNodes, order: int, smooth: bool, even: bool) -> Frequen
         density,
         (edge_x - centre) / half_x,
         (edge_y - middle) / half_y,
-        centroid,
-        float(np.sqrt(max(square, 0.0))),  # < 0 at a fold, refused below
-        float(np.sqrt(share @ miss**2 / share.sum() / freedom)) if flat else inf,
+        waves.y_um,
+        spot,
+        residual if area.min() * area.max() > 0 else inf,
         0,
         xi=-xi if even and nodes.xi @ nodes.fx < 0 else xi,
-        eta=eta,
+        eta=least.solve(nodes.eta[used]),
         even=even,
-        centroid_x_um=aside,
+        centroid_x_um=waves.x_um,
     )
 
 
@@ -514,18 +577,23 @@ class LeastSquares:
         along = np.einsum("na,na->n", self._along[:, :-1] @ by_y, self._across)
         return across, along
 
-    def density(
-        self, xi: np.ndarray, eta: np.ndarray, weight: np.ndarray
-    ) -> tuple[np.ndarray, bool, np.ndarray, np.ndarray]:
-        """Return the coefficients of weight·|∂(ξ, η)/∂(x, y)|, whether that map goes without a fold, and its own."""
-        # Of an even pupil ξ is odd in x, and ξ/x even.
-        stretch, up = self.solve(xi / self._x if self._even else xi), self.solve(eta)
+    def area(self, across: np.ndarray, along: np.ndarray) -> np.ndarray:
+        """Return ∂(across, along)/∂(x, y) at the points, of two functions of them; ``across`` odd in x if even."""
+        # Of an even pupil across is odd in x, and across/x even.
+        stretch, up = self.solve(across / self._x if self._even else across), self.solve(along)
         (stretch_x, stretch_y), (up_x, up_y) = self.slopes(stretch), self.slopes(up)
         if self._even:
             stretch_x, stretch_y = self.values(stretch) + self._x * stretch_x, self._x * stretch_y
-        area = stretch_x * up_y - stretch_y * up_x
-        across = _times_x(stretch) if self._even else stretch
-        return self.solve(weight * np.abs(area)), bool(area.min() * area.max() > 0), across, up
+        area: np.ndarray = stretch_x * up_y - stretch_y * up_x
+        return area
+
+
+def _area(
+    nodes: PupilNodes, box: tuple[np.ndarray, np.ndarray], used: np.ndarray, order: int, even: bool
+) -> np.ndarray:
+    """Return ∂(x, y)/∂(ξ, η) at the used nodes, (x, y) in the box: over the stop it is smooth however rays crowd."""
+    stop = LeastSquares(order, nodes.xi[used], nodes.eta[used], nodes.share[used], even)
+    return stop.area(box[0][used], box[1][used])
 
 
 def _times_x(table: np.ndarray) -> np.ndarray:

@@ -20,7 +20,6 @@ NEWTON_STEPS, NEWTON_ENOUGH = 12, 1e-10  # of the rim's radius
 NEWTON_LEAST = 1e-5  # and above which contrast is not as exact as the handbook says
 FARTHEST = 1.05  # in the box's coordinates: farther out its polynomials are of no use
 FEWEST_PER_PANEL = 8
-STRIPS = 8  # lines through a cell
 CLOSE = 1e-8  # of the box: ends of edges no farther apart are one
 
 
@@ -142,22 +141,6 @@ def _crossings(curve: np.ndarray, places: np.ndarray) -> np.ndarray:
     starts = np.cumsum(counts) - counts
     table[line, np.arange(line.size) - starts[line]] = along[cut] + part * (along[cut + 1] - along[cut])
     return table
-
-
-def masked_cells(pupil: FrequencyPupil, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return amplitude with the open share of each cell, amplitude without, and the phase in waves, (y, x).
-
-    The open share is that of STRIPS lines through each cell.
-    """
-    wide, high = x[1] - x[0], y[1] - y[0]
-    light, dark = ([curve[::-1] for curve in curves] for curves in box_edges(pupil))
-    share = np.zeros((y.size, x.size))
-    for strip in (np.arange(STRIPS) + 0.5) / STRIPS - 0.5:
-        for low, top in zip(*open_intervals(light, dark, y + strip * high), strict=True):
-            reach = [np.clip((end[:, None] - x) / wide, -0.5, 0.5) for end in (low, top)]
-            share += (reach[1] - reach[0]) / STRIPS
-    density, phase = light_on_grid(pupil, x, y, share > 0)
-    return share * density, density, phase
 
 
 def light_on_grid(

@@ -8,23 +8,26 @@ See handbook 6.3.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.arguments import number_list
 from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import RequestError, SamplingError
+from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
-from p2sf.metrics.energy import LandingPoints, RingSums, energy_of
+from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of
 from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays, turned
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
-from p2sf.paraxial.seidel import check_seidel, coefficients
-from p2sf.psf.methods import choose
+from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
+from p2sf.psf.methods import choose, seidel_error
 from p2sf.psf.polychromatic import chief_places_um
+from p2sf.psf.prediction import SAFETY
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.fit import fit
@@ -37,6 +40,7 @@ COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
 SHOWN = 4.0  # RMS radii, and periods of the cut-off, that a line spread is shown over
 POINTS = 513
 ROADS_AGREE = 1e-3  # of energy by landing points and by waves
+LAST_DIGIT = 1e-3  # of contrast and energy as they are shown: a smaller error is not pointed out
 PARTS = (0.5, 0.8)  # of the light, whose radii are quoted
 
 
@@ -47,7 +51,8 @@ class Mtf:
     ``tangential``: of patterns that vary along y, the direction of the field, or along an axis that is ``turn_deg``
     from it towards x; ``sagittal``: of those across. Beside them those
     of the same pupils without phase, which nothing exceeds, and of clear pupils without phase, the same where no mask
-    stands in the stop. ``method`` names what described the pupil.
+    stands in the stop. ``method`` names what described the pupil; ``predicted_error`` is the most that a contrast is
+    predicted to differ from that of exact rays.
     """
 
     frequency_per_mm: np.ndarray
@@ -59,6 +64,17 @@ class Mtf:
     clear_tangential: np.ndarray
     clear_sagittal: np.ndarray
     turn_deg: float = 0.0
+    predicted_error: float = 0.0
+
+    @property
+    def note(self) -> Message | None:
+        """Return what is to be said of an error that shows in the last digit, else None."""
+        return _off_by(self.predicted_error)
+
+    def __repr__(self) -> str:
+        top = float(np.max(self.frequency_per_mm, initial=0.0))
+        parts = [self.method, f"{self.frequency_per_mm.size} frequencies up to {top:.4g} per mm"]
+        return f"<Mtf: {', '.join(parts + _words(self.note))}>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +82,11 @@ class Energy:
     """The share of all light within each radius, µm, of its centroid, both (n,).
 
     ``centroid_um``: along y from the chief ray, ``centroid_x_um`` along x, 0 of an even pupil. ``radius_50_um``,
-    ``radius_80_um``: what holds half and 80 % of all light. ``rms_um``: RMS distance of the rays from the centroid;
-    that of the light is infinite behind any hard edge. ``departure``: of a blur too large for a sum of waves it is that
-    of landing points, the geometric limit, and this is how far from waves it may lie; above ROADS_AGREE it is not to be
-    trusted so far. 0 for waves.
+    ``radius_80_um``: what holds half and 80 % of all light. ``rms_um``: RMS distance of the rays from their own
+    centroid, weighted by the light of each as in a spot diagram; that of waves is infinite behind any hard edge.
+    ``departure``: of a blur too large for a sum of waves it is that of landing points, the geometric limit, and this is
+    how far from waves it may lie; above ROADS_AGREE it is not to be trusted so far. 0 for waves.
+    ``predicted_error``: the most that a share is predicted to differ from that of exact rays.
     """
 
     radius_um: np.ndarray
@@ -81,19 +98,32 @@ class Energy:
     method: str
     departure: float = 0.0
     centroid_x_um: float = 0.0
+    predicted_error: float = 0.0
 
     @property
     def note(self) -> Message | None:
-        """Return what is to be said of a geometric limit; None of a sum of waves."""
+        """Return what is to be said of a geometric limit, or of a predicted error that shows; else None."""
         if not self.departure:
-            return None
-        if self.departure <= ROADS_AGREE:
+            return _off_by(self.predicted_error)
+        if max(self.departure, self.predicted_error) <= ROADS_AGREE:
             return Message("geometric limit, by the landing points of rays")
         return Message(
             "geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, "
             "not to be trusted beyond that",
-            departure=self.departure,
+            departure=max(self.departure, self.predicted_error),
         )
+
+    def __repr__(self) -> str:
+        radii = [f"{name} {size:.4g} µm" for name, size in (("R50", self.radius_50_um), ("R80", self.radius_80_um))]
+        return f"<Energy: {', '.join([self.method, *radii, *_words(self.note)])}>"
+
+
+def _off_by(error: float) -> Message | None:
+    return Message("predicted error up to {error:.1g}", error=error) if error > LAST_DIGIT else None
+
+
+def _words(note: Message | None) -> list[str]:
+    return [str(note)] if note else []
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,10 +188,20 @@ def pupil_of(
         check_seidel(lens)
         six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
         check_image(six)
-        return pupil_of_coefficients(six, mask_seen(lens, source), turn_deg), method
+        return pupil_of_six(lens, source, six, turn_deg), method
     if method == "fitted":
         return pupil_of_fit(fit(lens, source), turn_deg), method
     return pupil_of_rays(lens, source, clip, turn_deg), method
+
+
+def pupil_of_six(lens: Lens, source: Source, six: Coefficients, turn_deg: float = 0.0) -> FrequencyPupil:
+    """Return the pupil of six coefficients of a lens, with what they are predicted to miss of its exact rays."""
+    missed = sqrt(seidel_error(lens, source, six) / SAFETY["seidel"]) / (2 * np.pi)
+    return replace(pupil_of_coefficients(six, mask_seen(lens, source), turn_deg), residual_waves=missed)
+
+
+def _predicted(parts: "Parts") -> float:
+    return min(sum(part.share * part.pupil.predicted_error for part in parts), 1.0)
 
 
 @one_blas_thread
@@ -215,7 +255,7 @@ def mtf_of(
     if frequency_per_mm is None:
         cut_off = max(one.cut_off for both in slices for one in both)
         frequency_per_mm = np.linspace(0, UM_PER_MM * cut_off, FREQUENCIES)
-    given = np.asarray(frequency_per_mm, dtype=float)
+    given = number_list("frequency_per_mm", frequency_per_mm)
     curves = [_transfer(parts, [both[axis] for both in slices], np.abs(given) / UM_PER_MM) for axis in (1, 0)]
     (tangential, perfect_tangential), (sagittal, perfect_sagittal) = curves
     clear = perfect_tangential, perfect_sagittal
@@ -225,7 +265,7 @@ def mtf_of(
         found = (_transfer(plain, [both[axis] for both in whole], np.abs(given) / UM_PER_MM)[1] for axis in (1, 0))
         clear = next(found), next(found)
     perfect = perfect_tangential, perfect_sagittal
-    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg)
+    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg, _predicted(parts))
 
 
 def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -244,20 +284,29 @@ def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -
 def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> Energy:
     """Return the energy within radii of the centroid, by default even ones from 0 to beyond the blur."""
     centre, right = centroid_of(parts), centroid_x_of(parts)
-    found = [energy_of(part.pupil, centre - part.shift_um, right - part.aside_um) for part in parts]
+    given = None if radius_um is None else np.abs(number_list("radius_um", radius_um))
+    largest = 0.0 if given is None else float(given.max(initial=0.0))
+    found = [energy_of(part.pupil, centre - part.shift_um, right - part.aside_um, largest) for part in parts]
     radius, fraction = _tabulated(parts, found)
     half, most = (_radius_of(parts, found, radius, fraction, part) for part in PARTS)
-    if radius_um is not None:
-        radius = np.asarray(radius_um, dtype=float)
-        fraction = _within(parts, found, radius)
-    square = sum(
-        p.share * (p.pupil.rms_um**2 + (p.centroid_um - centre) ** 2 + (p.centroid_x_um - right) ** 2) for p in parts
-    )
+    if given is not None:
+        radius, fraction = given, _within(parts, found, given)
     departure = max((one.departure for one in found if isinstance(one, LandingPoints)), default=0.0)
-    return Energy(radius, fraction, centre, half, most, float(np.sqrt(square)), method, departure, right)
+    return Energy(
+        radius, fraction, centre, half, most, _rms_of_rays(parts), method, departure, right, _predicted(parts)
+    )
 
 
-Found = Sequence[RingSums | LandingPoints]
+def _rms_of_rays(parts: Parts) -> float:
+    """Return the RMS distance of all parts' rays from their common centroid, µm."""
+    share = np.array([part.share for part in parts])
+    x = np.array([part.pupil.spot.x_um + part.aside_um for part in parts])
+    y = np.array([part.pupil.spot.y_um + part.shift_um for part in parts])
+    own = np.array([part.pupil.spot.rms_um for part in parts])
+    return float(np.sqrt(share @ (own**2 + (x - share @ x) ** 2 + (y - share @ y) ** 2)))
+
+
+Found = Sequence[EncircledLight | LandingPoints]
 
 
 def _within(parts: Parts, found: Found, radius_um: np.ndarray) -> np.ndarray:
@@ -291,9 +340,10 @@ def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -
     """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
     slices = [otf_slices(part.pupil) for part in parts]
     if position_um is None:
-        half = max(SHOWN * part.pupil.rms_um + SHOWN / min(part.pupil.cut_off_per_um) for part in parts)
+        half = max(SHOWN * part.pupil.spot.rms_um + SHOWN / min(part.pupil.cut_off_per_um) for part in parts)
         position_um = np.linspace(-half, half, POINTS)
-    position = np.asarray(position_um, dtype=float)
+    position = number_list("position_um", position_um)
+    _check_positions(position, min(one.step for both in slices for one in both))
     found = []
     for axis in (0, 1):
         own = [both[axis] for both in slices]
@@ -305,16 +355,14 @@ def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -
     return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method, centroid_x_of(parts))
 
 
-def radius_of(energy: Energy, share: float) -> float:
-    """Return the radius that holds a share of the light, between the tabulated ones; SamplingError beyond the last."""
-    if not 0 < share < 1:
-        raise SamplingError("an energy fraction of {fraction}; give a number between 0 and 1", fraction=share)
-    rising = np.maximum.accumulate(energy.fraction)
-    if share > rising[-1]:
-        raise SamplingError(
-            "{radius:.3g} µm hold {share:.3g} of the light, less than {fraction}; ask for larger radii",
-            radius=float(energy.radius_um[-1]),
-            share=float(rising[-1]),
-            fraction=share,
+def _check_positions(position_um: np.ndarray, step: float) -> None:
+    """Raise RequestError for positions where a sum over frequencies ``step`` apart repeats itself."""
+    most = 1 / (2 * step)
+    if np.abs(position_um).max(initial=0.0) > most:
+        raise RequestError(
+            "{parameter} reaches {value:.4g} µm, and this line spread is known up to {most:.4g} µm from its centroid; "
+            "give positions within that",
+            parameter="position_um",
+            value=float(np.abs(position_um).max()),
+            most=most,
         )
-    return float(np.interp(share, rising, energy.radius_um))

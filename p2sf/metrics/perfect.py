@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import j0, j1
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.psf.seidel import AIRY_RADIUS
@@ -24,10 +23,3 @@ def circle_contrast(nu: ArrayLike) -> np.ndarray:
     nu = np.clip(nu, 0.0, 1.0)
     contrast: np.ndarray = 2 / np.pi * (np.arccos(nu) - nu * np.sqrt(1 - nu * nu))
     return contrast
-
-
-def circle_energy(radius: ArrayLike) -> np.ndarray:
-    """Return 1 − J₀²(v) − J₁²(v), v = 2π·radius, the energy within radii in units of λ/NA (Rayleigh 1881)."""
-    v = 2 * np.pi * np.asarray(radius, dtype=float)
-    within: np.ndarray = 1 - j0(v) ** 2 - j1(v) ** 2
-    return within

@@ -16,6 +16,7 @@ from p2sf.errors import SamplingError
 from p2sf.psf.pixel_integrals import ROUNDING, critical_pixel_um
 from p2sf.psf.result import Psf
 
+ROUND_OFF = 1e-5  # of a pixel: what samples in 32 bits leave of a symmetric line
 NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
 
 Grid = tuple[np.ndarray, np.ndarray, np.ndarray, float]
@@ -57,11 +58,27 @@ def strehl(psf: Psf) -> float | np.ndarray | None:
 
 
 def centroid(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
-    """Return x and y of the centroid of the window, µm from the chief ray, shape of the stack."""
-    total = psf.values.sum((-2, -1), dtype=float)
-    x = (psf.values.sum(-2, dtype=float) * psf.x_um).sum(-1) / total
-    y = (psf.values.sum(-1, dtype=float) * psf.y_um).sum(-1) / total
+    """Return x and y of the centroid of the window, µm from the chief ray, shape of the stack.
+
+    The first row and column of an even window have no opposite: their light would draw the centroid of a symmetric PSF
+    away from its centre, and is left out.
+    """
+    x, y = (line_centroid(psf.values.sum(axis, dtype=float), at) for axis, at in ((-2, psf.x_um), (-1, psf.y_um)))
     return x, y
+
+
+def line_centroid(line: np.ndarray, position_um: np.ndarray) -> np.ndarray:
+    """Return the centroid of lines, (…, n), at positions from their middle one, ⌊n/2⌋; the unpaired first left out.
+
+    What mirrored samples have in common is taken away before, and a line that is symmetric about a sample has its
+    centroid there exactly.
+    """
+    paired = line[..., 1 - line.shape[-1] % 2 :]
+    odd = (paired - paired[..., ::-1]) / 2
+    middle: np.ndarray = (odd * position_um[1 - line.shape[-1] % 2 :]).sum(-1) / paired.sum(-1)
+    pitch = position_um[1] - position_um[0]
+    sample = np.rint(middle / pitch) * pitch
+    return np.where(np.abs(middle - sample) > ROUND_OFF * pitch, middle, sample)
 
 
 def peak(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
@@ -145,7 +162,7 @@ def _rings(values: np.ndarray, x: np.ndarray, y: np.ndarray, pixel: float) -> tu
     """Return the radii at which a growing circle enters and leaves each square sample, and its value, all flat."""
     distance = np.hypot(x, y[:, None])
     width = pixel * (np.abs(x) + np.abs(y[:, None])) / np.maximum(distance, 1e-300)
-    half = np.where(distance > 0, width, pixel) / 2
+    half = np.where(distance > ROUND_OFF * pixel, width, pixel) / 2
     return np.maximum(distance - half, 0).ravel(), (distance + half).ravel(), values.ravel()
 
 

@@ -8,7 +8,6 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.positions import steps_between
-from p2sf.lens.shapes import Qbfs, Qcon
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import named_stop, stop_rim
 
@@ -52,7 +51,7 @@ def _rim_beyond_its_sphere(number: int, surface: Surface) -> Message | None:
 def _rim_beyond_its_shape(number: int, surface: Surface) -> Message | None:
     """Return a warning for a rim beyond the normalisation radius, where Forbes's polynomials grow fast."""
     shape = surface.shape
-    if not isinstance(shape, Qbfs | Qcon) or not shape.normalisation_mm * BEYOND < surface.semi_diameter < inf:
+    if shape is None or not shape.ends or not shape.normalisation_mm * BEYOND < surface.semi_diameter < inf:
         return None
     return Message(
         "surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm "

@@ -6,6 +6,7 @@ from functools import lru_cache
 from itertools import pairwise
 from math import isfinite
 
+from p2sf.arguments import checked
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.positions import KEPT, PARAMETER, Axis, Kind, Positions, interpolated, shown
@@ -14,6 +15,7 @@ from p2sf.paraxial.first_order import basis_rays
 RTOL = 1e-12  # of a ring's travel
 
 
+@checked
 def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float | str | None = None) -> Lens:
     """Return a lens with its rings turned.
 

@@ -3,14 +3,15 @@
 See handbook 2.2.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 
 from p2sf.conventions import FloatOrArray, anywhere, slope_from_degrees, vergence
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Aperture, Lens
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import (
     BasisRays,
@@ -159,6 +160,18 @@ def stop_rim(lens: Lens) -> float:
     if power == 0:
         raise GeometryError("an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter")
     return scale / (2 * power * lens.aperture.value)
+
+
+@lru_cache(maxsize=64)
+def with_fixed_stop(lens: Lens) -> Lens:
+    """Return the same lens with its aperture stated as the stop and the radius of its rim.
+
+    An f-number or a pupil diameter is a demand of the design, which every edit of a surface meets with another rim. The
+    iris of a lens that is built is a piece of metal: fix it before the errors of manufacture. Raises GeometryError as
+    `stop_rim` does.
+    """
+    surface, rim = file_stop(lens)
+    return replace(lens, stop_surface=surface, aperture=Aperture("stop_semi_diameter", float(rim)))
 
 
 def pupils(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None = None) -> Pupils:

@@ -15,6 +15,7 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.properties import PROPERTIES
 from p2sf.lens.shapes import Diffraction
 from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
@@ -127,16 +128,16 @@ def chromatic_sums(
 
 
 def check_seidel(lens: Lens) -> None:
-    """Raise GeometryError for a surface with a term in r or r³, which no wavefront of fourth order describes."""
+    """Raise GeometryError for what of a surface no wavefront of fourth order describes: odd terms, a freeform."""
     for number, surface in enumerate(lens.surfaces, 1):
-        first, _, third, _ = surface.shape.series(surface.curvature) if surface.shape else (0.0,) * 4
-        if first or third:
-            raise GeometryError(
-                "surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; "
-                "choose the method fitted, traced or huygens",
-                surface=number,
-                term="r" if first else "r³",
-            )
+        for each in PROPERTIES:
+            if reason := each.unseen(getattr(surface, each.name)):
+                raise GeometryError(
+                    "surface {surface} {reason}, for which there are no Seidel sums and no six coefficients; choose "
+                    "the method fitted, traced or huygens",
+                    surface=number,
+                    reason=reason,
+                )
 
 
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
@@ -270,7 +271,7 @@ def _figuring(figure: FloatOrArray, y: FloatOrArray, chief: FloatOrArray) -> tup
 def _shape_terms(lens: Lens) -> tuple[np.ndarray, np.ndarray]:
     """Return the curvature c at the vertex and the fourth-order figure Kc³ + 8A₄ of every surface, each (surfaces,).
 
-    The figure is NaN for a term in r or r³.
+    The figure is NaN where `check_seidel` refuses the surface.
     """
     c, figure = zip(*map(_shape_of, lens.surfaces), strict=True)
     return np.array(c), np.array(figure)
@@ -283,7 +284,7 @@ def _shape_of(surface: Surface) -> tuple[float, float]:
     if surface.shape is None:
         return c, figure
     first, second, third, fourth = surface.shape.series(c)
-    if first or third:
+    if first or third or not surface.shape.radial:
         return c + 2 * second, nan
     # (c + 2s)³ − c³ without the difference of large numbers
     return c + 2 * second, figure + 8 * fourth - 2 * second * (3 * c * c + 6 * c * second + 4 * second * second)

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
@@ -33,7 +33,6 @@ from p2sf.raytrace.fit import (
     rows_of,
 )
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.trace import lens_rims, run
 
@@ -58,8 +57,8 @@ def pupil_map(
     if method == "seidel":
         return replace(seidel_pupils(lens, several, clip).one(0), mask=mask_seen(lens, source))
     found = fit(lens, source, numbers)
-    columns = (found.phase, found.fx, found.fy, found.weight, found.residual_waves)
-    forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.weight_residual)))
+    columns = (found.phase, found.fx, found.fy, found.amplitude, found.residual_waves)
+    forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.amplitude_residual)))
     return replace(pupils_of(lens, several, forms, found.level, clip).one(0), mask=mask_seen(lens, source))
 
 
@@ -76,7 +75,7 @@ def fitted_forms(lens: Lens, sources: Sources, level: Level) -> tuple[PencilForm
             lost=int((~rays.passed).sum()),
             total=rays.passed.size,
         )
-    return pencil_forms(ray_data(rays), level), rays.chief_y[:, 0]
+    return pencil_forms(rays, level), rays.chief_y[:, 0]
 
 
 def pupils_of(
@@ -86,7 +85,7 @@ def pupils_of(
 
     Raises GeometryError where rims clip all rays of a source.
     """
-    rims, behind = _rims(lens, sources, clip), _mask_of(lens, sources)
+    rims, behind = _rims(lens, sources, clip, bool(level.skew)), _mask_of(lens, sources)
     while True:
         found, excess = _of_order(order, fits, level, rims)
         if excess < 1 or order == ORDERS[-1]:
@@ -99,26 +98,48 @@ def _mask_of(lens: Lens, sources: Sources) -> PupilMask:
     return mask_seen(lens, Source(wavelength_um=float(np.ravel(sources.wavelength_um)[0])))
 
 
-def _rims(lens: Lens, sources: Sources, clip: bool) -> np.ndarray:
+def _nodes_of(where: tuple[int, int], skew: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return nodes ξ, η and their weights over half the disc, or over all of it for a pupil without symmetry."""
+    half = disc_nodes(*where)
+    return whole_disc(*where) if skew else (half.xi, half.eta, half.weight)
+
+
+def _rims(lens: Lens, sources: Sources, clip: bool, skew: bool = False) -> np.ndarray:
     """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim.
 
-    Of a hole or a shadow, (height/radius)² − 1. (Sources, surfaces, nodes); no surfaces unless ``clip``. Raises
+    Of a hole or a shadow, (height/radius)² − 1. (Sources, rims, nodes); no rims unless ``clip``. Raises
     GeometryError where these clip all rays of a source.
     """
-    nodes = disc_nodes(*NODES)
+    xi, eta, _ = _nodes_of(NODES, skew)
     if not clip:
-        return np.empty((len(np.asarray(sources.depth_mm)), 0, nodes.xi.size))
+        return np.empty((len(np.asarray(sources.depth_mm)), 0, xi.size))
     limits = lens_rims(lens, keep_stop=False)
-    rays, heights = pupil_rays(lens, sources, nodes.xi, nodes.eta), []
+    rays, found = pupil_rays(lens, sources, xi, eta), []
     beam = start(rays)
-    run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
-    met = zip(heights, limits, strict=False)
-    inner = zip(heights, (surface.inner_radius for surface in lens.surfaces), strict=False)
-    holes = [(height / radius) ** 2 - 1 for height, radius in inner if radius]
-    rims = np.stack([1 - (height / rim) ** 2 for height, rim in met if np.isfinite(rim)] + holes, axis=1)
+
+    def visit(number: int) -> None:
+        if number <= len(lens.surfaces):
+            found.extend(_clearances(lens.surfaces[number - 1], float(limits[number - 1]), beam.x, beam.y))
+
+    run(lens, beam, rays.index, visit=visit)
+    rims = np.stack(found, axis=1)
     if np.any(np.max(np.min(rims, axis=1), axis=1) <= 0):
         raise GeometryError(CLIPPED, parameter="clip")
     return rims
+
+
+def _clearances(surface: Surface, limit: float, x: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
+    """Return what is positive where a surface is open: of its circle or both sides of its rectangle, and its hole."""
+    rim = surface.rim
+    across, up = rim.about_centre(x, y) if rim else (x, y)
+    square, found = across * across + up * up, []
+    if rim and rim.half_widths:
+        found += [1 - (along / half) ** 2 for along, half in zip((across, up), rim.half_widths, strict=True)]
+    elif np.isfinite(limit):
+        found.append(1 - square / limit**2)
+    if surface.inner_radius:
+        found.append(square / surface.inner_radius**2 - 1)
+    return found
 
 
 def seidel_pupils(lens: Lens, sources: Sources, clip: bool = False) -> PupilStack:
@@ -152,7 +173,8 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     """
     where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
     at = _at_nodes(where, level)
-    phase, fy, weight = fits.phase @ at.phase, fits.fy @ at.fy, fits.weight @ at.fy[: fits.weight.shape[-1]]
+    phase, fy = fits.phase @ at.phase, fits.fy @ at.fy
+    amplitude = fits.amplitude @ at.fy[: fits.amplitude.shape[-1]]
     fx, eta = fits.fx @ at.fx, np.broadcast_to(at.eta, phase.shape)
     clear = np.asarray((rims > NEARLY_CLEAR).all(1)) if rims.shape[1] else np.ones(phase.shape, bool)
     fy = fy - _middle(fy, clear)
@@ -160,7 +182,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     radius = 1.02 * np.where(clear, np.hypot(fx, fy), 0.0).max(1)
     u, v = fx / radius[:, None], fy / radius[:, None]
     share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))[:, None]
-    columns = np.stack([phase, eta, *([weight] if level.weighted else [])], axis=1)
+    columns = np.stack([phase, eta, *([amplitude] if level.weighted else [])], axis=1)
     if rims.shape[1]:
         columns = np.concatenate([columns, rims], axis=1)
     even, odd = _terms_over(order, u, v)
@@ -173,11 +195,11 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     residual = np.sqrt((area * waves**2).sum(1) / area.sum(1))
     excess = max(float(residual.max()) / PHASE_RESIDUAL, float(np.abs(miss * clear).max()) / POINT_RESIDUAL)
     first = 2 + level.weighted  # of the rims
-    weight_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
-    # By Parseval ∫|field|²dx = ∫weight²/|∂f/∂(ξ, η)| dξ dη.
-    light = weight**2 / np.abs(determinant(fits.fx, fits.fy, *at.slopes))
+    amplitude_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
+    # By Parseval ∫|field|²dx = ∫amplitude²/|∂f/∂(ξ, η)| dξ dη.
+    light = amplitude**2 / np.abs(determinant(fits.fx, fits.fy, *at.slopes))
     energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ at.weight
-    forms = found[:, 0], found[:, 1], xi, weight_of, found[:, first:]
+    forms = found[:, 0], found[:, 1], xi, amplitude_of, found[:, first:]
     unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
     sizes = energy, unknown, left, unknown
     return PupilStack(order, radius, *forms, *sizes, "fitted", level.numbers, skew=bool(level.skew)), excess
@@ -214,8 +236,7 @@ class _FitTerms:
 
 @lru_cache(maxsize=16)
 def _at_nodes(where: tuple[int, int], level: Level) -> _FitTerms:
-    nodes = disc_nodes(*where)
-    xi, eta, weight = whole_disc(*where) if level.skew else (nodes.xi, nodes.eta, nodes.weight)
+    xi, eta, weight = _nodes_of(where, bool(level.skew))
     even, odd = (basis(order, xi, eta, flag) for order, flag in zip(level.orders, (False, True), strict=True))
     return _FitTerms(xi, eta, weight, *rows_of(level, even, odd), map_slopes(level, xi, eta))
 

@@ -13,7 +13,7 @@ from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.clear_rim import clear_rim
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
 
 NODES = 12, 32
@@ -25,14 +25,15 @@ def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
     """Return ∫cos θ dΩ over the pencil of a point of a Lambertian object, per unit d²(field slope).
 
     It is relative to the paraxial entrance pupil's area at normal incidence. A plane of depth D before the entrance
-    pupil has dA = D²·d²s; for one at infinity dω = cos³θ·d²s. With dΩ = weight·cos³θ_chief/D² both give the mean of
-    weight·cos θ·cos³θ_chief over the pupil (the cosine to the fourth of a pinhole; Welford 1986, §6.5). Rays that are
+    pupil has dA = D²·d²s; for one at infinity dω = cos³θ·d²s. With dΩ = light·cos³θ_chief/D² both give the mean of
+    light·cos θ·cos³θ_chief over the pupil (the cosine to the fourth of a pinhole; Welford 1986, §6.5). Rays that are
     lost carry no light. Raises GeometryError where all are.
     """
     nodes = _open_nodes(lens, source, clip)
-    rays = pupil_rays(seen_from(lens, source.azimuth_deg), source, nodes.xi, nodes.eta)
-    cosine = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
-    mean = float(nodes.weight @ (rays.weight * cosine * np.square(nodes.amplitude) + 0 * nodes.xi))
+    rays = rays_through(lens, source, nodes)
+    entering = pupil_rays(seen_from(lens, source.azimuth_deg), source, nodes.xi, nodes.eta)
+    cosine = 1 / np.sqrt(1 + entering.slope_x * entering.slope_x + entering.slope_y * entering.slope_y)
+    mean = float((rays.share * rays.light * cosine).sum())
     return float(nodes.share * mean / (1 + source.field_slope**2) ** 1.5)
 
 

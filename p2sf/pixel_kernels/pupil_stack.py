@@ -21,6 +21,7 @@ FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % 
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
 FORMS = "phase", "eta", "xi", "weight", "rims"
+SHARED = "order", "method", "numbers", "mask", "skew"
 SIZES = "radius", "energy", "reach_um", "residual_waves", "wavelength_um"
 
 
@@ -33,7 +34,8 @@ class FrequencyPupil:
     (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
     ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
     ``mask``: what stands in the pupil besides, as the source sees it; its path makes waves by ``wavelength_um``, which
-    is negative where the phase counts as W does.
+    is negative where the phase counts as W does. ``skew``: of a lens without symmetry; all forms then have all even
+    terms, and behind them all odd ones, in the axes of the sensor.
     """
 
     order: int
@@ -50,15 +52,12 @@ class FrequencyPupil:
     method: str
     numbers: int
     mask: PupilMask = CLEAR
+    skew: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class PupilStack:
-    """Several pupils of one order: every array of `FrequencyPupil` with an axis of pupils first, numbers (pupils,).
-
-    ``skew``: of a lens without symmetry; phase, η, ξ and weight then have all even terms, and behind them all odd ones,
-    in the axes of the sensor.
-    """
+    """Several pupils of one order: every array of `FrequencyPupil` with an axis of pupils first, numbers (pupils,)."""
 
     order: int
     radius: np.ndarray
@@ -83,7 +82,8 @@ class PupilStack:
         """Return one of the pupils."""
         values: dict[str, Any] = {name: getattr(self, name)[k] for name in FORMS}
         values |= {name: float(getattr(self, name)[k]) for name in SIZES}
-        return FrequencyPupil(order=self.order, method=self.method, numbers=self.numbers, mask=self.mask, **values)
+        values |= {name: getattr(self, name) for name in SHARED}
+        return FrequencyPupil(**values)
 
     def some(self, chosen: np.ndarray | slice) -> "PupilStack":
         """Return those of the pupils that an index array, a mask or a slice chooses."""
@@ -99,7 +99,7 @@ class PupilStack:
         }
         if self.skew:
             own = len(terms(self.order))
-            for name in ("phase", "eta", "xi", "weight"):
+            for name in FORMS:
                 even, odd = np.split(getattr(self, name), [own], axis=-1)
                 wider[name] = np.concatenate([_widened(even, lacking), _widened(odd, lacking_odd)], axis=-1)
             return replace(self, order=order, **wider)
@@ -128,7 +128,8 @@ def _as_stack(pupil: FrequencyPupil | PupilStack) -> PupilStack:
     if isinstance(pupil, PupilStack):
         return pupil
     values: dict[str, Any] = {name: np.array([getattr(pupil, name)]) for name in (*FORMS, *SIZES)}
-    return PupilStack(order=pupil.order, method=pupil.method, numbers=pupil.numbers, mask=pupil.mask, **values)
+    values |= {name: getattr(pupil, name) for name in SHARED}
+    return PupilStack(**values)
 
 
 def with_reach(pupils: PupilStack) -> PupilStack:
@@ -239,15 +240,14 @@ def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
     symmetry stand in the axes of the sensor and are not turned.
     """
     if pupils.skew:
-        own = len(terms(pupils.order))
-        phase, eta, xi, weight = (
+        own, cutting = len(terms(pupils.order)), pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1)
+        phase, eta, xi, weight, *rims = (
             _plain(pupils.order, form[:, :own], form[:, own:]) if form.size else None
-            for form in (pupils.phase, pupils.eta, pupils.xi, pupils.weight)
+            for form in (pupils.phase, pupils.eta, pupils.xi, pupils.weight, *cutting)
         )
         assert phase is not None and eta is not None and xi is not None
-        return Turned(
-            pupils.radius, phase, eta, xi, weight, np.array([]), pupils.mask, pupils.wavelength_um, 0 * angles
-        )
+        behind = pupils.mask, pupils.wavelength_um, 0 * angles
+        return Turned(pupils.radius, phase, eta, xi, weight, np.array(rims), *behind)
     even, odd = _harmonics(pupils.order)
     keep = even > 0  # the odd terms are the even ones without m = 0, in the same order
     cosine, sine = np.cos(np.multiply.outer(angles, even)), np.sin(np.multiply.outer(angles, even[keep]))

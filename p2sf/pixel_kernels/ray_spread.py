@@ -18,10 +18,9 @@ from p2sf.pixel_kernels.nodes import hats
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_cells import turned_back
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.seen_mask import mask_seen
 
-TRACED = 40, 120  # steps of radius, and of direction over half the disc: exact rays at their ends
+TRACED = 40, 120  # steps of radius, and of direction in each half of the disc: exact rays at their ends
 FINER = 5  # times as many cells either way, with rays interpolated between the exact ones
 STRAY = 2e-3  # of the light may land outside the window, as of a sum of waves
 RINGS = 2048
@@ -31,6 +30,8 @@ CELLS = 7  # along the side of a pixel, in which rays are counted where part of 
 @dataclass(frozen=True, eq=False)
 class RaySpread:
     """Where the light of half a pencil lands, µm from the chief ray, and its shares; the other half mirrors it.
+
+    That of a whole pencil where it is not ``mirrored``: of a lens without symmetry, whose axes are the sensor's.
 
     ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but STRAY.
     ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.
@@ -44,6 +45,12 @@ class RaySpread:
     radius: float
     lost: float
     mask: PupilMask = CLEAR
+    mirrored: bool = True
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """Return 1 for the light as it is, and −1 for its mirror image."""
+        return (1, -1) if self.mirrored else (1,)
 
     def passing(self, side: int, angle: float) -> np.ndarray:
         """Return the shares of light that pass the mask, (radii, directions): the half pencil's, its mirror's for −1.
@@ -52,38 +59,38 @@ class RaySpread:
         """
         if self.mask.clear:
             return self.light
-        xi, eta = turned_back(*_grid().at_middles(side), np.asarray(angle))
+        xi, eta = turned_back(*_grid(not self.mirrored).at_middles(side), np.asarray(angle))
         return np.where(self.mask.opens(xi, eta), self.light * self.mask.amplitude(xi, eta) ** 2, 0.0)
 
 
 def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     """Return the rays of one source; GeometryError where none reaches the sensor, and behind a phase, which bends them.
 
-    A cell's light is that of the sum of waves, weight²·|∂(ξ, η)/∂f|·dξ dη (Parseval).
+    A cell's light is that of the sum of waves, amplitude²·|∂(ξ, η)/∂f|·dξ dη (Parseval).
     """
-    grid, mask = _grid(), mask_seen(lens, source)
+    grid, mask = _grid(lens.misaligned), mask_seen(lens, source)
     if mask.phased:
         check_unmasked(lens, Message("a blur by rays"))
     rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
     passed = rays.passed.reshape(grid.xi.shape)
     if not passed.any():
         raise GeometryError("no ray reaches the sensor; choose a smaller field or stop the lens down")
-    data, share = ray_data(rays), grid.at_cells(passed.astype(float))
-    x, y = (_between_passed(column.reshape(passed.shape), passed, share) for column in (data.x_um, data.y_um))
-    area = grid.at_cells(_frequency_area(data.fx.reshape(passed.shape), data.fy.reshape(passed.shape)))
-    weight = _between_passed(data.weight.reshape(passed.shape), passed, share)
-    light = share * weight**2 * grid.rho**2 / area
-    light /= 2 * light.sum()
+    share = grid.at_cells(passed.astype(float))
+    columns = (column.reshape(passed.shape) for column in (rays.x_um, rays.y_um, rays.amplitude))
+    x, y, amplitude = (grid.between_passed(column, passed, share) for column in columns)
+    area = grid.at_cells(grid.frequency_area(rays.fx.reshape(passed.shape), rays.fy.reshape(passed.shape)))
+    light = share * amplitude**2 * grid.rho**2 / area
+    light /= light.sum() * (1 if lens.misaligned else 2)
     lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
-    spread = float(np.nanmax(np.hypot(data.fx, data.fy)))
-    made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part)
+    spread = float(np.nanmax(np.hypot(rays.fx, rays.fy)))
+    made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part, not lens.misaligned)
     reach = _reach(np.hypot(x, y), made.passing(1, 0.0), STRAY if mask.round else 0.0)
     return replace(made, reach_um=reach, mask=mask)
 
 
 @dataclass(frozen=True, eq=False)
 class _Grid:
-    """Exact rays over the half disc ξ ≥ 0, and the matrices that carry their values to the cells between them."""
+    """Exact rays over the disc or its half ξ ≥ 0, and the matrices that carry their values to cells between them."""
 
     radii: np.ndarray
     directions: np.ndarray
@@ -111,30 +118,28 @@ class _Grid:
         """Return ξ and η of the cells' middles, (radii, directions); of the mirror half for ``side`` −1."""
         return side * self.rho * np.sin(self.theta), self.rho * np.cos(self.theta)
 
+    def between_passed(self, values: np.ndarray, passed: np.ndarray, share: np.ndarray) -> np.ndarray:
+        """Return values at the cells, interpolated between those rays about a cell that arrived; 0 where none did."""
+        found: np.ndarray = self.at_cells(np.where(passed, values, 0.0)) / np.where(share > 0, share, 1.0)
+        return found
 
-@lru_cache(maxsize=1)
-def _grid() -> _Grid:
-    radii, directions = (np.linspace(0, end, count + 1) for end, count in zip((1.0, pi), TRACED, strict=True))
-    middles = [(np.arange(FINER * n) + 0.5) * (end / (FINER * n)) for end, n in zip((1.0, pi), TRACED, strict=True)]
+    def frequency_area(self, fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
+        """Return |∂(fx, fy)/∂(ρ, θ)| by central differences; beside a lost ray, of the mean |∂(fx, fy)/∂(ξ, η)|."""
+        (x_out, x_round), (y_out, y_round) = (np.gradient(f, self.radii, self.directions) for f in (fx, fy))
+        area = np.abs(x_out * y_round - x_round * y_out)
+        known, rho = np.isfinite(area), np.broadcast_to(self.radii[:, None], area.shape)
+        found: np.ndarray = np.where(known, area, rho * (area[known].sum() / rho[known].sum()))
+        return found
+
+
+@lru_cache(maxsize=2)
+def _grid(whole: bool) -> _Grid:
+    ends, counts = ((1.0, 2 * pi), (TRACED[0], 2 * TRACED[1])) if whole else ((1.0, pi), TRACED)
+    radii, directions = (np.linspace(0, end, count + 1) for end, count in zip(ends, counts, strict=True))
+    middles = [(np.arange(FINER * n) + 0.5) * (end / (FINER * n)) for end, n in zip(ends, counts, strict=True)]
     return _Grid(
         radii, directions, hats(radii, middles[0]).T, hats(directions, middles[1]), middles[0][:, None], middles[1]
     )
-
-
-def _between_passed(values: np.ndarray, passed: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """Return values at the cells, interpolated between those rays about a cell that arrived; 0 where none did."""
-    found: np.ndarray = _grid().at_cells(np.where(passed, values, 0.0)) / np.where(share > 0, share, 1.0)
-    return found
-
-
-def _frequency_area(fx: np.ndarray, fy: np.ndarray) -> np.ndarray:
-    """Return |∂(fx, fy)/∂(ρ, θ)| by central differences; beside a lost ray, that of the mean |∂(fx, fy)/∂(ξ, η)|."""
-    grid = _grid()
-    (x_out, x_round), (y_out, y_round) = (np.gradient(f, grid.radii, grid.directions) for f in (fx, fy))
-    area = np.abs(x_out * y_round - x_round * y_out)
-    known, rho = np.isfinite(area), np.broadcast_to(grid.radii[:, None], area.shape)
-    found: np.ndarray = np.where(known, area, rho * (area[known].sum() / rho[known].sum()))
-    return found
 
 
 def _reach(distance: np.ndarray, light: np.ndarray, stray: float) -> float:
@@ -164,7 +169,7 @@ def _landing(
     """Return the share of all light that lands on each pixel, (2·half + 1,)², row 0 at the top."""
     size, sine, cosine = 2 * half + 1, sin(angle), cos(angle)
     total = np.zeros(size * size)
-    for side in (1, -1):
+    for side in spread.sides:
         across, light = side * spread.x_um, spread.passing(side, angle)
         x = across * cosine + spread.y_um * sine + shift_um[0]
         y = spread.y_um * cosine - across * sine + shift_um[1]

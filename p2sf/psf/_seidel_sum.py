@@ -84,40 +84,6 @@ def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: Row
     return unfolded(even, odd, pixels)
 
 
-def annulus_fields(
-    terms: np.ndarray, pixels: int, pixel_um: float, pieces: tuple[tuple[float, RowNodes], ...], dtype: DTypeLike
-) -> tuple[np.ndarray, np.ndarray, float]:
-    """Return the fields of a disc less smaller ones, their parts even and odd in y as `unfolded` takes them, and A.
-
-    ``pieces``: the radius of each disc, the first 1, and its nodes; the others count with a negative sign. Over the
-    disc of radius r, W is that of coefficients times r⁴, r³, r², r², and the field that of r times the frequency.
-    A is the mean amplitude over the disc, and fields are in units of that of the whole disc.
-    """
-    even, odd, amplitude = np.zeros(1), np.zeros(1), 0.0
-    for radius, rows in pieces:
-        area = radius**2 if radius == 1 else -(radius**2)
-        setting = radius * float(terms[0, 4]) * pixel_um, pixels, np.dtype(dtype)
-        fields = _fields(terms[:, :4] * scaled_shape(radius), rows, setting)
-        even, odd = even + area * fields[0], odd + area * fields[1]
-        amplitude += area * float(rows.weight.sum())
-    return even, odd, amplitude
-
-
-def whole_fields(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
-    """Return the complex fields (batch, pixels, pixels) of parts even and odd in y, as `unfolded` takes them."""
-    half, offset = pixels // 2, np.arange(pixels) - pixels // 2
-    right = np.empty((even.shape[1], pixels, even.shape[-1]), np.result_type(even, np.complex64))
-    above, below = even + odd, even - odd
-    right[:, half:] = (above[0] + 1j * above[1])[:, : pixels - half]
-    right[:, :half] = (below[0] + 1j * below[1])[:, half:0:-1]
-    return right[..., np.abs(offset)]
-
-
-def scaled_shape(radius: float) -> np.ndarray:
-    """Return what W40, W31, W22 and W20 + Wd are multiplied by over a part of the pupil of this radius."""
-    return radius ** np.array([4.0, 3.0, 2.0, 2.0])
-
-
 def wave_number(coefficients: Coefficients) -> np.ndarray:
     """Return cycles per µm on the sensor at unit pupil radius, −n'u'/λ, signed; its size is NA/λ."""
     number: np.ndarray = -np.asarray(coefficients.reduced_slope) / coefficients.wavelength_um

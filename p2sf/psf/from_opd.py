@@ -1,17 +1,25 @@
 """The PSF of a measured or imported wavefront map."""
 
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.arguments import checked, real_array
 from p2sf.conventions import NM_PER_UM, centred_axis
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.parameters import check_positive
+from p2sf.psf import pixel_integrals
 from p2sf.psf.opd_array import opd_intensity
-from p2sf.psf.plane_waves import Origin, psf_from_intensity, resolved
-from p2sf.psf.result import Psf
+from p2sf.psf.peak import peak_of
+from p2sf.psf.picture import Origin, psf_from_intensity, resolved
+from p2sf.psf.plane_waves import Waves
+from p2sf.psf.result import Psf, warned
+from p2sf.psf.seidel import check_samples
 from p2sf.pupil.quadrature import cell_areas
 from p2sf.pupil.transform import matrix_dft
 from p2sf.threads import one_blas_thread
@@ -19,6 +27,7 @@ from p2sf.threads import one_blas_thread
 STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase cannot be told from a flatter one
 
 
+@checked
 @one_blas_thread
 def psf_of_opd(
     opd_waves: ArrayLike,
@@ -28,6 +37,7 @@ def psf_of_opd(
     amplitude: ArrayLike | None = None,
     pixels: int = 64,
     pixel_um: float | None = None,
+    integrated: bool | None = None,
 ) -> Psf:
     """Compute the PSF of a wavefront that is given as an array over the pupil, |FT{A·exp(i2πW)}|².
 
@@ -36,7 +46,8 @@ def psf_of_opd(
     opd_waves : array_like
         W in waves on the cells of a square grid over the pupil, shape (size, size): cell centres at
         (2k + 1 − size)/size of the pupil's radius, rows towards +η, columns towards +ξ. W = (optical path of the chief
-        ray − that of the ray)/λ, positive for undercorrected spherical aberration. A cell that is NaN is opaque.
+        ray − that of the ray)/λ, positive for undercorrected spherical aberration. A cell that is NaN, or
+        masked, is opaque.
     na : float
         Numerical aperture n'·sin u' of the image at the pupil's rim.
     wavelength_nm : float
@@ -47,16 +58,20 @@ def psf_of_opd(
         Samples along each side.
     pixel_um : float, optional
         Distance between samples, µm; λ/(4·na), which loses nothing, when not given.
+    integrated : bool, optional
+        Whether a sample is the light on the square pixel around it, or the intensity at its place; light where
+        pixels are wider than λ/(4·na) when not given.
 
     Returns
     -------
     Psf
-        Samples with unit sum; a wavefront with a tilt towards −η (W falls with η) lands at +y.
+        Samples with unit sum, and in ``energy`` their share of all light; below 0.9 a ``P2SFWarning`` says so. A
+        wavefront with a tilt towards −η (W falls with η) lands at +y.
 
     Raises
     ------
     RequestError
-        For a numerical aperture, wavelength or distance that is not positive.
+        For a numerical aperture, wavelength or distance that is not positive, and for complex numbers.
     SamplingError
         For arrays that are no equal squares, a grid too coarse for the wavefront or the window, an opaque pupil.
 
@@ -64,28 +79,54 @@ def psf_of_opd(
     --------
     >>> import numpy as np, p2sf
     >>> p2sf.psf_of_opd(np.zeros((128, 128)), na=0.1, wavelength_nm=550)
-    <Psf: opd, 64 × 64 samples of 1.375 µm, 550 nm, Strehl ratio 1>
+    <Psf: opd, 64 × 64 samples of 1.375 µm, 550 nm, Strehl ratio 1, 98.8 % of the light in the window>
     """
-    start = perf_counter()
     for name, value in (("na", na), ("wavelength_nm", wavelength_nm), ("pixel_um", pixel_um)):
         check_positive(name, value)
-    wavelength_um = wavelength_nm / NM_PER_UM
     opd, clear = _pupil(opd_waves, amplitude)
-    size, spread = len(opd), na / wavelength_um
-    pixel_um = 1 / (4 * spread) if pixel_um is None else float(pixel_um)
-    _check_window(size, spread, pixels, pixel_um)
-    cycles = spread * pixel_um
-    if size % 2 == 0 and np.array_equal(opd, opd[:, ::-1]) and np.array_equal(clear, clear[:, ::-1]):
-        intensity = opd_intensity(opd, clear, cycles, pixels, np.float64)
-    else:
-        frequency, axis = cycles * centres(size), centred_axis(pixels)
-        field = matrix_dft(clear * np.exp(2j * np.pi * opd), frequency, frequency, axis, axis)
-        intensity = np.abs(field / clear.sum()) ** 2
+    critical_um = wavelength_nm / NM_PER_UM / (4 * na)
+    pitch = critical_um if pixel_um is None else float(pixel_um)
+    _check_window(len(opd), na / (wavelength_nm / NM_PER_UM), pixels, pitch)
     # By Parseval, in units of the unaberrated peak; a cell that the rim cuts lets its covered part through.
     power = clear.sum() if amplitude is None else (clear**2).sum()
-    light = power / clear.sum() ** 2 * (size / (2 * spread)) ** 2 if resolved(spread, pixel_um) else None
-    made = Origin("opd", int(np.count_nonzero(clear)), 0, Message("{size} × {size} cells", size=size), start)
-    return psf_from_intensity(intensity, pixel_um, wavelength_um, light, made)
+    pupil = _Pupil(opd, clear, power / clear.sum() ** 2, na, wavelength_nm / NM_PER_UM)
+    return warned(pixel_integrals.integrated(pupil.psf, pixels, pitch, critical_um, integrated), 5)
+
+
+@dataclass(frozen=True)
+class _Pupil:
+    """A wavefront in waves and the amplitude on its cells; ``light``: Σ amplitude² over (Σ amplitude)²."""
+
+    opd: np.ndarray
+    clear: np.ndarray
+    light: float
+    na: float
+    wavelength_um: float
+
+    def psf(self, pixels: int, pixel_um: float) -> Psf:
+        """Return the PSF at points."""
+        start, size, spread = perf_counter(), len(self.opd), self.na / self.wavelength_um
+        cycles, opd, clear = spread * pixel_um, self.opd, self.clear
+        if size % 2 == 0 and np.array_equal(opd, opd[:, ::-1]) and np.array_equal(clear, clear[:, ::-1]):
+            intensity = opd_intensity(opd, clear, cycles, pixels, np.float64)
+        else:
+            frequency, axis = cycles * centres(size), centred_axis(pixels)
+            field = matrix_dft(clear * np.exp(2j * np.pi * opd), frequency, frequency, axis, axis)
+            intensity = np.abs(field / clear.sum()) ** 2
+        light = self.light * (size / (2 * spread)) ** 2 if resolved(spread, pixel_um) else None
+        made = Origin("opd", int(np.count_nonzero(clear)), 0, Message("{size} × {size} cells", size=size), start)
+        peak = peak_of(intensity, pixel_um, self.waves, lambda _: None)
+        return psf_from_intensity(intensity, pixel_um, self.wavelength_um, light, made, peak)
+
+    @cached_property
+    def waves(self) -> Waves:
+        """Return the plane waves of the cells that let light through, as far as their PSF does not repeat itself."""
+        size, spread = len(self.opd), self.na / self.wavelength_um
+        along, lit = spread * centres(size), self.clear > 0
+        fy, fx = np.meshgrid(along, along, indexing="ij")
+        amplitude = (self.clear * np.exp(2j * np.pi * self.opd))[lit] / self.clear.sum()
+        blur = sqrt(2) * _steepest_step(self.opd, self.clear) * size / 2 / spread
+        return Waves(amplitude, fx[lit], fy[lit], False, blur, reach_um=size / (2 * spread) / sqrt(2))
 
 
 def centres(size: int) -> np.ndarray:
@@ -95,11 +136,11 @@ def centres(size: int) -> np.ndarray:
 
 def _pupil(opd_waves: ArrayLike, amplitude: ArrayLike | None) -> tuple[np.ndarray, np.ndarray]:
     """Return the wavefront, 0 where nothing passes, and the amplitude."""
-    opd = np.array(opd_waves, dtype=float)
+    opd = real_array("opd_waves", opd_waves)
     if opd.ndim != 2 or opd.shape[0] != opd.shape[1] or not opd.size:
         raise SamplingError("the wavefront has the shape {shape}; give a square array", shape=str(opd.shape))
     cells = centres(len(opd))
-    clear = cell_areas(cells, cells, 2 / len(opd)) if amplitude is None else np.array(amplitude, dtype=float)
+    clear = cell_areas(cells, cells, 2 / len(opd)) if amplitude is None else real_array("amplitude", amplitude, 0.0)
     if clear.shape != opd.shape:
         raise SamplingError(
             "the amplitude has the shape {shape} and the wavefront {wavefront}; give both on the same cells",
@@ -116,14 +157,19 @@ def _pupil(opd_waves: ArrayLike, amplitude: ArrayLike | None) -> tuple[np.ndarra
 
 def _check_steps(opd: np.ndarray, clear: np.ndarray) -> None:
     """Raise SamplingError where the wavefront changes too fast from cell to cell for its grid."""
-    steps = [np.abs(np.diff(opd, axis=k))[(np.minimum(*_pairs(clear, k)) > 0)].max(initial=0.0) for k in (0, 1)]
-    if max(steps) > STEEPEST_STEP:
+    step = _steepest_step(opd, clear)
+    if step > STEEPEST_STEP:
         raise SamplingError(
             "the wavefront changes by {step:.3g} waves from one cell to the next, and more than {most:g} is ambiguous; "
             "give it on a finer grid, without jumps of whole waves",
-            step=max(steps),
+            step=step,
             most=STEEPEST_STEP,
         )
+
+
+def _steepest_step(opd: np.ndarray, clear: np.ndarray) -> float:
+    """Return the largest change of the wavefront between neighbouring cells that both let light through, waves."""
+    return max(float(np.abs(np.diff(opd, axis=k))[np.minimum(*_pairs(clear, k)) > 0].max(initial=0.0)) for k in (0, 1))
 
 
 def _pairs(values: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
@@ -134,10 +180,7 @@ def _pairs(values: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
 
 def _check_window(size: int, spread: float, pixels: int, pixel_um: float) -> None:
     """Raise SamplingError for a window in which the PSF of a grid would repeat."""
-    if not (isinstance(pixels, int | np.integer) and pixels >= 1):
-        raise SamplingError(
-            "{parameter} is {value}; give a whole number of 1 or more", parameter="pixels", value=pixels
-        )
+    check_samples(pixels, pixel_um)
     period, window = size / (2 * spread), pixels * pixel_um
     if window > period * (1 + 1e-9):
         raise SamplingError(

@@ -6,9 +6,9 @@ count rises until two successive PSFs agree. Clear apertures (`vignetting`) end 
 See handbook 5.5.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Callable
+from dataclasses import replace
+from math import sqrt
 from time import perf_counter
 from typing import Literal
 
@@ -19,42 +19,35 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.plane_waves import Origin, counts_for, disc_words, psf_from_intensity, pupil_amplitude, resolved
+from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
+from p2sf.psf.plane_waves import Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
+from p2sf.psf.smooth_pupil import (
+    PROBE,
+    Counts,
+    RayWaves,
+    all_reach,
+    interpolated_waves,
+    probe,
+    probing,
+    smooth_blur_um2,
+)
 from p2sf.pupil.mask_nodes import ClearNodes
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
-from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit
-from p2sf.raytrace.pencil import Pencil, pencil
-from p2sf.raytrace.ray_field import RayData, ray_data, steepness
+from p2sf.raytrace.pencil import Rays, pencil, rays_through
+from p2sf.raytrace.ray_field import Steepness, steepness
 from p2sf.raytrace.seen_mask import with_slopes
-from p2sf.raytrace.vignetting import pencil_blur, pupil_nodes, radiometric
+from p2sf.raytrace.vignetting import pencil_blur, pupil_nodes
 from p2sf.threads import for_each, one_blas_thread
 
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
-TOGETHER = BLOCK // 2  # plane waves that one thread sums at a time
 GROWTH = 1.3
 MOST_NODES = 2**22
-PROBE = 12, 36
-LIVE = 72, 180  # as many rays as a 128² grid has in the half disc
+MOST_FOR_PEAK = 2**17  # where only the peak is looked for
 
 Amplitude = Literal["area", "radiometric"]
-Window = tuple[int, float]
-"""Pixels on a side, µm per pixel."""
-Counts = tuple[int, int]
-"""Radial and angular node counts of the whole disc."""
-PlaneWaves = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Complex amplitudes, and frequencies in x and y, cycles per µm."""
-
-
-@dataclass(frozen=True)
-class Field:
-    """A summed field (y, x) in units of the unaberrated peak, ∫|field|²dx in µm² (None if unresolved), rays lost."""
-
-    values: np.ndarray
-    blur_um2: float | None
-    lost: int
 
 
 @one_blas_thread
@@ -72,8 +65,8 @@ def huygens_psf(
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
     The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
-    are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as a
-    128² grid has or as the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
+    are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as
+    the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
     fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. ``amplitude``
     "area" gives each ray the field of its cell's area in the entrance pupil, as other programs do; "radiometric" the
     root of that times the cell's area over direction cosines, which conserves the energy of each cell. Threads
@@ -85,27 +78,67 @@ def huygens_psf(
     window = pixels, pixel_um
     pupil = fit(lens, source) if amplitude == "radiometric" else None
     if tolerance is None:
-        found, counts = _once(lens, source, window, clip, _Watch(None, cancelled, live=True), pupil)
-        sampling = _sampling(lens, counts, found, clip, Message("one pass in float32"))
+        found = one_pass(lens, source, window, clip, cancelled, pupil)
+        sampling = sampling_of(lens, found, clip, Message("one pass in float32"))
         error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
-        made = Origin("huygens", 0, _nodes(counts), sampling, started, None, error)
+        made = Origin("huygens", 0, _nodes(found.counts), sampling, started, None, error)
     else:
-        watch = _Watch(progress, cancelled)
-        found, counts, reached, rays = _settle(lens, source, window, clip, tolerance, watch, pupil)
+        found, reached, rays = _settle(lens, source, window, clip, tolerance, _Watch(progress, cancelled), pupil)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
-        sampling = _sampling(lens, counts, found, clip, None if reached <= tolerance else short)
+        sampling = sampling_of(lens, found, clip, None if reached <= tolerance else short)
         made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
-    intensity = found.values.real**2 + found.values.imag**2
-    return psf_from_intensity(intensity, pixel_um, source.wavelength_um, found.blur_um2, made)
+    blur = None
+    if tolerance is not None and resolved(found.waves.spread, pixel_um):
+        blur = blur_um2(lens, source, clip, pupil)
+    quality = "preview" if tolerance is None else "settled"
+
+    def reaching(reach_um: float) -> Waves | None:
+        return waves_reaching(lens, source, reach_um, clip, pupil)
+
+    return psf_of_waves(found.waves, window, source.wavelength_um, blur, made, reaching, quality)
 
 
-def _once(
-    lens: Lens, source: Source, window: Window, clip: bool, watch: "_Watch", pupil: FittedPencil | None
-) -> tuple[Field, Counts]:
-    """Return the field of one pass in float32: as many rays as a 128² grid, more where the blur needs more."""
-    needed = first_counts(lens, source, window, clip)
-    counts = LIVE if needed[0] <= LIVE[0] and needed[1] <= LIVE[1] else needed
-    return huygens_field(lens, source, counts, window, clip, watch, pupil), counts
+def blur_um2(lens: Lens, source: Source, clip: bool = False, pupil: FittedPencil | None = None) -> float | None:
+    """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak; None where no fit of the rays is known."""
+    smooth = None if clip or pupil is not None else smooth_blur_um2(lens, source)
+    return smooth or pencil_blur(lens, source, clip, clip or all_reach(lens, source), pupil)
+
+
+def waves_reaching(
+    lens: Lens, source: Source, reach_um: float, clip: bool = False, pupil: FittedPencil | None = None
+) -> Waves | None:
+    """Return the plane waves of rays that carry the phase up to a distance from the chief ray; None of too many."""
+    try:
+        counts = first_counts(lens, source, reach_um, clip)
+    except SamplingError:
+        return None
+    if _nodes(counts) > MOST_FOR_PEAK:
+        return None
+    if not clip and pupil is None:
+        found = interpolated_waves(lens, source, counts, reach_um)
+        if found is not None:
+            return found.waves
+    return ray_waves(lens, source, counts, reach_um, clip, None, pupil).waves
+
+
+def _fields(rays: Rays, pupil: FittedPencil | None) -> np.ndarray:
+    """Return the field of each ray; of the `radiometric` amplitude, by the fit that gives areas over cosines."""
+    field = rays.amplitude if pupil is None else rays.radiometric(pupil.jacobian(rays.xi, rays.eta))
+    return rays.share * field
+
+
+def one_pass(
+    lens: Lens,
+    source: Source,
+    window: Window,
+    clip: bool,
+    cancelled: Callable[[], bool] | None = None,
+    pupil: FittedPencil | None = None,
+) -> RayWaves:
+    """Return the plane waves of as many rays as the blur and the window need; `Cancelled` where the caller says so."""
+    reach = window_reach_um(*window)
+    counts = first_counts(lens, source, reach, clip)
+    return ray_waves(lens, source, counts, reach, clip, _Watch(None, cancelled), pupil)
 
 
 def _settle(
@@ -116,20 +149,23 @@ def _settle(
     tolerance: float,
     watch: "_Watch",
     pupil: FittedPencil | None,
-) -> tuple[Field, Counts, float, int]:
-    """Return (field, counts, agreement, rays traced) once two successive node counts agree."""
-    counts = first_counts(lens, source, window, clip)
+) -> tuple[RayWaves, float, int]:
+    """Return (plane waves, agreement, rays traced) once two successive node counts agree."""
+    axis, reach = centred_axis(*window), window_reach_um(*window)
+    counts = first_counts(lens, source, reach, clip)
     watch.expect(_nodes(counts) + _nodes(_raised(counts)))
-    before, rays = huygens_field(lens, source, counts, window, clip, watch, pupil), _nodes(counts)
+    before = ray_waves(lens, source, counts, reach, clip, watch, pupil).waves.intensity(axis, axis)
+    rays = _nodes(counts)
     while True:
         counts = _raised(counts)
-        found = huygens_field(lens, source, counts, window, clip, watch, pupil)
+        found = ray_waves(lens, source, counts, reach, clip, watch, pupil)
+        after = found.waves.intensity(axis, axis)
         rays += _nodes(counts)
-        reached = _distance(before.values, found.values)
+        reached = float(np.linalg.norm(after - before) / np.linalg.norm(after))
         if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
             watch.finish()
-            return found, counts, reached, rays
-        before = found
+            return found, reached, rays
+        before = after
         watch.expect(_nodes(_raised(counts)))
 
 
@@ -142,91 +178,89 @@ def _nodes(counts: Counts) -> int:
     return counts[0] * counts[1] // 2
 
 
-def _distance(before: np.ndarray, after: np.ndarray) -> float:
-    """Return the relative L2 distance of the intensities of two fields."""
-    one, two = np.abs(before) ** 2, np.abs(after) ** 2
-    return float(np.linalg.norm(one - two) / np.linalg.norm(two))
+def first_counts(lens: Lens, source: Source, reach_um: float, clip: bool, most: int = MOST_NODES) -> Counts:
+    """Return node counts that should carry the phase of a coarse pencil up to a distance from the chief ray, µm.
 
-
-def first_counts(lens: Lens, source: Source, window: Window, clip: bool) -> Counts:
-    """Return node counts that should carry the phase of a coarse pencil.
-
-    Raises GeometryError where no ray passes, SamplingError where more than MOST_NODES nodes would be needed.
+    Raises GeometryError where no ray passes, SamplingError where more than ``most`` nodes would be needed.
     """
-    xi, eta = _probe(lens.misaligned)
-    rays = _probing(lens, source)
-    if not rays.passed.any():
-        raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
-    steep = with_slopes(steepness(ray_data(rays), xi, eta), lens.mask, source.wavelength_um)
-    counts = counts_for(steep, *window)
-    if _nodes(counts) > MOST_NODES:
+    steep = _steepness(lens, source, reach_um, clip)
+    counts = counts_for(with_slopes(steep, lens.mask, source.wavelength_um), reach_um)
+    if _nodes(counts) > most:
         raise SamplingError(
-            "this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the "
-            "image, stop down, or show a smaller window",
-            pixels=window[0],
-            pixel_um=window[1],
+            "this blur over a window {width:.3g} µm wide needs {rays} rays; bring the sensor nearer to the image, stop "
+            "down, or show a smaller window",
+            width=reach_um * sqrt(2),
             rays=_nodes(counts),
         )
-    radial, angular = (2 * -(-count // 2) for count in counts)
-    return radial, angular
+    return counts
 
 
-@lru_cache(maxsize=2)
-def _probe(both: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest.
+def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool) -> Steepness:
+    """Return how steep the phase is over the part of the pupil that is summed; where rays end, about its middle.
 
-    ``both`` halves of the disc, or the half ξ > 0.
+    Raises GeometryError where no ray of the coarse pencil passes.
     """
-    nodes, angle = disc_nodes(*PROBE), np.linspace(0, np.pi, PROBE[1])
-    xi, eta = np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
-    return (np.append(xi, -xi), np.tile(eta, 2)) if both else (xi, eta)
+    if not probing(lens, source).passed.any():
+        raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
+    if not clip and all_reach(lens, source):
+        return _in_window(probing(lens, source), *probe(lens.misaligned), reach_um)
+    nodes = _nodes_of(lens, source, PROBE, clip)
+    rays = rays_through(lens, source, nodes)
+    weight = np.where(rays.passed, nodes.weight, 0.0)
+    share = np.maximum(weight, 0.0) / np.maximum(weight, 0.0).sum()  # without holes, which have weights below 0
+    aside, up = 0.0 if nodes.even else float(share @ nodes.xi), float(share @ nodes.eta)
+    middle = pencil(lens, source, [aside], [up])
+    xi, eta = nodes.xi - aside, nodes.eta - up
+    size = np.hypot(xi, eta)[rays.passed].max()
+    return _in_window(replace(rays, chief_kx=middle.kx, chief_ky=middle.ky), xi / size, eta / size, reach_um)
 
 
-def huygens_field(
+def _in_window(rays: Rays, xi: np.ndarray, eta: np.ndarray, reach_um: float) -> Steepness:
+    """Return how steep the phase is so that with the reach of the window it is that at the farthest corner of each ray.
+
+    The phase of a ray at a point X is w + f·X, with the slopes (X − x)·df where the ray lands at x (`steepness`).
+    """
+    steep, half = steepness(rays, xi, eta), reach_um / sqrt(2)
+    x, y = (np.array([[half], [half], [-half], [-half]]) - rays.x_um, np.array([[half], [-half]] * 2) - rays.y_um)
+    radial = np.fmax.reduce(np.abs(x * rays.fx + y * rays.fy) / np.hypot(xi, eta), axis=None)
+    angular = np.fmax.reduce(np.abs(x * rays.fy - y * rays.fx), axis=None)
+    reach = steep.spread * reach_um
+    return replace(steep, radial=float(radial) - reach, angular=float(angular) - reach)
+
+
+def ray_waves(
     lens: Lens,
     source: Source,
     counts: Counts,
-    window: Window,
+    reach_um: float,
     clip: bool,
-    watch: "_Watch",
+    watch: "_Watch | None" = None,
     pupil: FittedPencil | None = None,
-) -> Field:
-    """Return the field of one set of nodes; over a grid of samples the sum is a matrix product.
+) -> RayWaves:
+    """Return the plane waves of the rays through one set of nodes, which threads share.
 
     ``pupil``: the fit that gives areas over direction cosines, for the radiometric amplitude.
     """
     nodes = _nodes_of(lens, source, counts, clip)
-    blur = None if watch.live else pencil_blur(lens, source, nodes, pupil)
-    axis, dtype = centred_axis(*window), np.float32 if watch.live else np.float64
-    total: np.ndarray | float = 0.0
-    lost, spread, area, light = 0, 0.0, 0.0, 0.0
+    blocks: list[tuple[np.ndarray, ...]] = []
 
-    def waves() -> Iterator[PlaneWaves]:
-        nonlocal lost, spread, area, light
-        for first in range(0, nodes.xi.size, BLOCK):
-            some = nodes.part(slice(first, first + BLOCK))
-            data, share = _block(lens, source, some)
-            weight = share * some.amplitude * data.weight
-            if pupil is not None:
-                weight = share * some.amplitude * radiometric(data.weight, pupil.jacobian(some.xi, some.eta))
-            area, light = area + share.sum(), light + weight.sum()
-            lost += int((share == 0).sum())
-            spread = max(spread, float(np.hypot(data.fx, data.fy).max(initial=0)))
-            phase = data.phase + some.path_um / source.wavelength_um
-            columns = pupil_amplitude(weight, phase, dtype), data.fx.astype(dtype), data.fy.astype(dtype)
-            for start in range(0, weight.size, TOGETHER):
-                amplitude, fx, fy = (column[start : start + TOGETHER] for column in columns)
-                yield amplitude, fx, fy
+    def traced(some: ClearNodes) -> tuple[np.ndarray, ...]:
+        rays = rays_through(lens, source, some).arrived
+        field = _fields(rays, pupil)
+        far = np.hypot(rays.x_um, rays.y_um)
+        return pupil_amplitude(field, rays.phase), rays.fx, rays.fy, np.asarray(rays.share), field, far
 
-    def take(summed: tuple[np.ndarray, int]) -> None:
-        nonlocal total
-        total = total + summed[0]
-        watch.advance(summed[1])
+    def take(block: tuple[np.ndarray, ...]) -> None:
+        blocks.append(block)
+        if watch:
+            watch.advance(block[0].size)
 
-    # Rays are traced here, in turn; the products, nearly all of the work, by threads.
-    for_each(lambda some: (sum_plane_waves(*some, axis, axis, nodes.even), some[0].size), waves(), take)
-    # Light over area is the mean weight, exactly 1 for an evenly filled pupil.
-    return Field(np.asarray(total) / (light / area), blur if resolved(spread, window[1]) else None, lost)
+    for_each(traced, (nodes.part(slice(first, first + BLOCK)) for first in range(0, nodes.xi.size, BLOCK)), take)
+    amplitude, fx, fy, share, field, far = (np.concatenate(column) for column in zip(*blocks, strict=True))
+    # The field over the area is its mean, exactly 1 for an evenly filled pupil.
+    amplitude /= field.sum() / share.sum()
+    waves = Waves(amplitude, fx, fy, nodes.even, float(far.max(initial=0.0)), reach_um)
+    return RayWaves(waves, counts, nodes.xi.size - share.size, nodes.xi.size)
 
 
 def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNodes:
@@ -234,30 +268,9 @@ def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNo
     return pupil_nodes(lens, source, counts, clip, whole=clip or all_reach(lens, source))
 
 
-@lru_cache(maxsize=16)
-def all_reach(lens: Lens, source: Source) -> bool:
-    """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
-    return bool(_probing(lens, source).passed.all())
-
-
-@lru_cache(maxsize=4)
-def _probing(lens: Lens, source: Source) -> Pencil:
-    """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
-    return pencil(lens, source, *_probe(lens.misaligned))
-
-
-def _block(lens: Lens, source: Source, nodes: ClearNodes) -> tuple[RayData, np.ndarray]:
-    rays = pencil(lens, source, nodes.xi, nodes.eta)
-    data, weight = ray_data(rays), nodes.weight
-    if rays.passed.all():
-        return data, weight
-    columns = (np.where(rays.passed, column, 0.0) for column in vars(data).values())
-    return RayData(*columns), np.where(rays.passed, weight, 0.0)
-
-
-def _sampling(lens: Lens, counts: Counts, found: Field, clip: bool, convergence: Message | None) -> Message:
+def sampling_of(lens: Lens, found: RayWaves, clip: bool, convergence: Message | None) -> Message:
     """Return in words what was summed, and how it converged."""
-    parts = [disc_words(counts)]
+    parts = [disc_words(found.counts)]
     if clip:
         parts.append(Message("clipped by the clear semi-diameters"))
     if lens.aim == "stop":
@@ -276,9 +289,8 @@ class _Watch:
         self,
         progress: Callable[[float], None] | None = None,
         cancelled: Callable[[], bool] | None = None,
-        live: bool = False,
     ) -> None:
-        self.progress, self.cancelled, self.live = progress, cancelled, live
+        self.progress, self.cancelled = progress, cancelled
         self.finished, self.expected = 0, 0
 
     def expect(self, nodes: int) -> None:

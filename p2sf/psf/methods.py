@@ -43,8 +43,8 @@ from p2sf.raytrace.fit import (
     level_rays,
     levels_for,
 )
-from p2sf.raytrace.pencil import hexapolar, pencil
-from p2sf.raytrace.ray_field import RayData, ray_data, steepness
+from p2sf.raytrace.pencil import Rays, pencil, to_the_rim
+from p2sf.raytrace.ray_field import steepness
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
@@ -127,16 +127,15 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
         # Only rays know an edge: neither six coefficients nor a fit do.
         lost = int((~rays.passed).sum())
         return _by_rays(Choice("traced", EDGE_ERROR, 0, lost, xi.size, allowed), EDGE_ERROR)
-    data = ray_data(rays)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    steep, mask = steepness(data, xi, eta), mask_seen(lens, source)
+    steep, mask = steepness(rays, xi, eta), mask_seen(lens, source)
     judges = None if mask.clear else judging_rays(lens, source, mask)
-    seidel = _seidel_error(c, (xi, eta, weight), data, judges, mask) if np.isfinite(c.w40) else inf
+    seidel = _seidel_error(c, (xi, eta, weight), rays, judges, mask) if np.isfinite(c.w40) else inf
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
     for level in levels_for(lens)[: len(QUICK_LEVELS)]:
-        found = fit_rays(data, level, level.rays, steep)
+        found = fit_rays(rays, level, level.rays, steep)
         found = found if judges is None else behind(found, judges)
         fitted = predicted_error(found.error_waves, "fitted")
         if fitted <= allowed:
@@ -167,13 +166,13 @@ def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
         return inf
     mask = mask_seen(lens, source)
     judges = None if mask.clear else judging_rays(lens, source, mask)
-    return _seidel_error(c, (xi, eta, weight), ray_data(rays), judges, mask)
+    return _seidel_error(c, (xi, eta, weight), rays, judges, mask)
 
 
 def _seidel_error(
     c: Coefficients,
     points: tuple[np.ndarray, np.ndarray, np.ndarray],
-    data: RayData,
+    data: Rays,
     judges: Judges | None,
     mask: PupilMask,
 ) -> float:
@@ -215,7 +214,7 @@ def render(
     choice = choose(lens, source, tolerance, clip)
     try:
         return _by_method(lens, source, (choice.method, choice.numbers), window, quality, tolerance, clip)
-    except SamplingError:  # rows of equal frequency need more nodes than the reference's rings do
+    except SamplingError:  # more nodes than it can sum
         if choice.method == "huygens":
             raise
         return _by_tracing(lens, source, "huygens", window, quality, clip)
@@ -227,7 +226,7 @@ def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
     if np.isfinite(c.w40):
         return float(suitable_pixel_um(c, pixels))
     check_focus(c)
-    rays = pencil(lens, source, *hexapolar(PITCH_RINGS))
+    rays = pencil(lens, source, *to_the_rim(PITCH_RINGS))
     reach = float(np.nanmax(np.hypot(rays.dx, rays.dy), initial=0.0)) * UM_PER_MM
     return 2 * (reach + WINDOW_AIRY_RADII * float(AIRY_RADIUS * c.wavelength_um / c.na)) / max(1, pixels)
 

@@ -9,6 +9,7 @@ from math import ceil
 
 import numpy as np
 
+from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -18,9 +19,12 @@ from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import binned
+from p2sf.raytrace.pencil import rays_through
+from p2sf.raytrace.vignetting import pupil_nodes
 
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
 ROUNDING = 1e-9
+RAYS = 24, 96  # radii × directions that tell how much light lands in a window
 
 
 def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray) -> np.ndarray:
@@ -32,15 +36,17 @@ def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray)
     return critical
 
 
-def samples_across(pixels: int, pixel_um: float, finest_um: float) -> int:
+def samples_across(pixels: int, pixel_um: float, finest_um: float, fewest: float = 1.0) -> int:
     """Return an odd number of samples across each pixel, within half of ``finest_um`` of each other; 1 for points.
+
+    Pixels up to ``finest_um`` wide are points, and where ``fewest`` is less than 1 only those up to that share of it.
 
     A sum over samples errs at the pixel's edges alone, by their pitch to the fourth power: in the middle of an Airy
     pattern by 4e-3 with 5 samples at ``finest_um``, 3e-4 at half. So far apart they are where that takes more than
     LARGEST a side, and at points where even this does, as where pixels are as narrow as ``finest_um``.
     """
     ratio = pixel_um / finest_um * (1 - ROUNDING)
-    counts = (ceil(2 * ratio) | 1, ceil(ratio) | 1) if ratio > 1 else ()
+    counts = (max(3, ceil(2 * ratio) | 1), ceil(ratio) | 1) if ratio > fewest else ()
     return next((across for across in counts if fine_side(pixels, across) <= LARGEST), 1)
 
 
@@ -60,26 +66,48 @@ def light_per_pixel(fine: np.ndarray, pixels: int, across: int) -> np.ndarray:
     return light.reshape(*fine.shape[:-2], pixels, pixels)
 
 
-def integrated(render_at: Callable[[int, float], Psf], pixels: int, pixel_um: float, finest_um: float) -> Psf:
-    """Return the PSF that ``render_at(samples, µm)`` makes, as light per pixel where the pitch exceeds ``finest_um``.
+def integrated(
+    render_at: Callable[[int, float], Psf],
+    pixels: int,
+    pixel_um: float,
+    finest_um: float,
+    wanted: bool | None = None,
+) -> Psf:
+    """Return the PSF that ``render_at(samples, µm)`` makes, as light per pixel or as its samples.
 
-    Where that takes more than ``LARGEST`` samples a side they are those of ``render_at``, and not ``integrated``.
+    ``wanted``: light per pixel (True), samples (False) or, if None, light where the pitch exceeds ``finest_um`` and
+    that takes at most LARGEST samples a side. Raises SamplingError where the light is wanted and takes more.
+    Samples so far apart that they add up to no share of the light take it from the light per pixel.
     """
     check_samples(pixels, pixel_um)
-    across = samples_across(pixels, pixel_um, finest_um)
-    if across == 1:
-        return render_at(pixels, pixel_um)
+    across = samples_across(pixels, pixel_um, finest_um, 0.0 if wanted else 1.0)
+    if wanted and across == 1:
+        raise SamplingError(
+            "{pixels} pixels of {pixel_um:g} µm take more than {most} samples a side to be integrated over; give "
+            "fewer or smaller pixels, or {parameter} False",
+            pixels=pixels,
+            pixel_um=pixel_um,
+            most=LARGEST,
+            parameter="integrated",
+        )
+    points = render_at(pixels, pixel_um) if across == 1 or wanted is False else None
+    if points is not None and (across == 1 or points.energy is not None):
+        return points
     fine = render_at(fine_side(pixels, across), pixel_um / across)
     light = light_per_pixel(fine.values, pixels, across)
     share = light.sum((-2, -1))  # of the light in the finer window, which may be a little larger
+    energy = None if fine.energy is None else fine.energy * (share if share.ndim else float(share))
+    if points is not None:
+        return replace(points, energy=energy)
     return replace(
         fine,
         values=light / share[..., None, None],
         pixel_um=pixel_um,
-        energy=None if fine.energy is None else fine.energy * (share if share.ndim else float(share)),
+        energy=energy,
         sampling=Message("{sampling}; {across} × {across} samples per pixel", sampling=fine.sampling, across=across),
         tolerance=None,
         integrated=True,
+        sum_over_peak=None if fine.sum_over_peak is None else fine.sum_over_peak * share / across**2,
     )
 
 
@@ -90,15 +118,35 @@ def render_integrated(
     pixels: int = 64,
     pixel_um: float | None = None,
     tolerance: float = 0.99,
+    quality: str = "settled",
+    clip: bool = False,
+    wanted: bool | None = None,
 ) -> Psf:
-    """Return `methods.render`'s PSF, as light per pixel where the pitch exceeds λ/(4 NA). Raises P2SFError as it."""
+    """Return `methods.render`'s PSF as light per pixel or as samples, as `integrated` has it; P2SFError as both.
+
+    Of a window too wide for a sum of waves the share of the light in it is that of rays.
+    """
     check_samples(pixels, pixel_um)
     if method == "gaussian":  # fitted to what pixels see
-        return gaussian_psf(render_integrated(lens, source, "huygens", pixels, pixel_um))
+        return gaussian_psf(
+            render_integrated(lens, source, "huygens", pixels, pixel_um, tolerance, quality, clip, wanted)
+        )
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    return integrated(
-        lambda count, pitch: render(lens, source, method, count, pitch, tolerance=tolerance),
+    psf = integrated(
+        lambda count, pitch: render(lens, source, method, count, pitch, quality, tolerance, clip),
         pixels,
         pixel_um or whole_pixel_um(lens, source, pixels),
         float(critical_pixel_um(c.wavelength_um, c.na)),
+        wanted,
     )
+    return psf if psf.energy is not None else replace(psf, energy=light_of_rays(lens, source, psf, clip))
+
+
+def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:
+    """Return the share of the rays' light that lands in the window of a PSF: the geometric limit of ``energy``."""
+    nodes = pupil_nodes(lens, source, RAYS, clip, whole=False).unfolded()
+    rays = rays_through(lens, source, nodes)
+    light, across, up = rays.share * rays.light, rays.x_um / psf.pixel_um, rays.y_um / psf.pixel_um
+    first, end = -(psf.values.shape[-1] // 2) - 0.5, (psf.values.shape[-1] + 1) // 2 - 0.5
+    within = (first <= across) & (across <= end) & (first <= up) & (up <= end)
+    return float(light[within].sum() / light.sum())

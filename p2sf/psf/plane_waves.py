@@ -1,30 +1,19 @@
-"""From traced or fitted rays to a PSF: one plane wave per node, summed on the sensor."""
+"""A pupil as plane waves at the sensor, one per node: their sum is the field, its square the PSF."""
 
 from dataclasses import dataclass
-from math import sqrt
-from time import perf_counter
+from functools import cached_property
+from math import ceil, inf, pi, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.messages import Message
-from p2sf.psf.result import Psf
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import nodes_for
+from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.ray_field import Steepness
 
-
-@dataclass(frozen=True)
-class Origin:
-    """How a PSF was made, for its labels; ``started`` is a `perf_counter` reading."""
-
-    method: str
-    numbers: int
-    rays: int
-    sampling: Message
-    started: float
-    tolerance: float | None = None
-    predicted_error: float | None = None
+RADIAL_STEP, ANGULAR_STEP = 4, 16  # of node counts, so that nodes that are kept serve the next picture too
 
 
 def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike = np.float64) -> np.ndarray:
@@ -36,15 +25,20 @@ def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike
     return amplitude
 
 
-def window_reach(spread: float, pixels: int, pixel_um: float) -> float:
-    """Return waves per unit pupil radius of the plane waves at the window's corner."""
-    return spread * pixel_um * (pixels // 2) * sqrt(2)
+def window_reach_um(pixels: int, pixel_um: float) -> float:
+    """Return how far the corner of a window is from the chief ray, µm."""
+    return pixel_um * (pixels // 2) * sqrt(2)
 
 
-def counts_for(steepness: Steepness, pixels: int, pixel_um: float) -> tuple[int, int]:
-    """Return (radial, angular) node counts that carry this phase over this window."""
-    reach = window_reach(steepness.spread, pixels, pixel_um)
-    return nodes_for(steepness.radial, reach, steepness.angular)
+def counts_for(steepness: Steepness, reach_um: float, share: float = 1.0) -> tuple[int, int]:
+    """Return (radial, angular) node counts that carry this phase up to a distance from the chief ray, µm.
+
+    ``share``: of the counts of `nodes_for`.
+    """
+    radial, angular = (
+        share * count for count in nodes_for(steepness.radial, steepness.spread * reach_um, steepness.angular)
+    )
+    return RADIAL_STEP * ceil(radial / RADIAL_STEP), ANGULAR_STEP * ceil(angular / ANGULAR_STEP)
 
 
 def disc_words(counts: tuple[int, int]) -> Message:
@@ -52,31 +46,71 @@ def disc_words(counts: tuple[int, int]) -> Message:
     return Message("{radii} radii × {directions} directions", radii=counts[0], directions=counts[1])
 
 
-def psf_from_intensity(
-    intensity: np.ndarray, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Origin
-) -> Psf:
-    """Return the PSF of an intensity in units of the unaberrated peak.
+@dataclass(frozen=True, eq=False)
+class Waves:
+    """Plane waves whose sum is the field, 1 at most: complex amplitudes (…, nodes), frequencies in cycles per µm.
 
-    ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an
-    integral only while the pitch is below half the period of the finest fringe; else the caller passes None.
+    ``even``: the nodes are one half of a set that is even in fx, whose amplitudes count the other too. ``blur_um``: how
+    far from the chief ray rays land. ``reach_um``: how far from it the nodes are close enough to carry the phase.
     """
-    total = float(intensity.sum(dtype=float))
-    return Psf(
-        values=intensity / total,
-        pixel_um=pixel_um,
-        wavelength_um=float(wavelength_um),
-        method=made.method,
-        strehl=float(intensity.max()),
-        energy=None if blur_um2 is None else total * pixel_um**2 / blur_um2,
-        numbers=made.numbers,
-        rays=made.rays,
-        sampling=made.sampling,
-        seconds=perf_counter() - made.started,
-        tolerance=made.tolerance,
-        predicted_error=made.predicted_error,
-    )
 
+    amplitude: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+    even: bool
+    blur_um: float
+    reach_um: float = inf
 
-def resolved(spread: float, pixel_um: float) -> bool:
-    """Return whether samples this far apart follow the finest fringes, 2·spread cycles per µm."""
-    return 2 * spread * pixel_um <= 1
+    @cached_property
+    def spread(self) -> float:
+        """Return the largest |f|, cycles per µm."""
+        return float(np.sqrt((self.fx * self.fx + self.fy * self.fy).max(initial=0.0)))
+
+    def field(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
+        """Return the field over a grid of x and y, µm, complex, (…, y, x)."""
+        amplitude = self.amplitude.astype(np.result_type(dtype, np.complex64), copy=False)
+        fx, fy = (f.astype(dtype, copy=False) for f in (self.fx, self.fy))
+        return sum_plane_waves(amplitude, fx, fy, x, y, self.even)
+
+    def intensity(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
+        """Return the intensity over a grid of x and y, µm, (…, y, x)."""
+        field = self.field(x, y, dtype)
+        intensity: np.ndarray = field.real**2 + field.imag**2
+        return intensity
+
+    @cached_property
+    def _moments(self) -> np.ndarray:
+        fx, fy = self.fx, self.fy
+        return np.stack([np.ones_like(fx), fx, fy, fx * fx, fx * fy, fy * fy])
+
+    def _moments_of(self, waves: np.ndarray) -> np.ndarray:
+        """Return the sums of waves times 1, fx, fy, fx², fx·fy and fy², complex, (6,), by products of real arrays."""
+        moments: np.ndarray = self._moments @ waves.real + 1j * (self._moments @ waves.imag)
+        return moments
+
+    def near(self, x: float, y: float) -> tuple[float, float, float, float]:
+        """Return the intensity at a place, how far Newton's step goes from there, x and y, and what it would gain.
+
+        Where the intensity does not bend down, the step goes along the gradient.
+        """
+        along = self.amplitude * np.exp((2j * pi * y) * self.fy)
+        turn = (2 * pi * x) * self.fx
+        if self.even:
+            field, _, by_y, by_xx, _, by_yy = self._moments_of(along * np.cos(turn))
+            _, by_x, _, _, by_xy, _ = self._moments_of(1j * along * np.sin(turn)) if x else np.zeros(6)
+        else:
+            field, by_x, by_y, by_xx, by_xy, by_yy = self._moments_of(along * np.exp(1j * turn))
+        # E′ = 2πi Σ f·wave and E″ = −4π² Σ f²·wave; of |E|², half of its derivatives, in units of 2π.
+        back = complex(field).conjugate()
+        slope_x, slope_y = -(back * by_x).imag, -(back * by_y).imag
+        bend_x, bend_y = abs(by_x) ** 2 - (back * by_xx).real, abs(by_y) ** 2 - (back * by_yy).real
+        bend_xy = (complex(by_x).conjugate() * by_y).real - (back * by_xy).real
+        value, determinant = abs(field) ** 2, bend_x * bend_y - bend_xy**2
+        if bend_x < 0 < determinant:
+            step_x = (bend_xy * slope_y - bend_y * slope_x) / determinant
+            step_y = (bend_xy * slope_x - bend_x * slope_y) / determinant
+        else:
+            steepest = max(abs(bend_x) + abs(bend_y), 1e-300)
+            step_x, step_y = slope_x / steepest, slope_y / steepest
+        gain = slope_x * step_x + slope_y * step_y
+        return value, step_x / (2 * pi), step_y / (2 * pi), gain

@@ -139,9 +139,10 @@ def estimated_share(psf: Psf, na: float, spreading: float = 1.0) -> float:
 
     ``spreading``: that of the mask in the stop (`mask_nodes.Throughput`).
     """
-    if psf.strehl is None or not isfinite(psf.strehl):
+    units = psf.over_unaberrated
+    total = np.nan if units is None else float(units.sum())
+    if not isfinite(total):
         return 1.0 if psf.energy is None else min(1.0, float(psf.energy))
-    total = float(psf.strehl) / float(psf.values.max())  # in units of the unaberrated peak
     return min(1.0, total * pi * (na * psf.pixel_um / float(psf.wavelength_um)) ** 2 / spreading)
 
 

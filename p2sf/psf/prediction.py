@@ -13,15 +13,19 @@ ray's light about x, by the Airy radius or by blur/√(Fresnel number), and Δf 
 
 import numpy as np
 
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.raytrace.ray_field import RayData
+from p2sf.raytrace.pencil import Rays
 
 # Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
 EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`traced.FALLBACK_TOLERANCE`)
 CAUTION = 1e-3  # 1 − R² above which a predicted error is pointed out
+
+USELESS = 1.0  # 1 − R² from which on an estimate for small phases tells only that PSFs are not alike
+TOO_FAR = Message("none: too far from exact rays to predict how far")
 
 
 def predicted_error(sigma_waves: float, method: str) -> float:
@@ -30,7 +34,7 @@ def predicted_error(sigma_waves: float, method: str) -> float:
 
 
 def seidel_sigma(
-    c: Coefficients, rays: RayData, points: tuple[np.ndarray, np.ndarray, np.ndarray], spread: float
+    c: Coefficients, rays: Rays, points: tuple[np.ndarray, np.ndarray, np.ndarray], spread: float
 ) -> float:
     """Return the RMS phase error of the six coefficients in waves, over the rays at ``points``.
 
@@ -45,6 +49,6 @@ def seidel_sigma(
     variance = weight @ (error[own] - weight @ error[own]) ** 2
     departure = weight @ (miss_x[own] ** 2 + miss_y[own] ** 2)
     # The six coefficients describe an even pupil; an error of the amplitude acts as a phase of 1/2π of it.
-    light = rays.weight[own] / (weight @ rays.weight[own] / weight.sum())
-    uneven = weight @ (light - 1) ** 2 / (2 * np.pi) ** 2
+    amplitude = rays.amplitude[own] / (weight @ rays.amplitude[own] / weight.sum())
+    uneven = weight @ (amplitude - 1) ** 2 / (2 * np.pi) ** 2
     return float(np.sqrt(variance + departure * spread**2 + uneven))

@@ -1,13 +1,17 @@
 """The point spread function as a result: samples, scale, and how they were computed."""
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, centred_axis
-from p2sf.messages import Message
+from p2sf.errors import P2SFWarning
+from p2sf.messages import Message, ParameterName
 
 UNSTATED = Message("")
+LEAST_LIGHT = 0.9  # share of all light below which a window cuts a PSF off, and this is said
+IN_WINDOW = "light in the window"  # what `Psf.energy` is called wherever it is shown, and that figures may be shares of
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,9 +32,11 @@ class Psf:
     method : str
         The method that made it.
     strehl : float or numpy.ndarray or None
-        Peak over the unaberrated peak of the same pupil; None if the method has no pupil.
+        Peak of the continuous picture, between samples too and of no pixel's width, over the unaberrated peak of the
+        same pupil; None if the method has no pupil. It is looked for wherever rays land, outside the window too,
+        unless that takes too many pupil samples: of a very wide blur only in the window.
     energy : float or numpy.ndarray or None
-        Share of all light that falls into the window; None if the samples are too far apart to tell.
+        Share of all light that falls into the window, though ``values`` have unit sum; None if it is not known.
     numbers : int
         How many coefficients describe it.
     rays : int
@@ -48,6 +54,10 @@ class Psf:
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
     integrated : bool
         Whether a sample is the light on a whole pixel; if not, it is the intensity at a point.
+    peak_um : tuple or numpy.ndarray or None
+        Where that peak is: x and y from the chief ray, µm, of a stack (…, 2).
+    sum_over_peak : float or numpy.ndarray or None
+        Sum of the samples in units of the unaberrated peak.
     """
 
     values: np.ndarray
@@ -64,6 +74,36 @@ class Psf:
     azimuth_deg: float = 0.0
     predicted_error: float | None = None
     integrated: bool = False
+    peak_um: tuple[float, float] | np.ndarray | None = None
+    sum_over_peak: float | np.ndarray | None = None
+
+    @property
+    def over_unaberrated(self) -> np.ndarray | None:
+        """Return the samples in units of the unaberrated peak; None if the method has no pupil."""
+        if self.sum_over_peak is not None:
+            scale = np.asarray(self.sum_over_peak)[..., None, None]
+        elif self.strehl is not None:  # of a file that does not state the sum
+            peak = self.values.max((-2, -1), keepdims=True)
+            scale = np.asarray(self.strehl)[..., None, None] / np.where(peak > 0, peak, 1.0)
+        else:
+            return None
+        samples: np.ndarray = self.values * scale
+        return samples
+
+    @property
+    def caution(self) -> Message | None:
+        """Return a warning where the window leaves out much of the light, None where it does not."""
+        least = 1.0 if self.energy is None or not np.size(self.energy) else float(np.min(self.energy))
+        if least >= LEAST_LIGHT:
+            return None
+        return Message(
+            "the window of {width:.4g} µm holds {share:.3g} % of the light, and the PSF has unit sum within it; "
+            "give more {pixels} or a larger {pixel}",
+            width=self.values.shape[-1] * self.pixel_um,
+            share=100 * least,
+            pixels=ParameterName("pixels"),
+            pixel=ParameterName("pixel_um"),
+        )
 
     @property
     def x_um(self) -> np.ndarray:
@@ -76,11 +116,14 @@ class Psf:
         return centred_axis(self.values.shape[-2], self.pixel_um)
 
     def __repr__(self) -> str:
-        parts = [f"{self.method}, {' × '.join(map(str, self.values.shape))} samples of {self.pixel_um:.4g} µm"]
+        samples = "integrated pixels" if self.integrated else "samples"
+        parts = [f"{self.method}, {' × '.join(map(str, self.values.shape))} {samples} of {self.pixel_um:.4g} µm"]
         if isinstance(self.wavelength_um, float):
             parts.append(f"{self.wavelength_um * NM_PER_UM:.5g} nm")
         if isinstance(self.strehl, float):
             parts.append(f"Strehl ratio {self.strehl:.3g}")
+        if isinstance(self.energy, float):
+            parts.append(f"{100 * self.energy:.3g} % of the {IN_WINDOW}")
         return f"<Psf: {', '.join(parts)}>"
 
     def _repr_png_(self) -> bytes | None:
@@ -93,3 +136,10 @@ class Psf:
         picture = BytesIO()
         draw_psf(picture, self)
         return picture.getvalue()
+
+
+def warned(psf: Psf, stacklevel: int = 3) -> Psf:
+    """Return a PSF for a script to use, after a `P2SFWarning` where its window cuts it off."""
+    if psf.caution:
+        warnings.warn(str(psf.caution), P2SFWarning, stacklevel=stacklevel)
+    return psf

@@ -1,5 +1,6 @@
 """The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
+from functools import partial
 from math import isfinite
 from time import perf_counter
 
@@ -12,8 +13,11 @@ from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf._seidel_sum import wave_number
+from p2sf.psf.fitted import waves_reaching
+from p2sf.psf.peak import peak_of, sampled_peak
+from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel_stack import SummedStack, corner_reach, stack_of
+from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
@@ -22,9 +26,11 @@ from p2sf.threads import one_blas_thread
 
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
+LARGEST_SIDE = 2**12  # samples along each side: a picture of 128 MiB, and a few of them while it is summed
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
 LARGEST_FFT = 4096
+MOST_SEARCHED = 16  # PSFs of a stack whose peaks are looked for everywhere; of more, about the brightest sample
 
 
 @one_blas_thread
@@ -62,7 +68,7 @@ def seidel_psf(
         dtype = dtype or (np.float32 if quality == "preview" else np.float64)
         stack = stack_of(coefficients, pixels, pixel_um, quality, dtype, threads, mask)
     tolerance = SETTLED_TOLERANCE if (quality, sampling) == ("settled", "mdft") else None
-    return _result(coefficients, stack, pixel_um, tolerance, start, mask)
+    return _result(coefficients, stack, pixel_um, tolerance, start, mask, quality)
 
 
 def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.ndarray:
@@ -83,12 +89,11 @@ def _by_fft(coefficients: Coefficients, pixels: int, pixel_um: float, quality: s
     """Return the PSFs of broadcast coefficients by the paper's FFT, one at a time."""
     shape = np.broadcast_shapes(*(np.shape(x) for x in vars(coefficients).values()))
     samples = fft_samples(coefficients, pixels, pixel_um, quality) if 0 not in shape else 0
-    flat = [np.broadcast_to(x, shape).ravel() for x in vars(coefficients).values()]
-    planes = [fft_intensity(Coefficients(*one), pixels, pixel_um, samples) for one in zip(*flat, strict=True)]
+    planes = [fft_intensity(one, pixels, pixel_um, samples) for one in each_of(coefficients)]
     values = np.reshape(planes, (*shape, pixels, pixels))
-    total, peak = values.sum((-2, -1)), values.max((-2, -1))
+    total = values.sum((-2, -1))
     sampling = Message("FFT of {samples} × {samples} pupil samples", samples=samples)
-    return SummedStack(values / total[..., None, None], total, peak, sampling)
+    return SummedStack(values / total[..., None, None], total, sampling)
 
 
 def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str = "preview") -> int:
@@ -129,22 +134,47 @@ def _result(
     tolerance: float | None,
     start: float,
     mask: PupilMask,
+    quality: str,
 ) -> Psf:
     wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
     energy = energy_fraction(coefficients, stack.total, pixel_um, throughput(mask).spreading)
+    strehl, place = _peaks(coefficients, stack, pixel_um, mask, quality)
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
         wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
         method="seidel",
-        strehl=float(stack.peak) if single else stack.peak,
+        strehl=float(strehl) if single else strehl,
         energy=float(energy) if single and energy is not None else energy,
         numbers=6,
         rays=2,
         sampling=stack.sampling,
         seconds=perf_counter() - start,
         tolerance=tolerance,
+        peak_um=(float(place[0]), float(place[1])) if single else place,
+        sum_over_peak=float(stack.total) if single else stack.total,
     )
+
+
+def _peaks(
+    coefficients: Coefficients, stack: SummedStack, pixel_um: float, mask: PupilMask, quality: str
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the peaks of continuous pictures in units of the unaberrated peak, (…,), and their places, (…, 2) µm."""
+    shape, pixels = stack.values.shape[:-2], stack.values.shape[-1]
+    planes, totals = stack.values.reshape(-1, pixels, pixels), np.ravel(stack.total)
+    reach_um = window_reach_um(pixels, pixel_um)
+    quality = quality if len(planes) <= MOST_SEARCHED else "preview"
+    found = []
+    for one, plane, total in zip(each_of(coefficients), planes, totals, strict=True):
+        fitted = as_fit(one, mask)
+        waves = waves_reaching(fitted, reach_um)
+        if waves is None:  # of so many waves, the brightest sample
+            peak = sampled_peak(plane * total, pixel_um)
+        else:
+            peak = peak_of(plane * total, pixel_um, waves, partial(waves_reaching, fitted), quality)
+        found.append((peak.value, peak.x_um, peak.y_um))
+    table = np.reshape(found, (*shape, 3))
+    return table[..., 0], table[..., 1:]
 
 
 def energy_fraction(
@@ -218,6 +248,10 @@ def check_samples(pixels: int, pixel_um: float | None) -> None:
     """Raise SamplingError for a count or a pitch that no samples can have; a pitch of None passes."""
     if isinstance(pixels, bool) or not isinstance(pixels, int | np.integer) or pixels < 1:
         raise SamplingError("a PSF of {pixels} samples; give a whole number from 1", pixels=pixels)
+    if pixels > LARGEST_SIDE:
+        raise SamplingError(
+            "{parameter} is {value}; give at most {most} a side", parameter="pixels", value=pixels, most=LARGEST_SIDE
+        )
     if pixel_um is not None and not (isfinite(pixel_um) and pixel_um > 0):
         raise SamplingError("a pixel of {pixel_um} µm; give a positive number", pixel_um=pixel_um)
 

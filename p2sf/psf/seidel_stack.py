@@ -5,7 +5,7 @@ and summed in batches, on the samples that the steepest of a batch needs. A batc
 much as several PSFs, so smaller batches would save less than they cost.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import ceil, sqrt
@@ -13,28 +13,20 @@ from math import ceil, sqrt
 import numpy as np
 from numpy.typing import DTypeLike
 
-from p2sf.conventions import centred_axis, protected
+from p2sf.conventions import protected
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of
 from p2sf.psf._seidel_sum import (
     BATCH,
-    annulus_fields,
     batch_intensities,
     groups,
-    scaled_shape,
     shape_terms,
-    unfolded,
     wave_number,
-    whole_fields,
 )
-from p2sf.psf.disc_rows import takes_rows
 from p2sf.psf.fitted import summed
-from p2sf.psf.plane_waves import pupil_amplitude
-from p2sf.pupil.mask import CLEAR, EDGE_HARMONICS, PupilMask, mask_slopes
-from p2sf.pupil.mask_nodes import vane_nodes
-from p2sf.pupil.outline_rows import quarter_rows
+from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.quadrature import (
     RowNodes,
     chord_rows,
@@ -42,9 +34,7 @@ from p2sf.pupil.quadrature import (
     disc_nodes,
     even_count,
     grid_rows,
-    nodes_for,
 )
-from p2sf.pupil.transform import sum_plane_waves
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, Level
 from p2sf.raytrace.ray_field import Steepness
@@ -55,6 +45,8 @@ PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
 SORTED_AT_ONCE = 512  # PSFs whose slopes are found together, which takes some mebibytes
 NODES_TOGETHER = 2**18  # nodes of quarter pupils that a thread sums at a time: some 5 ms of work
+MOST_IN_ROWS = 2**24  # nodes of a quarter pupil times pixels of a side: beyond, rows are the slower sum
+MOST_ONE_BY_ONE = 2**23  # of the whole disc: beyond, only rows do
 SEIDEL_LEVEL = Level(4, 1, 0, 0)  # of a fit that says what six coefficients do
 
 Part = tuple[slice | np.ndarray, RowNodes]
@@ -63,11 +55,10 @@ Part = tuple[slice | np.ndarray, RowNodes]
 
 @dataclass(frozen=True)
 class SummedStack:
-    """PSFs (…, pixels, pixels) of unit sum; their sums and peaks in units of the unaberrated peak; the nodes used."""
+    """PSFs (…, pixels, pixels) of unit sum; their sums in units of the unaberrated peak; the nodes used."""
 
     values: np.ndarray
     total: np.ndarray
-    peak: np.ndarray
     sampling: Message
 
 
@@ -82,26 +73,22 @@ def stack_of(
 ) -> SummedStack:
     """Return the PSFs of broadcast coefficients by `_seidel_sum`; SamplingError for too many pupil samples.
 
-    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them. A ``mask`` of equal quarters is
-    summed as the disc is, over what its iris leaves open less the obscuration, and vanes node by node; others in
-    rows of their whole pupil. A preview of one takes settled nodes in ``dtype``, for edges show the cells of a grid.
+    ``threads`` as in `p2sf.threads`; the PSFs are the same on any number of them. Behind a ``mask``, and one alone
+    that takes more than MOST_IN_ROWS products, they are summed one by one, as `fitted` is.
     """
-    if not (mask.in_quarters and takes_rows(mask)):
-        return _in_skew_rows(coefficients, pixels, pixel_um, quality, dtype, mask)
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
+    if not mask.clear or (len(terms) == 1 and _too_steep(terms, pixels, pixel_um, quality)):
+        return _one_by_one(each_of(coefficients), shape, (pixels, pixel_um), quality, dtype, threads, mask)
     values = np.empty((len(terms), pixels, pixels), dtype)
-    total, peak = np.empty(len(terms)), np.empty(len(terms))
+    total = np.empty(len(terms))
 
     def fill(parts: list[Part]) -> RowNodes:
         taken = []
         for some, rows in parts:
-            if mask.clear:
-                found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
-            else:
-                found, rows = _masked_batch(terms[some], pixels, pixel_um, mask, dtype)
+            found = batch_intensities(terms[some], pixels, pixel_um, rows, dtype)
             flat = found.reshape(len(found), -1)
-            total[some], peak[some] = np.add.reduce(flat, 1, float), np.maximum.reduce(flat, 1)
+            total[some] = np.add.reduce(flat, 1, float)
             flat /= total[some, None].astype(dtype)
             values[some] = found
             taken.append(rows)
@@ -120,66 +107,40 @@ def stack_of(
         nodes=max(used, key=_size).name if used else Message("no nodes"),
         precision=values.dtype.type.__name__,
     )
-    return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), peak.reshape(shape), sampling)
+    return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), sampling)
 
 
-def _masked_batch(
-    terms: np.ndarray, pixels: int, pixel_um: float, mask: PupilMask, dtype: DTypeLike
-) -> tuple[np.ndarray, RowNodes]:
-    """Return the PSFs of `shape_terms` of one n'u'/λ behind a mask, in units of the unaberrated peak, and the rows."""
-    pieces = _pieces(terms, pixels, pixel_um, mask)
-    even, odd, amplitude = annulus_fields(terms, pixels, pixel_um, pieces, dtype)
+def _too_steep(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> bool:
+    """Return whether the `shape_terms` of one PSF take so many products that a non-uniform FFT is faster."""
     reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
-    slope, twist = (polar_of(terms[:, :4]).max(0) + EDGE_HARMONICS * mask_slopes(mask).amplitude).tolist()
-    nodes = vane_nodes(mask, *nodes_for(slope, reach, twist))
-    if nodes is None:
-        return unfolded(even / amplitude, odd / amplitude, pixels), pieces[0][1]
-    weight = nodes.weight * nodes.amplitude
-    waves = terms[:, :4] @ shapes(nodes.xi, nodes.eta)
-    kx, ky = ((terms[0, 4] * x).astype(dtype) for x in (nodes.xi, nodes.eta))
-    axis = centred_axis(pixels, pixel_um)
-    fields = sum_plane_waves(pupil_amplitude(weight, waves, dtype), kx, ky, axis, axis, nodes.even)
-    fields += whole_fields(even, odd, pixels)
-    fields /= amplitude + float(weight.sum())
-    return np.ascontiguousarray(fields.real**2 + fields.imag**2), pieces[0][1]
+    slopes = _slopes(terms[:, :4], reach, quality)[0]
+    rows, columns = chords_for(slopes[0], slopes[-1], reach, reach / sqrt(2))
+    return MOST_IN_ROWS < rows * columns / 4 * pixels and rows * columns < MOST_ONE_BY_ONE
 
 
-def _pieces(terms: np.ndarray, pixels: int, pixel_um: float, mask: PupilMask) -> tuple[tuple[float, RowNodes], ...]:
-    """Return the radii of the disc or iris and of the obscuration in it, and the rows that carry each."""
-    made = []
-    for radius in (1.0, mask.obscuration) if mask.obscuration else (1.0,):
-        reach = corner_reach(radius * abs(float(terms[0, 4])), pixels, pixel_um)
-        slopes = chords_of(terms[:, :4] * scaled_shape(radius)).max(0)
-        slopes += EDGE_HARMONICS * mask_slopes(mask).amplitude * mask.shaded
-        counts = _counts(slopes, reach)
-        rows = quarter_rows(mask, *counts) if mask.iris and radius == 1 else chord_rows(*counts)
-        made.append((radius, shaded_rows(rows, mask, radius)))
-    return tuple(made)
-
-
-@lru_cache(maxsize=32)
-def shaded_rows(rows: RowNodes, mask: PupilMask, radius: float) -> RowNodes:
-    """Return rows over a disc of this radius with the mask's amplitude in their weights, which then sum to its mean."""
-    if not mask.shaded:
-        return rows
-    xi, eta = radius * (rows.xi + 0 * rows.weight), radius * rows.eta[:, None]
-    return replace(rows, weight=protected(rows.weight * mask.amplitude(xi, eta)))
-
-
-def _in_skew_rows(
-    coefficients: Coefficients, pixels: int, pixel_um: float, quality: str, dtype: DTypeLike, mask: PupilMask
+def _one_by_one(
+    coefficients: Sequence[Coefficients],
+    shape: tuple[int, ...],
+    window: tuple[int, float],
+    quality: str,
+    dtype: DTypeLike,
+    threads: int | None,
+    mask: PupilMask,
 ) -> SummedStack:
-    """Return the PSFs behind a mask whose quarters differ, one after the other, as those of fits with a linear map."""
-    columns = [np.asarray(x, float) for x in vars(coefficients).values()]
-    shape = np.broadcast_shapes(*(x.shape for x in columns))
-    flat = zip(*(np.broadcast_to(x, shape).ravel() for x in columns), strict=True)
-    planes, nodes = [], Message("no nodes")
-    for one in flat:
-        plane, nodes = summed(as_fit(Coefficients(*one), mask), pixels, pixel_um, quality, dtype)
-        planes.append(plane)
-    values = np.reshape(planes, (*shape, pixels, pixels)).astype(dtype)
-    total, peak = values.sum((-2, -1), dtype=float), values.max((-2, -1))
-    return SummedStack(values / total[..., None, None].astype(dtype), total, peak, nodes)
+    """Return the PSFs of a stack of this shape one after the other, as those of fits with a linear map."""
+    found = mapped(lambda one: summed(as_fit(one, mask), *window, quality), coefficients, threads)
+    planes = np.reshape([plane for plane, _ in found], (*shape, window[0], window[0])).astype(dtype)
+    total = planes.sum((-2, -1), dtype=float)
+    nodes = found[-1][1] if found else Message("no nodes")
+    return SummedStack(planes / total[..., None, None].astype(dtype), total, nodes)
+
+
+def each_of(coefficients: Coefficients) -> list[Coefficients]:
+    """Return the coefficients of each PSF of a stack, in the order of its flat array."""
+    columns = np.broadcast_arrays(*(np.asarray(x, float) for x in vars(coefficients).values()))
+    if not columns[0].shape:
+        return [coefficients]
+    return [Coefficients(*one) for one in zip(*(column.ravel() for column in columns), strict=True)]
 
 
 def as_fit(coefficients: Coefficients, mask: PupilMask) -> FittedPencil:

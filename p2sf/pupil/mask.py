@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.arguments import check_fields, real_array
 from p2sf.conventions import protected
 from p2sf.errors import RequestError
 from p2sf.parameters import check_finite
@@ -41,7 +42,7 @@ class PupilMap:
     """
 
     def __init__(self, values: ArrayLike):
-        table = np.array(values, dtype=float)
+        table = real_array("values", values)
         if table.ndim != 2 or table.shape[0] != table.shape[1] or not FEWEST_CELLS <= len(table) <= MOST_CELLS:
             raise RequestError(
                 "a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side",
@@ -59,7 +60,7 @@ class PupilMap:
         """Return the map of a function of (ξ, η), sampled once, also a little outside the disc: |ξ|, |η| < 1."""
         centre = (2 * np.arange(size) + 1 - size) / size
         xi, eta = np.meshgrid(centre, centre)
-        return cls(np.broadcast_to(np.asarray(function(xi, eta), dtype=float), xi.shape))
+        return cls(np.broadcast_to(real_array("function", function(xi, eta)), xi.shape))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, PupilMap) and self._digest == other._digest
@@ -149,6 +150,7 @@ class PupilMask:
     turn_deg: float = 0.0
 
     def __post_init__(self) -> None:
+        check_fields(self)
         _check_between("obscuration", self.obscuration, 0, LARGEST_OBSCURATION)
         _check_count("vanes", self.vanes, 1, MOST_VANES)
         _check_between("vane_width", self.vane_width, 0, WIDEST_VANE)
@@ -233,12 +235,6 @@ class PupilMask:
             and all(upright and part.even for part in maps)
             and all(term.m == 0 or (upright and term.even) for term in terms)
         )
-
-    @cached_property
-    def in_quarters(self) -> bool:
-        """Return whether all quarters of the mask, without its vanes, are mirror images and have no phase."""
-        upright = not self.iris or (self.blades % 2 == 0 and replace(self, vanes=0).even)
-        return upright and self.amplitude_map is None and not self.phased
 
     @cached_property
     def round(self) -> bool:

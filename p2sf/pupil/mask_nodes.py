@@ -6,7 +6,7 @@ integrated along and across itself. So no edge falls between nodes, and the sums
 Amplitude and phase are factors at the nodes (handbook 4.6).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, cos, inf, pi, sin, tan
@@ -42,10 +42,31 @@ class ClearNodes:
     path_um: FloatOrArray = 0.0
     even: bool = True
 
-    def part(self, some: slice) -> "ClearNodes":
+    @property
+    def axes(self) -> np.ndarray:
+        """Return the coordinates that a tilt is linear in, (1 or 2, nodes): over the half disc η alone."""
+        return self.eta[None] if self.even else np.stack([self.eta, self.xi])
+
+    def part(self, some: slice | np.ndarray) -> "ClearNodes":
         """Return only these nodes; their weights no longer sum to 1."""
         amplitude, path = (x[some] if isinstance(x, np.ndarray) else x for x in (self.amplitude, self.path_um))
         return ClearNodes(self.xi[some], self.eta[some], self.weight[some], self.share, amplitude, path, self.even)
+
+    def with_points(self, xi: np.ndarray, eta: np.ndarray) -> "ClearNodes":
+        """Return the nodes and behind them points of no area, where the mask counts as open."""
+        amplitude, path = (
+            np.append(v, np.full(xi.size, one)) if isinstance(v, np.ndarray) else v
+            for v, one in ((self.amplitude, 1.0), (self.path_um, 0.0))
+        )
+        weight = np.append(self.weight, np.zeros(xi.size))
+        return replace(
+            self,
+            xi=np.append(self.xi, xi),
+            eta=np.append(self.eta, eta),
+            weight=weight,
+            amplitude=amplitude,
+            path_um=path,
+        )
 
     def unfolded(self) -> "ClearNodes":
         """Return nodes over the whole disc, for light that is not even in ξ."""
@@ -85,23 +106,12 @@ def edge_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
     Their weights are negative shares of the disc's area: added to those of the disc less the obscuration, they leave
     what the mask leaves open. So little of the disc lies there that a sum node by node costs little.
     """
-    return _covered(mask, radial, angular, True)
-
-
-def vane_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
-    """Return those of `edge_nodes` over vanes, which are to be taken from the iris; None where there are none."""
-    return _covered(mask, radial, angular, False)
-
-
-def _covered(mask: PupilMask, radial: int, angular: int, blades: bool) -> ClearNodes | None:
-    return (_kept_covered if radial * angular <= MOST_KEPT else _kept_covered.__wrapped__)(
-        mask, radial, angular, blades
-    )
+    return (_kept_covered if radial * angular <= MOST_KEPT else _kept_covered.__wrapped__)(mask, radial, angular)
 
 
 @lru_cache(maxsize=16)
-def _kept_covered(mask: PupilMask, radial: int, angular: int, blades: bool) -> ClearNodes | None:
-    pieces = [_segments(mask, radial, angular)] if mask.iris and blades else []
+def _kept_covered(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
+    pieces = [_segments(mask, radial, angular)] if mask.iris else []
     for angle in mask.vane_angles:
         pieces += _vane(mask, angle, radial)
     if mask.even:

@@ -1,6 +1,7 @@
 """From pupil to focal plane, in plain formulas: a sum over nodes, a matrix DFT, and the paper's padded FFT.
 
-All three share one sign: field(x, y) = Σ amplitude · exp(+2πi(kx·x + ky·y)), k in cycles per µm. A pupil
+A sum over many nodes and samples is a non-uniform FFT (Barnett, Magland & af Klinteberg 2019, finufft).
+All share one sign: field(x, y) = Σ amplitude · exp(+2πi(kx·x + ky·y)), k in cycles per µm. A pupil
 point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
 
 See handbook 4.1.
@@ -14,7 +15,10 @@ from p2sf.pupil.phasors import cosine_sine
 
 # Nodes per block of the direct sum: large enough for BLAS, small enough to stay in the cache.
 BLOCK = 4096
-LINE_GRID = 2**15  # frequencies of a sum on a line: 3e-4 at the ends of 513 points
+MOST_PRODUCTS = 2**20  # nodes × samples from which a non-uniform FFT is the faster sum
+NUFFT_ERROR = {np.dtype(np.float64): 1e-14, np.dtype(np.float32): 1e-6}  # of the round-off of each precision
+COARSE_ERROR = 1e-9  # least that a grid 1.25 times as fine as the samples allows, where 2 times is slow
+MANY_SAMPLES = 2**15  # beyond which that one is taken, whose square, 1e-18, is the error of a picture in R²
 
 
 def sum_plane_waves(
@@ -24,14 +28,52 @@ def sum_plane_waves(
 
     ``amplitude``, ``kx``, ``ky``: (…, nodes), broadcast; ``x``, ``y``: 1-D, in units of 1/k. ``even``: the nodes
     are one half of a set that is even in kx (folded weights), so the x kernel is a cosine and only |x| matters.
-    Precision follows ``kx`` (float32 or float64).
+    Precision follows ``kx`` (float32 or float64). On evenly spaced axes, more than MOST_PRODUCTS nodes × samples are
+    summed by a non-uniform FFT, to NUFFT_ERROR of the largest sum that these amplitudes could have.
     """
     amplitude, kx, ky = np.asarray(amplitude), np.asarray(kx), np.asarray(ky)
     x, y = (np.asarray(axis, dtype=kx.dtype) for axis in (x, y))
+    many = x.size * y.size > 1 and amplitude.shape[-1] * x.size * y.size > MOST_PRODUCTS
+    if many and _evenly_spaced(x) and _evenly_spaced(y):
+        return _nufft(amplitude, kx, ky, x, y, even)
     block = _even_block if even else _plain_block
     nodes = amplitude.shape[-1]
     parts = (slice(start, start + BLOCK) for start in range(0, nodes, BLOCK))
     return np.asarray(sum(block(amplitude[..., part], kx[..., part], ky[..., part], x, y) for part in parts))
+
+
+def _evenly_spaced(axis: np.ndarray) -> bool:
+    if axis.size == 1:
+        return True
+    steps = np.diff(axis)
+    rounding = 8 * np.finfo(axis.dtype).eps * np.abs(axis).max(initial=0)
+    return bool(steps[0] > 0) and bool(np.ptp(steps) <= rounding)
+
+
+def _nufft(
+    amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray, even: bool
+) -> np.ndarray:
+    """Return `sum_plane_waves` over evenly spaced axes by a non-uniform FFT of type 1, each set of nodes in turn."""
+    import finufft
+
+    shape = np.broadcast_shapes(amplitude.shape, kx.shape, ky.shape)
+    sets = [np.broadcast_to(array, shape).reshape(-1, shape[-1]) for array in (amplitude, kx, ky)]
+    steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
+    middle = float(x[x.size // 2]), float(y[y.size // 2])  # where Fourier mode 0 is
+    fields = np.empty((len(sets[0]), y.size, x.size), complex)
+    exact = kx.dtype == np.float64 and x.size * y.size <= MANY_SAMPLES
+    settings = {"eps": max(NUFFT_ERROR[kx.dtype], 0.0 if exact else COARSE_ERROR), "isign": 1, "nthreads": 1}
+    settings["upsampfac"] = 2.0 if exact else 1.25
+    for field, weight, across, up in zip(fields, *sets, strict=True):
+        if even:
+            weight, across, up = np.tile(weight / 2, 2), np.concatenate([across, -across]), np.tile(up, 2)
+        if any(middle):
+            weight = weight * np.exp(2j * np.pi * (across * middle[0] + up * middle[1]))
+        turns = [np.ascontiguousarray(k, float) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
+        # Single precision gains nothing: its Fourier transforms are no faster.
+        transform = finufft.nufft2d1 if len(turns) == 2 else finufft.nufft1d1
+        transform(*turns, weight.astype(complex), out=field if len(turns) == 2 else field.ravel(), **settings)
+    return fields.astype(np.result_type(kx.dtype, np.complex64), copy=False).reshape(*shape[:-1], y.size, x.size)
 
 
 def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -73,23 +115,6 @@ def _wave(cycles: np.ndarray) -> np.ndarray:
     cosine, sine = cosine_sine(np.array(cycles, dtype=float), np.float64)
     wave: np.ndarray = cosine + 1j * sine
     return wave
-
-
-def sum_on_line(amplitude: np.ndarray, k: ArrayLike, count: int, step: float) -> np.ndarray:
-    """Return Σ_j amplitude_j exp(2πi·k_j·x) at ``count`` points ``step`` apart, point count//2 at x = 0; complex.
-
-    ``amplitude``, ``k``: (nodes,). Each node is split linearly between the two nearest frequencies of a grid, which
-    an FFT sums: an error of (π·count/2/LINE_GRID)²/2 of each node at the line's ends, less inside.
-    """
-    place = np.asarray(k) * (step * LINE_GRID)
-    left = np.floor(place)
-    part, bins = place - left, left.astype(np.intp) % LINE_GRID
-    grid = np.zeros(LINE_GRID, complex)
-    for shift, weight in ((0, 1 - part), (1, part)):
-        share, where = amplitude * weight, (bins + shift) % LINE_GRID
-        grid.real += np.bincount(where, share.real, LINE_GRID)
-        grid.imag += np.bincount(where, share.imag, LINE_GRID)
-    return np.fft.ifft(grid, norm="forward")[np.arange(count) - count // 2]
 
 
 def matrix_dft(pupil: np.ndarray, kx: ArrayLike, ky: ArrayLike, x: ArrayLike, y: ArrayLike) -> np.ndarray:

@@ -73,7 +73,7 @@ def zernike_terms(order: ZernikeOrder, count: int) -> tuple[ZernikeTerm, ...]:
     """Return the first ``count`` terms of an order. Raises RequestError."""
     if order not in ORDERS:
         raise RequestError('{parameter} is "{value}"; choose noll or fringe', parameter="basis", value=str(order))
-    if not 1 <= count <= MOST_TERMS[order]:
+    if not 1 <= count <= MOST_TERMS[order] or count % 1:
         raise RequestError(
             "{parameter} is {value}; give a whole number from {low} to {high}",
             parameter="terms",
@@ -81,7 +81,7 @@ def zernike_terms(order: ZernikeOrder, count: int) -> tuple[ZernikeTerm, ...]:
             low=1,
             high=MOST_TERMS[order],
         )
-    return tuple((_noll if order == "noll" else _fringe)(number) for number in range(1, count + 1))
+    return tuple((_noll if order == "noll" else _fringe)(number) for number in range(1, int(count) + 1))
 
 
 def _noll(number: int) -> ZernikeTerm:

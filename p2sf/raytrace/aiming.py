@@ -5,7 +5,7 @@ See handbook 8.2.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import sqrt
+from math import inf, sqrt
 from typing import TypeAlias
 
 import numpy as np
@@ -19,7 +19,7 @@ from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
 from p2sf.pupil.quadrature import disc_nodes, whole_disc
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient
-from p2sf.raytrace.stop_map import SkewStopMap, StopMap
+from p2sf.raytrace.stop_map import StopMap
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
@@ -28,12 +28,13 @@ STEPS_TOGETHER = 2  # of all rays at once; those that need more are fewer, and t
 AIM_ERROR = 1e-10  # of the pupil's radius: the most that an entrance point may be off
 CHIEF_AIM_ERROR = 1e-6  # the same for the chief ray where other rays are only looked for from there
 SUM_AIM_ERROR = 1e-6  # the same for rays whose phase and frequency are taken as they are, only their cell is off
-DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the weight, is good to that
+DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the launch weight, is good to that
 ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
-FINE_ORDER, FINE_NODES = 15, (9, 34)
-WEIGHT_ERROR = 1e-5  # the most that a weight by a map may be off, on the rim
+FINE = (15, (9, 34)), (21, (12, 46))  # orders and nodes of maps that may stand for aiming
+NEARLY = 1e-6  # of the pupil's radius: a map that is farther off is not exact at the next order either
+WEIGHT_ERROR = 1e-5  # the most that a launch weight by a map may be off, on the rim
 RIM_RAYS = 9  # by which maps are judged
 LAST_MOVE = 0.3  # of the root of the error allowed: a Newton step leaves its square, times the map's curvature
 SEARCH_RADII, SEARCH_POINTS = 4.0, 33  # of the paraxial pupil, where the chief ray is looked for; points a side
@@ -63,7 +64,7 @@ class PupilRays:
     dx/dz, dy/dz. ``path``: optical path from the source, mm, less that to the pupil's centre; for a source at
     infinity, from the plane wavefront through that centre. ``index``: per medium, object space first, at
     ``wavelength_um``, (…, 1) or a number.
-    ``weight``: the light sent through unit area about (ξ, η), over that of the paraxial pupil's: the solid angle times
+    ``launch``: the light sent through unit area about (ξ, η), over that of the paraxial pupil's: the solid angle times
     the square of the distance, for a source at infinity an area; 1 for the paraxial pupil itself. ``stop_surface``: the
     stop at which rays were aimed, 0 if they were not; a ray that could not be aimed is NaN. ``reach`` and
     ``chief_slope``, (…, 1): as in `Entrance`, which is where the source stands.
@@ -79,7 +80,7 @@ class PupilRays:
     wavelength_um: FloatOrArray
     reach: FloatOrArray
     chief_slope: FloatOrArray
-    weight: FloatOrArray = 1.0
+    launch: FloatOrArray = 1.0
     stop_surface: int = 0
 
     @property
@@ -171,12 +172,18 @@ def pupil_rays(
     found = _stop_map(lens, source, aim_error) if stop is None and xi.size >= MANY and _single(enter) else None
     if found is None:
         return _aimed(lens, source, enter, stop, xi, eta, aim_error)
-    x, y, weight = found.at(xi, eta)
-    return replace(_through(enter, x, y), weight=weight, stop_surface=int(np.max(enter.stop.surface)))
+    x, y, launch = found.at(xi, eta)
+    return replace(_through(enter, x, y), launch=launch, stop_surface=int(np.max(enter.stop.surface)))
 
 
 def _check_aim(lens: Lens) -> None:
-    """Raise GeometryError for an aim that takes the pupil of a misaligned lens for a disc."""
+    """Raise GeometryError for an aim that takes the pupil of a misaligned or shading lens for an even disc."""
+    if lens.aim == "paraxial" and lens.shading_surface:
+        raise GeometryError(
+            "surface {surface} passes a share of light that changes with the height, which the paraxial pupil takes "
+            "for even; aim at the stop",
+            surface=lens.shading_surface,
+        )
     if lens.misaligned and lens.aim == "paraxial":
         raise GeometryError(
             "parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop",
@@ -211,7 +218,7 @@ def arriving(
     beam.exempt = 1
     run(lens, beam, rays.index, rims)
     beam.path += rays.path
-    return beam, rays.weight, rays.index
+    return beam, rays.launch, rays.index
 
 
 def _single(enter: Entrance) -> bool:
@@ -262,15 +269,15 @@ def _aimed(
     elif found.missed.any():
         found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
-    weight = _weight(enter, found.x, found.y, found.gain)
-    return replace(_through(enter, found.x, found.y), weight=weight, stop_surface=int(np.max(enter.stop.surface)))
+    launch = _launch_weight(enter, found.x, found.y, found.gain)
+    return replace(_through(enter, found.x, found.y), launch=launch, stop_surface=int(np.max(enter.stop.surface)))
 
 
-def _weight(enter: Entrance, x: np.ndarray, y: np.ndarray, gain: np.ndarray) -> np.ndarray:
+def _launch_weight(enter: Entrance, x: np.ndarray, y: np.ndarray, gain: np.ndarray) -> np.ndarray:
     """Return the weights of aimed rays through these entrance points; ``gain`` = ∂(stop point)/∂(entrance point)."""
     area = (float(np.max(enter.stop.semi_diameter)) / enter.radius) ** 2 / gain
-    weight: np.ndarray = area * _oblique(enter, x, y)
-    return weight
+    launch: np.ndarray = area * _oblique(enter, x, y)
+    return launch
 
 
 def _oblique(enter: Entrance, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -304,7 +311,7 @@ def _aimed_to_sensor(
             run(lens, beam, enter.index, first=at + 1)
             beam.path += launched.path
             x, y = x + move_x, y + move_y
-            return _between(beam, move_x / step, move_y / step), _weight(enter, x, y, gain), enter.index
+            return _between(beam, move_x / step, move_y / step), _launch_weight(enter, x, y, gain), enter.index
         x, y = x + move_x, y + move_y
     return None
 
@@ -317,14 +324,14 @@ def _mapped_to_sensor(
     if found is None:
         return None
     at, rim = int(np.max(enter.stop.surface)), float(np.max(enter.stop.semi_diameter))
-    x, y, weight = found.at(xi, eta)
+    x, y, launch = found.at(xi, eta)
     rays = _through(enter, x, y)
     beam, goal = run(lens, start(rays), enter.index, last=at), _goal(enter, xi, eta)
     if not np.hypot(goal[0] - beam.x, goal[1] - beam.y).max() <= aim_error * rim:
         return None
     run(lens, beam, enter.index, first=at + 1)
     beam.path += rays.path
-    return beam, weight, enter.index
+    return beam, launch, enter.index
 
 
 def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
@@ -340,6 +347,8 @@ def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
     place, ray = (moved(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray))
     out = Beam(place, ray, beam.wavelength_um)
     out.path = moved(*beam.path)
+    if isinstance(beam.transmission, np.ndarray):
+        out.transmission = moved(*beam.transmission)
     if beam.status.any():
         for status, surface in zip(beam.status, beam.failed_surface, strict=True):
             fresh = (out.status == Status.PASSED) & (status != Status.PASSED)
@@ -440,17 +449,20 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
-    """Return entrance points from which Newton's method starts: by the pupil map, or for few rays the paraxial ones."""
-    if lens.misaligned:
-        return _skew_guess(lens, source, enter, stop, xi, eta)
-    if xi.size < FEW:
-        return _paraxial(enter, xi, eta)
-    known = stop is None and isinstance(source, Source)
-    found = _cached_rough_map(lens, source) if known else _rough_map(lens, enter)
-    if found is None:
-        return _paraxial(enter, xi, eta)
-    x, y = StopMap.of(ROUGH_ORDER, *found).at(xi, eta)
-    return x, y
+    """Return entrance points from which Newton's method starts: by the pupil map, or for few rays by first order."""
+    chief = _chief_aim(lens, source, enter, stop) if lens.misaligned else None
+    if xi.size >= FEW:
+        known = stop is None and isinstance(source, Source)
+        found = _cached_rough_map(lens, source) if known else _rough_map(lens, enter, chief)
+        if found is not None:
+            x, y = StopMap.of(ROUGH_ORDER, *found, symmetric=not lens.misaligned).at(xi, eta)
+            return x, y
+    return _first_order_points(enter, chief, xi, eta)
+
+
+def _first_order_points(enter: Entrance, chief: "_Aim | None", xi: Nodes, eta: Nodes) -> Point:
+    """Return points of the paraxial entrance pupil, without symmetry those about the chief ray."""
+    return _paraxial(enter, xi, eta) if chief is None else _about_chief(chief, _goal(enter, xi, eta))
 
 
 def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
@@ -461,30 +473,26 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
 
 @lru_cache(maxsize=64)
 def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
-    return _rough_map(lens, entrance(lens, source))
+    enter = entrance(lens, source)
+    return _rough_map(lens, enter, _cached_chief_aim(lens, source) if lens.misaligned else None)
 
 
 @lru_cache(maxsize=16)
-def _weighing_map(lens: Lens, source: Source) -> StopMap | SkewStopMap | None:
-    """Return the rough map, with weights by its own areas."""
-    if lens.misaligned:
-        return _skew_weighing_map(lens, source)
-    found, enter = _cached_rough_map(lens, source), entrance(lens, source)
-    if found is None:
-        return None
-    x, y = found
-    weight, even = _own_weight(enter, x, y, ROUGH_ORDER, ROUGH_NODES), _terms(ROUGH_ORDER, ROUGH_NODES, False)[0]
-    return StopMap.of(ROUGH_ORDER, x, y, even @ (disc_nodes(*ROUGH_NODES).weight * weight))
+def _weighing_map(lens: Lens, source: Source) -> StopMap | None:
+    """Return the rough map, with launch weights by its own areas."""
+    found = _cached_rough_map(lens, source)
+    return None if found is None else _with_launch(entrance(lens, source), *found, _terms_at(lens, ROUGH_ORDER))
 
 
-def _rough_map(lens: Lens, enter: Entrance) -> Point | None:
+def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None") -> Point | None:
     """Return coefficients of the entrance points x and y over the stop, confirmed by no ray; None if rays are lost.
 
-    Rays through the paraxial pupil land on the stop at scattered points; a least-squares fit over those gives the map
+    Rays through first-order points land on the stop at scattered points; a least-squares fit over those gives the map
     from the stop back to the pupil without a search. Of several sources, those that lose a ray keep the paraxial map.
+    Without symmetry each has all terms, the even ones first.
     """
-    nodes, rim = disc_nodes(*ROUGH_NODES), float(np.max(enter.stop.semi_diameter))
-    x, y = _paraxial(enter, nodes.xi, nodes.eta)
+    nodes, rim = _terms_at(lens, ROUGH_ORDER), float(np.max(enter.stop.semi_diameter))
+    x, y = _first_order_points(enter, chief, nodes.xi, nodes.eta)
     beam = _at_stop(lens, enter, (x, y))
     met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
     if not met.any():
@@ -492,47 +500,89 @@ def _rough_map(lens: Lens, enter: Entrance) -> Point | None:
     scale = enter.upright / rim
     landed = np.where(met, scale * beam.x, nodes.xi), np.where(met, scale * beam.y, nodes.eta)
     even, odd = basis_by_powers(ROUGH_ORDER, *landed)
+    if chief is not None:
+        even = odd = np.concatenate([even, odd], axis=-2)
     return _least_squares(odd, x), _least_squares(even, y)
 
 
-@lru_cache(maxsize=4)
-def _terms(order: int, counts: tuple[int, int], odd: bool) -> tuple[np.ndarray, Point]:
-    """Return the odd or the even terms at nodes of the half disc, (terms, nodes), and their gradients."""
-    nodes = disc_nodes(*counts)
-    return basis(order, nodes.xi, nodes.eta, odd), gradient(order, nodes.xi, nodes.eta, odd)
+@dataclass(frozen=True, eq=False)
+class _MapTerms:
+    """Nodes over the half disc, without symmetry over the whole, and there the terms of x and y and their gradients.
+
+    x has the terms odd in ξ, y and launch weights the even ones, each (terms, nodes); without symmetry all have all.
+    """
+
+    order: int
+    xi: np.ndarray
+    eta: np.ndarray
+    share: np.ndarray
+    of_x: np.ndarray
+    of_y: np.ndarray
+    slopes_x: Point
+    slopes_y: Point
+    symmetric: bool
 
 
-def _own_weight(enter: Entrance, x: np.ndarray, y: np.ndarray, order: int, counts: tuple[int, int]) -> np.ndarray:
-    """Return the weights at nodes of the half disc by the areas of the map with these coefficients of x and y."""
-    odd, (odd_xi, odd_eta) = _terms(order, counts, True)
-    even, (even_xi, even_eta) = _terms(order, counts, False)
-    area = (x @ odd_xi) * (y @ even_eta) - (x @ odd_eta) * (y @ even_xi)
-    weight: np.ndarray = area / enter.radius**2 * _oblique(enter, x @ odd, y @ even)
-    return weight
+def _terms_at(lens: Lens, order: int, counts: tuple[int, int] = ROUGH_NODES) -> _MapTerms:
+    return _map_terms(order, counts, not lens.misaligned)
+
+
+@lru_cache(maxsize=8)
+def _map_terms(order: int, counts: tuple[int, int], symmetric: bool) -> _MapTerms:
+    half = disc_nodes(*counts)
+    xi, eta, share = (half.xi, half.eta, half.weight) if symmetric else whole_disc(*counts)
+    even, odd = (basis(order, xi, eta, flag) for flag in (False, True))
+    of_even, of_odd = (gradient(order, xi, eta, flag) for flag in (False, True))
+    if symmetric:
+        return _MapTerms(order, xi, eta, share, odd, even, of_odd, of_even, True)
+    rows, slopes = np.concatenate([even, odd]), [np.concatenate(pair) for pair in zip(of_even, of_odd, strict=True)]
+    both = slopes[0], slopes[1]
+    return _MapTerms(order, xi, eta, share, rows, rows, both, both, False)
+
+
+def _with_launch(enter: Entrance, x: np.ndarray, y: np.ndarray, at: _MapTerms) -> StopMap:
+    """Return the map with these coefficients of x and y, and with launch weights by its own areas."""
+    (x_xi, x_eta), (y_xi, y_eta) = at.slopes_x, at.slopes_y
+    area = (x @ x_xi) * (y @ y_eta) - (x @ x_eta) * (y @ y_xi)
+    launch = area / enter.radius**2 * _oblique(enter, x @ at.of_x, y @ at.of_y)
+    return StopMap.of(at.order, x, y, at.of_y @ (at.share * launch), symmetric=at.symmetric)
 
 
 @lru_cache(maxsize=64)
-def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | SkewStopMap | None:
+def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
     """Return the map through aimed rays that stands for aiming itself; None where rays on the rim disprove it."""
-    if lens.misaligned:
-        return _skew_stop_map(lens, source, aim_error)
-    nodes, turn = disc_nodes(*FINE_NODES), np.linspace(0, np.pi, RIM_RAYS)
-    held, enter, count = (np.sin(turn), np.cos(turn)), entrance(lens, source), nodes.xi.size
-    xi, eta = np.append(nodes.xi, held[0]), np.append(nodes.eta, held[1])
-    rays = _aimed(lens, source, enter, None, xi, eta, AIM_ERROR)
+    for sampling in FINE:
+        found, off, off_weight = _map_through_rays(lens, source, *sampling)
+        if off <= aim_error and off_weight <= WEIGHT_ERROR:
+            return found
+        if not off <= NEARLY:
+            break
+    return None
+
+
+def _map_through_rays(
+    lens: Lens, source: Source, order: int, counts: tuple[int, int]
+) -> tuple[StopMap | None, float, float]:
+    """Return a map, and how far points, in radii, and weights are off on the rim; None where rays are lost."""
+    at, enter = _terms_at(lens, order, counts), entrance(lens, source)
+    turn = np.linspace(0, np.pi, RIM_RAYS) if at.symmetric else np.arange(2 * RIM_RAYS) * (np.pi / RIM_RAYS)
+    held, count = (np.sin(turn), np.cos(turn)), at.xi.size
+    rays = _aimed(lens, source, enter, None, np.append(at.xi, held[0]), np.append(at.eta, held[1]), AIM_ERROR)
     if not np.isfinite(rays.x).all():
-        return None
-    true = rays.x, rays.y, np.asarray(rays.weight)
-    x, y = (
-        _terms(FINE_ORDER, FINE_NODES, flag)[0] @ (nodes.weight * column[:count])
-        for flag, column in zip((True, False), true[:2], strict=True)
-    )
-    # By the map's own areas: those by differences are off by some 1e-6.
-    weight = _own_weight(enter, x, y, FINE_ORDER, FINE_NODES)
-    found = StopMap.of(FINE_ORDER, x, y, _terms(FINE_ORDER, FINE_NODES, False)[0] @ (nodes.weight * weight))
-    off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
-    exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
-    return found if exact else None
+        return None, inf, inf
+    true = rays.x, rays.y, np.asarray(rays.launch)
+    x, y = (rows @ (at.share * column[:count]) for rows, column in zip((at.of_x, at.of_y), true[:2], strict=True))
+    # By the map's own areas: those by differences are off by some 1e-6, which do not cancel without symmetry.
+    found = _with_launch(enter, x, y, at)
+    return found, *_off_on_rim(found.at(*held), true, enter)
+
+
+def _off_on_rim(
+    mapped: np.ndarray, true: tuple[np.ndarray, np.ndarray, np.ndarray], enter: Entrance
+) -> tuple[float, float]:
+    """Return the largest errors of points, in radii, and of weights by a map at the last of the rays."""
+    off_x, off_y, off = (one - column[-one.size :] for one, column in zip(mapped, true, strict=True))
+    return float(np.hypot(off_x, off_y).max()) / enter.radius.item(), float(np.abs(off).max())
 
 
 def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -610,83 +660,3 @@ def _outwards(lens: Lens, enter: Entrance, goal: Point, chief: _Aim, found: _Aim
     for old, new in zip(vars(found).values(), vars(again).values(), strict=True):
         old[..., lost] = np.where(better, new, old[..., lost])
     return found
-
-
-def _skew_guess(
-    lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes
-) -> Point:
-    """Return entrance points from which Newton's method starts in a lens without symmetry."""
-    chief = _chief_aim(lens, source, enter, stop)
-    if xi.size < FEW:
-        return _about_chief(chief, _goal(enter, xi, eta))
-    known = stop is None and isinstance(source, Source)
-    found = _cached_skew_map(lens, source) if known else _skew_map(lens, enter, chief)
-    if found is None:
-        return _about_chief(chief, _goal(enter, xi, eta))
-    x, y = SkewStopMap.of(ROUGH_ORDER, *found).at(xi, eta)
-    return x, y
-
-
-@lru_cache(maxsize=64)
-def _cached_skew_map(lens: Lens, source: Source) -> Point | None:
-    enter = entrance(lens, source)
-    return _skew_map(lens, enter, _cached_chief_aim(lens, source))
-
-
-def _skew_map(lens: Lens, enter: Entrance, chief: _Aim) -> Point | None:
-    """Return coefficients as `_rough_map` does, of all terms, from rays around the chief ray."""
-    xi, eta, _ = whole_disc(*ROUGH_NODES)
-    x, y = _about_chief(chief, _goal(enter, xi, eta))
-    beam = _at_stop(lens, enter, (x, y))
-    met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
-    if not met.any():
-        return None
-    scale = enter.upright / float(np.max(enter.stop.semi_diameter))
-    landed = np.where(met, scale * beam.x, xi), np.where(met, scale * beam.y, eta)
-    rows = np.concatenate(basis_by_powers(ROUGH_ORDER, *landed), axis=-2)
-    return _least_squares(rows, x), _least_squares(rows, y)
-
-
-@lru_cache(maxsize=2)
-def _skew_terms(order: int, nodes: tuple[int, int]) -> tuple[np.ndarray, Point]:
-    """Return all terms at nodes of the whole disc, the even ones first, (terms, nodes), and their gradients."""
-    xi, eta, _ = whole_disc(*nodes)
-    rows = np.concatenate([basis(order, xi, eta, odd) for odd in (False, True)])
-    slopes = [gradient(order, xi, eta, odd) for odd in (False, True)]
-    along_xi, along_eta = (np.concatenate([part[axis] for part in slopes]) for axis in (0, 1))
-    return rows, (along_xi, along_eta)
-
-
-def _skew_weighing_map(lens: Lens, source: Source) -> SkewStopMap | None:
-    found, enter = _cached_skew_map(lens, source), entrance(lens, source)
-    if found is None:
-        return None
-    (x, y), (rows, _) = found, _skew_terms(ROUGH_ORDER, ROUGH_NODES)
-    weight = _skew_weight(enter, x, y, ROUGH_ORDER, ROUGH_NODES)
-    return SkewStopMap.of(ROUGH_ORDER, x, y, rows @ (whole_disc(*ROUGH_NODES)[2] * weight))
-
-
-def _skew_weight(enter: Entrance, x: np.ndarray, y: np.ndarray, order: int, nodes: tuple[int, int]) -> np.ndarray:
-    """Return the weights at nodes of the whole disc by the areas of a map with these coefficients."""
-    rows, (along_xi, along_eta) = _skew_terms(order, nodes)
-    area = (x @ along_xi) * (y @ along_eta) - (x @ along_eta) * (y @ along_xi)
-    weight: np.ndarray = area / enter.radius**2 * _oblique(enter, x @ rows, y @ rows)
-    return weight
-
-
-def _skew_stop_map(lens: Lens, source: Source, aim_error: float) -> SkewStopMap | None:
-    """Return what `_stop_map` does for a lens without symmetry."""
-    (xi, eta, area), turn = whole_disc(*FINE_NODES), np.arange(2 * RIM_RAYS) * (np.pi / RIM_RAYS)
-    held, enter, count = (np.sin(turn), np.cos(turn)), entrance(lens, source), xi.size
-    rays = _aimed(lens, source, enter, None, np.append(xi, held[0]), np.append(eta, held[1]), AIM_ERROR)
-    if not np.isfinite(rays.x).all():
-        return None
-    true = rays.x, rays.y, np.asarray(rays.weight)
-    rows = _skew_terms(FINE_ORDER, FINE_NODES)[0]
-    x, y = (rows @ (area * column[:count]) for column in true[:2])
-    # By the map's own areas: those by differences are off by some 1e-6 that would not cancel without symmetry.
-    weight = _skew_weight(enter, x, y, FINE_ORDER, FINE_NODES)
-    found = SkewStopMap.of(FINE_ORDER, x, y, rows @ (area * weight))
-    off_x, off_y, off = (mapped - column[count:] for mapped, column in zip(found.at(*held), true, strict=True))
-    exact = np.hypot(off_x, off_y).max() <= aim_error * enter.radius.item() and np.abs(off).max() <= WEIGHT_ERROR
-    return found if exact else None

@@ -6,6 +6,7 @@ part without holes, less each of its intersections with holes, plus those with t
 pieces must be star-shaped about its centre, as overlaps of rims seen through a lens are.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations, pairwise
@@ -27,7 +28,8 @@ from p2sf.raytrace.trace import lens_rims, run
 SEARCH_RINGS = 24
 SCAN = 384  # directions around the whole circle in which corners are looked for
 BISECTIONS = 36  # the pupil radius to 2e-11
-CORNER_BISECTIONS = 16  # of its direction, to 3e-7: the radius is continuous there, and the sum good to the square
+SECTIONS = 16  # of the interval of a corner in one step: so few rays cost no more than one
+CORNER_STEPS = 4  # its direction to 3e-7: the radius is continuous there, and the sum good to the square
 FEWEST_PER_ARC = 8
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 AXIS_POINTS, SECANTS = 65, 6
@@ -171,16 +173,28 @@ def outline_of(region: Region) -> Outline | None:
     label = _along(region, found, theta)[1]
     if not region.even:  # the last direction and the first are neighbours
         theta, label = np.append(theta, theta[0] + turn), np.append(label, label[0])
-    change = np.flatnonzero(np.diff(label))
-    low, high, first = theta[change], theta[change + 1], label[change]
-    for _ in range(CORNER_BISECTIONS if change.size else 0):
-        middle = (low + high) / 2
-        same = _along(region, found, middle)[1] == first
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    corners = ((low + high) / 2).tolist()
+    corners = changes_of(lambda angle: _along(region, found, angle)[1], theta, label, CORNER_STEPS).tolist()
     if region.even:
         return Outline(*found, (0.0, *corners, pi))
     return Outline(*found, (*corners, corners[0] + turn) if corners else (0.0, turn))
+
+
+def changes_of(
+    label_at: Callable[[np.ndarray], np.ndarray], theta: np.ndarray, label: np.ndarray, steps: int
+) -> np.ndarray:
+    """Return where a label changes between neighbouring angles, to 1/SECTIONS**steps of their distance.
+
+    ``label_at`` gives the labels at angles, (n,); ``label`` those at ``theta``.
+    """
+    change = np.flatnonzero(np.diff(label))
+    low, high, first = theta[change], theta[change + 1], label[change]
+    for _ in range(steps if change.size else 0):
+        angle = low + (high - low) * (np.arange(SECTIONS + 1) / SECTIONS)[:, None]
+        same = label_at(angle[1:-1].ravel()).reshape(SECTIONS - 1, -1) == first
+        last, place = np.logical_and.accumulate(same).sum(0), np.arange(change.size)
+        low, high = angle[last, place], angle[last + 1, place]
+    middle: np.ndarray = (low + high) / 2
+    return middle
 
 
 def _along(region: Region, centre: tuple[float, float], theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -10,9 +10,8 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes
@@ -27,20 +26,29 @@ class ClearRim:
     """The clear part of the pupil, star-shaped about ``centre`` on the η axis; mirrored at ξ = 0.
 
     ``theta``: (directions,) angles from +η, midway between multiples of π/directions; ``radius`` of the rim along them.
+    Unless ``even``, as that of a misaligned lens, the centre lies ``aside`` at ξ, and twice as many directions go once
+    around.
     """
 
     centre: float
     theta: np.ndarray
     radius: np.ndarray
+    aside: float = 0.0
+    even: bool = True
+
+    @property
+    def points(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return ξ and η of the rim in each direction."""
+        return self.aside + self.radius * np.sin(self.theta), self.centre + self.radius * np.cos(self.theta)
 
     def outline(self) -> np.ndarray:
-        """Return ξ and η of the closed rim, (2, 2·directions + 1)."""
-        right = self.radius * np.sin(self.theta), self.centre + self.radius * np.cos(self.theta)
+        """Return ξ and η of the closed rim of an even part, (2, 2·directions + 1)."""
+        right = self.points
         left = -right[0][::-1], right[1][::-1]
         return np.stack([np.concatenate([r, m, r[:1]]) for r, m in zip(right, left, strict=True)])
 
     def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return how far beyond the rim points lie, pupil radii along their directions; negative inside."""
+        """Return how far beyond the rim of an even part points lie, pupil radii along directions; negative inside."""
         away = eta - self.centre
         place = np.arctan2(np.abs(xi), away) * (self.theta.size / np.pi) + 0.5
         left = np.minimum(place.astype(np.intp), self.theta.size)
@@ -49,36 +57,37 @@ class ClearRim:
         return excess
 
     def nodes(self, radii: int) -> ClearNodes:
-        """Return Gauss–Legendre nodes in ρ² up to the rim along each direction of the half disc."""
+        """Return Gauss–Legendre nodes in ρ² up to the rim along each direction."""
         square, weight = gauss_legendre(radii)
         rho = np.sqrt((1 + square) / 2)[:, None] * self.radius
         area = (weight[:, None] / 2 * self.radius**2 / self.radius.size).ravel()
-        xi, eta = (rho * np.sin(self.theta)).ravel(), (self.centre + rho * np.cos(self.theta)).ravel()
-        return ClearNodes(xi, eta, area / area.sum(), min(float(area.sum()), 1.0))
+        xi, eta = self.aside + rho * np.sin(self.theta), self.centre + rho * np.cos(self.theta)
+        return ClearNodes(xi.ravel(), eta.ravel(), area / area.sum(), min(float(area.sum()), 1.0), even=self.even)
 
 
 @lru_cache(maxsize=32)
 def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: int) -> ClearRim:
     """Return the rim of the clear part, each radius to 16^−rounds of the pupil; without ``clip``, where rays are lost.
 
-    Raises GeometryError where no part is clear.
+    ``directions``: over half a turn. Raises GeometryError where no part is clear.
     """
-    check_aligned(lens, Message("the search for rims in the pupil"))
     check_without_holes(lens, clip)
     xi, eta = hexapolar(SEARCH_RINGS)
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
-    centre = float(eta[passed].mean())
-    theta = (np.arange(directions) + 0.5) * (np.pi / directions)
+    even = not lens.misaligned
+    aside, centre = 0.0 if even else float(xi[passed].mean()), float(eta[passed].mean())
+    theta = (np.arange(directions if even else 2 * directions) + 0.5) * (np.pi / directions)
     sine, cosine = np.sin(theta), np.cos(theta)
-    high = np.sqrt(1 - (centre * sine) ** 2) - centre * cosine  # the unit circle seen from the centre
-    low = np.zeros(directions)
+    # The unit circle seen from the centre.
+    high = np.sqrt(1 - (centre * sine - aside * cosine) ** 2) - (centre * cosine + aside * sine)
+    low = np.zeros(theta.size)
     steps = np.arange(1, SECTIONS + 1)[:, None] / SECTIONS
     for _ in range(rounds):
         radii = low + (high - low) * steps
-        rays = pencil(lens, source, (radii * sine).ravel(), (centre + radii * cosine).ravel(), clip)
+        rays = pencil(lens, source, (aside + radii * sine).ravel(), (centre + radii * cosine).ravel(), clip)
         inside = np.logical_and.accumulate(rays.passed.reshape(radii.shape)).sum(axis=0)
         part = (high - low) / SECTIONS
         low, high = low + inside * part, low + np.minimum(inside + 1, SECTIONS) * part
-    return ClearRim(centre, theta, (low + high) / 2)
+    return ClearRim(centre, theta, (low + high) / 2, aside, even)

@@ -1,4 +1,4 @@
-"""Phase, image-space direction cosines and weight of a pencil as polynomials over the pupil (handbook 5.3).
+"""Phase, image-space direction cosines and amplitude of a pencil as polynomials over the pupil (handbook 5.3).
 
 The diffraction integral is a Fourier transform over direction cosines; with W, Kx and Ky all given over the
 pupil disc it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit is one small
@@ -22,8 +22,8 @@ from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
-from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import RayData, Steepness, ray_data, steepness
+from p2sf.raytrace.pencil import Rays, reaching
+from p2sf.raytrace.ray_field import Steepness, steepness
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 
 # Rays held out of the fit to test it, on the rim, where a polynomial deviates first: (ξ, η).
@@ -125,11 +125,12 @@ def levels_for(lens: Lens) -> tuple[Level, ...]:
 class FittedPencil:
     """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
 
-    ``phase``, ``fy`` and ``weight`` belong to the even terms, ``fx`` to the odd; without symmetry (`Level.skew`) each
-    goes on with terms of the other kind. ``residual_waves`` is the RMS error of
-    the phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``weight_residual`` that of the
-    weight over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak of
-    the clear disc. ``mask``: what stands in the pupil, as the source sees it; ``wavelength_um`` scales its phase.
+    ``phase``, ``fy`` and ``amplitude`` belong to the even terms, ``fx`` to the odd; without symmetry (`Level.skew`)
+    each goes on with terms of the other kind. ``residual_waves`` is the RMS error of the phase where the rays land,
+    ``map_residual`` that of (fx, fy) in cycles per µm, ``amplitude_residual`` that of the amplitude over its mean;
+    ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak of the clear disc.
+    ``amplitude`` is without the ``mask``, which stands in the pupil as the source sees it, and whose phase
+    ``wavelength_um`` scales.
     """
 
     level: Level
@@ -141,8 +142,8 @@ class FittedPencil:
     blur_um2: float
     rays: int
     map_residual: float = np.nan
-    weight: np.ndarray = field(default_factory=lambda: UNIFORM)
-    weight_residual: float = 0.0
+    amplitude: np.ndarray = field(default_factory=lambda: UNIFORM)
+    amplitude_residual: float = 0.0
     mask: PupilMask = CLEAR
     wavelength_um: float = np.nan
 
@@ -158,7 +159,7 @@ class FittedPencil:
         An error of the amplitude changes the field as a phase of 1/2π of it does.
         """
         phase = np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um)
-        return float(np.hypot(phase, self.weight_residual / (2 * np.pi)))
+        return float(np.hypot(phase, self.amplitude_residual / (2 * np.pi)))
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return phase (waves), fx and fy (cycles/µm) at pupil points, each (points,)."""
@@ -172,27 +173,14 @@ class FittedPencil:
             return self.phase @ phase, self.fx @ fx, self.fy @ fy
         return self.phase @ even[: len(self.phase)], self.fx @ odd, self.fy @ even[: len(self.fy)]
 
-    def at_points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return phase and fx as `at` does, but by Horner's rule, at points of any shape."""
-        square, level = xi * xi, self.level
-        if level.skew is None:
-            phase = evaluate(columns(self.phase, level.wave_order), square, eta)
-            return phase, xi * evaluate(columns(self.fx, level.map_order, True), square, eta)
-        ((own, _), (across, _), _), (wave, maps) = level.counts, level.skew
-        phase = evaluate(columns(self.phase[:own], level.wave_order), square, eta)
-        phase += xi * evaluate(columns(self.phase[own:], wave, True), square, eta)
-        fx = xi * evaluate(columns(self.fx[:across], level.map_order, True), square, eta)
-        fx += evaluate(columns(self.fx[across:], maps), square, eta)
-        return phase, fx
-
-    def weight_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return the light of unit pupil area at points of any shape, as `Pencil.weight` has it: 1 for uniform ones."""
+    def amplitude_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return `Rays.amplitude` without the mask at points of any shape: 1 where the paraxial pupil is filled."""
         order = self.level.map_order if self.level.weighted else 0
         if self.level.skew is None:
-            return evaluate(columns(self.weight, order), xi * xi, eta)
+            return evaluate(columns(self.amplitude, order), xi * xi, eta)
         own, square = self.level.counts[2][0], xi * xi
-        odd = evaluate(columns(self.weight[own:], self.level.skew[1], True), square, eta)
-        both: np.ndarray = evaluate(columns(self.weight[:own], order), square, eta) + xi * odd
+        odd = evaluate(columns(self.amplitude[own:], self.level.skew[1], True), square, eta)
+        both: np.ndarray = evaluate(columns(self.amplitude[:own], order), square, eta) + xi * odd
         return both
 
     def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
@@ -253,13 +241,13 @@ class Judges:
     xi: np.ndarray
     eta: np.ndarray
     share: np.ndarray
-    data: RayData
+    data: Rays
 
 
 def judging_rays(lens: Lens, source: Source, mask: PupilMask, stop: Stop | None = None) -> Judges:
     """Return rays through the open part of the pupil; GeometryError where one does not reach the sensor."""
     xi, eta, share = _judges_of(mask, lens.misaligned)
-    return Judges(mask, float(source.wavelength_um), xi, eta, share, _reaching(lens, source, xi, eta, stop))
+    return Judges(mask, float(source.wavelength_um), xi, eta, share, reaching(lens, source, xi, eta, stop))
 
 
 @lru_cache(maxsize=16)
@@ -277,48 +265,34 @@ def behind(found: FittedPencil, judges: Judges) -> FittedPencil:
     phase, fx, fy = found.at(judges.xi, judges.eta)
     miss_x, miss_y = fx - data.fx, fy - data.fy
     error = phase - data.phase + miss_x * data.x_um + miss_y * data.y_um
-    off = (found.weight_at(judges.xi, judges.eta) - data.weight) / float(share @ data.weight)
+    off = (found.amplitude_at(judges.xi, judges.eta) - data.amplitude) / float(share @ data.amplitude)
     squares = (share @ error**2, share @ (miss_x**2 + miss_y**2), share @ off**2)
-    own = found.residual_waves, found.map_residual, found.weight_residual
-    residual, map_residual, weight_residual = (
+    own = found.residual_waves, found.map_residual, found.amplitude_residual
+    residual, map_residual, amplitude_residual = (
         max(known, float(np.sqrt(square))) for known, square in zip(own, squares, strict=True)
     )
     return replace(
         found,
         residual_waves=residual,
         map_residual=map_residual,
-        weight_residual=weight_residual,
+        amplitude_residual=amplitude_residual,
         steepness=with_slopes(found.steepness, judges.mask, judges.wavelength_um),
         mask=judges.mask,
         wavelength_um=judges.wavelength_um,
     )
 
 
-def _trace(lens: Lens, source: Source, level: Level, stop: Stop | None) -> RayData:
+def _trace(lens: Lens, source: Source, level: Level, stop: Stop | None) -> Rays:
     xi, eta, _ = level_rays(level)
-    return _reaching(lens, source, xi, eta, stop)
+    return reaching(lens, source, xi, eta, stop)
 
 
-def _trace_both(lens: Lens, source: Source, level: Level, mask: PupilMask, stop: Stop | None) -> tuple[RayData, Judges]:
+def _trace_both(lens: Lens, source: Source, level: Level, mask: PupilMask, stop: Stop | None) -> tuple[Rays, Judges]:
     """Return the rays of a level and those that judge it, traced together, which takes as long as either."""
     (xi, eta, _), (own_xi, own_eta, share) = level_rays(level), _judges_of(mask, lens.misaligned)
-    data = _reaching(lens, source, np.append(xi, own_xi), np.append(eta, own_eta), stop)
-    rays, judging = (
-        RayData(*(column[some] for column in vars(data).values())) for some in (slice(xi.size), slice(xi.size, None))
-    )
+    data = reaching(lens, source, np.append(xi, own_xi), np.append(eta, own_eta), stop)
+    rays, judging = data.part(slice(xi.size)), data.part(slice(xi.size, None))
     return rays, Judges(mask, float(source.wavelength_um), own_xi, own_eta, share, judging)
-
-
-def _reaching(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray, stop: Stop | None) -> RayData:
-    rays = pencil(lens, source, xi, eta, stop=stop)
-    if not rays.passed.all():
-        lost = int((~rays.passed).sum())
-        raise GeometryError(
-            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
-            lost=lost,
-            total=xi.size,
-        )
-    return ray_data(rays)
 
 
 @lru_cache(maxsize=16)
@@ -402,7 +376,7 @@ def phase_slopes(level: Level) -> Gradient:
     return across, along
 
 
-def _slopes_of_phase(rays: RayData, level: Level, fx: np.ndarray, fy: np.ndarray) -> Gradient:
+def _slopes_of_phase(rays: Rays, level: Level, fx: np.ndarray, fy: np.ndarray) -> Gradient:
     """Return ∂phase/∂ξ and ∂phase/∂η at a level's own rays, (…, ray), by dw = −x·df (Hamilton) and a fitted map."""
     used = slice(level_rays(level)[2].size)
     (fx_xi, fx_eta), (fy_xi, fy_eta) = _slope_basis(level)
@@ -417,13 +391,13 @@ class PencilForms:
     phase: np.ndarray
     fx: np.ndarray
     fy: np.ndarray
-    weight: np.ndarray
+    amplitude: np.ndarray
     residual_waves: np.ndarray
     map_residual: np.ndarray
-    weight_residual: np.ndarray
+    amplitude_residual: np.ndarray
 
 
-def pencil_forms(rays: RayData, level: Level) -> PencilForms:
+def pencil_forms(rays: Rays, level: Level) -> PencilForms:
     """Return the least-squares coefficients of a level's rays, (…, ray), of one pencil or several."""
     _, _, area = level_rays(level)
     project, used = _projection(level), area.size
@@ -435,31 +409,31 @@ def pencil_forms(rays: RayData, level: Level) -> PencilForms:
         slopes = zip(project.slopes, _slopes_of_phase(rays, level, fx, fy), strict=True)
         phase = phase + sum(column @ inverse.T for inverse, column in slopes)
     phase_rows, fx_rows, fy_rows = project.rows
-    light, light_residual = UNIFORM, np.zeros(phase.shape[:-1])
+    amplitude, amplitude_residual = UNIFORM, np.zeros(phase.shape[:-1])
     if level.weighted:
-        light = rays.weight[..., :used] @ project.fy.T
-        miss = light @ fy_rows - rays.weight
-        light_residual = _residual(miss, area, light.shape[-1]) / (rays.weight[..., :used] @ area)
+        amplitude = rays.amplitude[..., :used] @ project.fy.T
+        miss = amplitude @ fy_rows - rays.amplitude
+        amplitude_residual = _residual(miss, area, amplitude.shape[-1]) / (rays.amplitude[..., :used] @ area)
     miss_x, miss_y = fx @ fx_rows - rays.fx, fy @ fy_rows - rays.fy
     # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
     error = phase @ phase_rows - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
     known = 3 if level.by_slopes else 1  # of each ray
     residual = _residual(error, area, phase.shape[-1] / known)
     map_residual = np.hypot(_residual(miss_x, area, fx.shape[-1]), _residual(miss_y, area, fy.shape[-1]))
-    return PencilForms(phase, fx, fy, light, residual, map_residual, light_residual)
+    return PencilForms(phase, fx, fy, amplitude, residual, map_residual, amplitude_residual)
 
 
-def fit_rays(rays: RayData, level: Level, traced: int, steep: Steepness | None = None) -> FittedPencil:
+def fit_rays(rays: Rays, level: Level, traced: int, steep: Steepness | None = None) -> FittedPencil:
     """Return the fit of one level to its rays; their `steepness` is computed unless ``steep`` gives it."""
     xi, eta, weight = level_rays(level)
     found, share = pencil_forms(rays, level), np.ones(1)
     if level.weighted:
-        share = rays.weight[: weight.size] / float(weight @ rays.weight[: weight.size])
+        share = rays.amplitude[: weight.size] / float(weight @ rays.amplitude[: weight.size])
     # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
     blur = float(weight @ (share * share / np.abs(determinant(found.fx, found.fy, *_slope_basis(level)))) / np.pi)
     steep = steep or steepness(rays, xi, eta)
     made = level, found.phase, found.fx, found.fy, float(found.residual_waves), steep, blur, traced
-    return FittedPencil(*made, float(found.map_residual), found.weight, float(found.weight_residual))
+    return FittedPencil(*made, float(found.map_residual), found.amplitude, float(found.amplitude_residual))
 
 
 def _residual(error: np.ndarray, weight: np.ndarray, unknowns: float) -> np.ndarray:

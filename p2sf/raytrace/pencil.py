@@ -1,8 +1,9 @@
-"""The pencil of one source through the pupil by exact skew rays: path differences, spots and fans."""
+"""The pencil of one source through the pupil by exact skew rays: path differences and fans."""
 
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
 from math import sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,41 +13,57 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
-from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays
+from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
 from p2sf.raytrace.surface import Beam, Status
-from p2sf.raytrace.trace import Trace, lens_rims, status_message, trace
+from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
 
 __all__ = [
-    "Pencil",
     "PupilRays",
+    "Rays",
     "Sources",
     "Status",
     "Trace",
-    "diffraction_phase",
     "displayed_opd",
+    "pencil",
     "pupil_rays",
+    "rays_through",
     "trace",
 ]
 
-MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a mean over symmetric rays consists of
-WEIGHT_ROUNDING = 1e-6  # of the largest term: the weights of aimed rays are differences, good to that
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Rays on their way, the chief ray last, in the axes of ``lens``, which is as the source sees it.
+
+    ``points``: (surfaces + 1, 3, ray) on every surface and the sensor, mm. ``cosines``: optical ones of the rays as
+    they arrive there.
+    """
+
+    lens: Lens
+    points: np.ndarray
+    cosines: np.ndarray
 
 
-@dataclass(frozen=True)
-class Pencil:
+@dataclass(frozen=True, eq=False)
+class Rays:
     """The rays of one source at the sensor plane, all relative to its chief ray; leading axes first, (…, ray).
 
-    ``weight``: the light of unit pupil area about each ray, as in `PupilRays`; means over the pupil divide by its sum.
+    ``share``: the pupil area that a ray stands for, a weight of quadrature, which never goes under a root.
+    ``launch``: the light sent through unit share, as in `PupilRays`. ``transmission``: what surfaces and media pass of
+    it. ``mask``, ``mask_path_um``: the amplitude that the mask in the stop passes, and the path that it adds.
+    Energies are sums of share·`light`, fields sums of share·`amplitude` or, radiometrically, share·`radiometric`.
     ``dx``, ``dy``: mm from the chief ray's sensor point. ``kx``, ``ky``, ``kz``: direction cosines in image space.
     ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `Trace`.
     Of the chief ray: ``chief_x``, ``chief_y`` mm on the sensor, ``chief_kx``, ``chief_ky``, ``chief_kz``. ``index``: of
     image space. Of a misaligned lens all are in the sensor's own axes, turned with the source's azimuth.
+    ``crossings``: where the rays meet surfaces, if asked for (`reaching_by_surfaces`).
     """
 
     xi: np.ndarray
     eta: np.ndarray
-    weight: np.ndarray
+    launch: np.ndarray
     dx: np.ndarray
     dy: np.ndarray
     kx: np.ndarray
@@ -62,23 +79,123 @@ class Pencil:
     wavelength_um: np.ndarray
     chief_x: FloatOrArray = 0.0
     chief_kx: FloatOrArray = 0.0
+    share: FloatOrArray = 1.0
+    transmission: FloatOrArray = 1.0
+    mask: FloatOrArray = 1.0
+    mask_path_um: FloatOrArray = 0.0
+    crossings: Crossings | None = None
 
-    @property
+    @cached_property
     def passed(self) -> np.ndarray:
         """Return which rays reach the sensor."""
         passed: np.ndarray = self.status == Status.PASSED
         return passed
 
+    @cached_property
+    def light(self) -> np.ndarray:
+        """Return the energy of unit share, (…, ray): launch·transmission·mask², 0 for rays that do not arrive."""
+        return self._arriving(self.launch * self.transmission * np.square(self.mask))
 
-@dataclass(frozen=True)
-class Spot:
-    """Where rays meet the sensor, µm from the chief ray; ``rms_um`` about the centroid of their light."""
+    @cached_property
+    def amplitude(self) -> np.ndarray:
+        """Return the field of unit share, (…, ray), as other programs have it: launch·√transmission·mask.
 
-    x_um: np.ndarray
-    y_um: np.ndarray
-    rms_um: np.ndarray
-    centroid_y_um: np.ndarray
-    centroid_x_um: FloatOrArray = 0.0
+        It is linear in the launch weight; see `radiometric` for the field that conserves energy.
+        """
+        return self._arriving(self.launch * np.sqrt(self.transmission) * self.mask)
+
+    def radiometric(self, jacobian: np.ndarray) -> np.ndarray:
+        """Return the field of unit share that conserves energy, √(light·|∂f/∂(ξ, η)|), with the sign of the mask."""
+        field: np.ndarray = np.copysign(radiometric(self.light, jacobian), self.mask)
+        return field
+
+    def _arriving(self, values: np.ndarray) -> np.ndarray:
+        return values if self.passed.all() else np.where(self.passed, values, 0.0)
+
+    @cached_property
+    def phase(self) -> np.ndarray:
+        """Return w = (OPL ray − OPL chief − n'K·(I − C))/λ in waves over direction cosines (K), the mask's included."""
+        shift: np.ndarray = self.kx * self.dx
+        shift += self.ky * self.dy
+        shift *= self.index
+        phase: np.ndarray = (self.path - shift) * (UM_PER_MM / self.wavelength_um)
+        phase += self.mask_path_um / self.wavelength_um
+        return phase
+
+    @cached_property
+    def fx(self) -> np.ndarray:
+        """Return n'(K − K chief)/λ along x, cycles per µm."""
+        fx: np.ndarray = (self.kx - self.chief_kx) * (self.index / self.wavelength_um)
+        return fx
+
+    @cached_property
+    def fy(self) -> np.ndarray:
+        """Return n'(K − K chief)/λ along y, cycles per µm."""
+        fy: np.ndarray = (self.ky - self.chief_ky) * (self.index / self.wavelength_um)
+        return fy
+
+    @cached_property
+    def x_um(self) -> np.ndarray:
+        """Return where rays land, µm from the chief ray along x."""
+        x: np.ndarray = self.dx * UM_PER_MM
+        return x
+
+    @cached_property
+    def y_um(self) -> np.ndarray:
+        """Return where rays land, µm from the chief ray along y."""
+        y: np.ndarray = self.dy * UM_PER_MM
+        return y
+
+    @property
+    def arrived(self) -> "Rays":
+        """Return only the rays that reach the sensor."""
+        return self if self.passed.all() else self.part(self.passed)
+
+    @property
+    def chief_um(self) -> np.ndarray:
+        """Return where the chief ray of one source lands on the sensor, µm, (2,)."""
+        chief: np.ndarray = UM_PER_MM * np.append(self.chief_x, self.chief_y)
+        return chief
+
+    @property
+    def on_surfaces(self) -> Crossings:
+        """Return where the rays of `reaching_by_surfaces` cross the surfaces."""
+        assert self.crossings is not None
+        return self.crossings
+
+    def part(self, some: slice | np.ndarray) -> "Rays":
+        """Return some of the rays, by their last axis."""
+        columns = ((name, getattr(self, name)) for name in PER_RAY)
+        own: dict[str, Any] = {name: v[..., some] for name, v in columns if isinstance(v, np.ndarray)}
+        return replace(self, **own | {"crossings": None})
+
+    def of_source(self, number: int) -> "Rays":
+        """Return the rays of one of several sources on one leading axis."""
+        columns = ((field.name, getattr(self, field.name)) for field in fields(self))
+        own: dict[str, Any] = {name: v[number] for name, v in columns if np.ndim(v) == 2}
+        return replace(self, **own)
+
+    def turned(self, angle_deg: float) -> "Rays":
+        """Return the rays in pupil and sensor axes from which these are turned, from +y towards +x."""
+        sine, cosine = np.sin(np.deg2rad(angle_deg)), np.cos(np.deg2rad(angle_deg))
+        pairs = ("xi", "eta"), ("dx", "dy"), ("kx", "ky"), ("chief_x", "chief_y"), ("chief_kx", "chief_ky")
+        new: dict[str, Any] = {"crossings": None}
+        for pair in pairs:
+            across, along = (getattr(self, name) for name in pair)
+            new |= zip(pair, (across * cosine + along * sine, along * cosine - across * sine), strict=True)
+        return replace(self, **new)
+
+
+PER_RAY = (
+    *("xi", "eta", "share", "launch", "transmission", "mask", "mask_path_um"),
+    *("dx", "dy", "kx", "ky", "kz", "path", "status", "failed_surface"),
+)
+
+
+def radiometric(light: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
+    """Return √(light·|∂f/∂(ξ, η)|), the field of unit pupil area that spreads over f with all the energy sent in."""
+    field: np.ndarray = np.sqrt(light * np.abs(jacobian))
+    return field
 
 
 @dataclass(frozen=True)
@@ -102,7 +219,7 @@ def pencil(
     clip: bool = False,
     stop: Stop | None = None,
     aim_error: float = AIM_ERROR,
-) -> Pencil:
+) -> Rays:
     """Trace a source's rays through pupil points (ξ, η), each (ray,), to the sensor.
 
     ``clip`` applies the clear semi-diameters of every surface but the stop, whose rim the pupil already represents.
@@ -110,40 +227,87 @@ def pencil(
     The axes of `Sources` come first. Raises GeometryError where the chief ray does not reach the sensor, and for a
     misaligned lens where it runs beyond the rim of a surface.
     """
+    lens, xi, eta = _with_chief(lens, source, xi, eta, stop)
+    rims = lens_rims(lens, keep_stop=False) if clip else None
+    beam, launch, index = arriving(lens, source, xi, eta, stop, rims, aim_error)
+    return _relative_to_chief(lens, beam, launch, (xi, eta), index[-1], source.wavelength_um)
+
+
+def reaching(lens: Lens, source: Source | Sources, xi: ArrayLike, eta: ArrayLike, stop: Stop | None = None) -> Rays:
+    """Return the `pencil` through pupil points; GeometryError where one of its rays does not reach the sensor."""
+    return all_reaching(pencil(lens, source, xi, eta, stop=stop))
+
+
+def reaching_by_surfaces(lens: Lens, source: Source, xi: ArrayLike, eta: ArrayLike) -> Rays:
+    """Return the rays of `reaching`, with where they cross the surfaces."""
+    lens, xi, eta = _with_chief(seen_from(lens, source.azimuth_deg), source, xi, eta, None)
+    entering = pupil_rays(lens, source, xi, eta)
+    beam, points, cosines = start(entering), [], []
+
+    def visit(number: int) -> None:
+        rotation, origin = lens.frames[number - 1]
+        points.append(rotation @ beam.place + origin[:, None])
+        cosines.append(rotation @ beam.ray)
+
+    run(lens, beam, entering.index, visit=visit)
+    beam.path += entering.path
+    rays = _relative_to_chief(lens, beam, entering.launch, (xi, eta), entering.index[-1], source.wavelength_um)
+    return replace(all_reaching(rays), crossings=Crossings(lens, np.stack(points), np.stack(cosines)))
+
+
+def all_reaching(rays: Rays) -> Rays:
+    """Return the rays; GeometryError where one of them does not reach the sensor."""
+    if rays.passed.all():
+        return rays
+    raise GeometryError(
+        "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
+        lost=int((~rays.passed).sum()),
+        total=rays.passed.size,
+    )
+
+
+def _with_chief(
+    lens: Lens, source: Source | Sources, xi: ArrayLike, eta: ArrayLike, stop: Stop | None
+) -> tuple[Lens, np.ndarray, np.ndarray]:
+    """Return a lens as the source sees it, and pupil points with that of the chief ray behind them."""
     if lens.misaligned:
         lens = seen_from(lens, getattr(source, "azimuth_deg", 0.0))
         check_chief_ray(lens, source, stop)
-    # The chief ray is traced as the last ray, together with the others.
-    xi, eta = np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
-    rims = lens_rims(lens, keep_stop=False) if clip else None
-    beam, weight, index = arriving(lens, source, xi, eta, stop, rims, aim_error)
-    if beam.status.any():
-        _blank(beam, lens)
-    rays = _relative_to_chief(beam, weight, xi, eta, index[-1], source.wavelength_um)
-    return _beside_chief(rays, beam) if lens.misaligned else rays
+    return lens, np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
 
 
-def _beside_chief(rays: Pencil, beam: Beam) -> Pencil:
-    """Return the pencil with x and its cosine from those of the chief ray, which need not lie in the plane x = 0."""
-    chief_x, chief_kx = beam.x[..., -1:], beam.p[..., -1:] / rays.index
-    return replace(rays, dx=rays.dx - chief_x, chief_x=chief_x, chief_kx=chief_kx)
+def rays_through(
+    lens: Lens,
+    source: Source | Sources,
+    nodes: ClearNodes,
+    clip: bool = False,
+    stop: Stop | None = None,
+    aim_error: float = AIM_ERROR,
+) -> Rays:
+    """Return the `pencil` through quadrature nodes, with their shares, and what the mask in the stop does to it."""
+    rays = pencil(lens, source, nodes.xi, nodes.eta, clip, stop, aim_error)
+    return replace(rays, share=nodes.weight, mask=nodes.amplitude, mask_path_um=nodes.path_um)
 
 
 def _relative_to_chief(
+    lens: Lens,
     beam: Beam,
-    weight: FloatOrArray,
-    xi: np.ndarray,
-    eta: np.ndarray,
+    launch: FloatOrArray,
+    points: tuple[np.ndarray, np.ndarray],
     index: FloatOrArray,
     wavelength_um: FloatOrArray,
-) -> Pencil:
+) -> Rays:
     """Return a beam at the sensor as differences from its last ray, the chief ray."""
+    if beam.status.any():
+        _blank(beam, lens)
     chief_y = beam.y[..., -1:]
-    return Pencil(
-        xi=xi[:-1],
-        eta=eta[:-1],
-        weight=np.broadcast_to(weight, beam.x.shape)[..., :-1],
-        dx=beam.x[..., :-1],
+    # Without symmetry the chief ray need not lie in the plane x = 0.
+    chief_x, chief_kx = (beam.x[..., -1:], beam.p[..., -1:] / index) if lens.misaligned else (0.0, 0.0)
+    return Rays(
+        xi=points[0][:-1],
+        eta=points[1][:-1],
+        launch=np.broadcast_to(launch, beam.x.shape)[..., :-1],
+        dx=beam.x[..., :-1] - chief_x,
         dy=beam.y[..., :-1] - chief_y,
         kx=beam.p[..., :-1] / index,
         ky=beam.q[..., :-1] / index,
@@ -156,7 +320,14 @@ def _relative_to_chief(
         chief_kz=beam.r[..., -1:] / index,
         index=index,
         wavelength_um=np.asarray(wavelength_um)[..., None],
+        chief_x=chief_x,
+        chief_kx=chief_kx,
+        transmission=_but_last(beam.transmission),
     )
+
+
+def _but_last(values: FloatOrArray) -> FloatOrArray:
+    return values[..., :-1] if isinstance(values, np.ndarray) else values
 
 
 def _blank(beam: Beam, lens: Lens) -> None:
@@ -169,15 +340,6 @@ def _blank(beam: Beam, lens: Lens) -> None:
         column[bad] = np.nan
 
 
-def diffraction_phase(rays: Pencil) -> np.ndarray:
-    """Return w = (OPL ray − OPL chief − n'K·(I − C))/λ in waves, (…, ray): the phase over direction cosines (K)."""
-    shift: np.ndarray = rays.kx * rays.dx
-    shift += rays.ky * rays.dy
-    shift *= rays.index
-    phase: np.ndarray = (rays.path - shift) * (UM_PER_MM / rays.wavelength_um)
-    return phase
-
-
 def displayed_opd(
     lens: Lens,
     source: Source | Sources,
@@ -188,13 +350,13 @@ def displayed_opd(
     """Return (OPL chief − OPL ray)/λ in waves at pupil points, on the sphere about the chief ray's sensor point.
 
     The sphere passes through the chief ray's point in the paraxial exit-pupil plane; for a telecentric lens it is a
-    plane. NaN for failed rays. For display only; diffraction integrals use `diffraction_phase`.
+    plane. NaN for failed rays. For display only; diffraction integrals use `Rays.phase`.
     """
     rays = pencil(lens, source, xi, eta, stop=stop)
     return opd_on_sphere(rays, exit_radius(lens, source, rays, stop))
 
 
-def opd_on_sphere(rays: Pencil, radius: FloatOrArray) -> np.ndarray:
+def opd_on_sphere(rays: Rays, radius: FloatOrArray) -> np.ndarray:
     """Return the displayed OPD in waves for a reference sphere of signed radius (mm, positive before the sensor).
 
     The ray's path back from the sensor to the sphere is written as a difference from the chief ray's, so that no
@@ -209,7 +371,7 @@ def opd_on_sphere(rays: Pencil, radius: FloatOrArray) -> np.ndarray:
     return opd
 
 
-def exit_radius(lens: Lens, source: Source | Sources, rays: Pencil, stop: Stop | None = None) -> np.ndarray:
+def exit_radius(lens: Lens, source: Source | Sources, rays: Rays, stop: Stop | None = None) -> np.ndarray:
     """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
     along = rays.chief_kz
     if lens.misaligned:  # the cosine about the axis behind the last surface, which a tilted sensor does not share
@@ -245,46 +407,6 @@ def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:
     return values
 
 
-def spot(
-    lens: Lens, source: Source | Sources, rings: int = 8, clip: bool = False, passing: np.ndarray | None = None
-) -> Spot:
-    """Return the spot diagram of ``rings`` hexapolar rings, and its RMS radius about the centroid; µm.
-
-    A ray stands for the light of its cell, so both are means weighted with `Pencil.weight`, to the first power: the
-    energy of rays that are launched evenly into the solid angle is proportional to it. ``passing``: the share of the
-    light that what stands in the stop lets through at each ray of `hexapolar`, (ray,); NaN is the place of rays with
-    none. Raises GeometryError where no ray reaches the sensor.
-    """
-    xi, eta = hexapolar(rings)
-    rays = pencil(lens, source, xi, eta, clip)
-    x, y = rays.dx * UM_PER_MM, rays.dy * UM_PER_MM
-    light = np.where(rays.passed, rays.weight, 0.0)
-    if passing is not None:
-        light, x, y = light * passing, np.where(passing > 0, x, np.nan), np.where(passing > 0, y, np.nan)
-    if not light.any():
-        raise GeometryError(
-            "no ray reaches the sensor; choose a smaller field or leave {parameter} off", parameter="clip"
-        )
-    rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
-    centre_x, centre_y = _centroid(x, light, rounding), _centroid(y, light, rounding)
-    square = _mean((x - centre_x) ** 2 + (y - centre_y) ** 2, light)[..., 0]
-    return Spot(x, y, np.sqrt(square), centre_y[..., 0], centre_x[..., 0])
-
-
-def _mean(values: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Return the mean by light over the rays that have any, (…, 1); NaN where none has."""
-    with np.errstate(invalid="ignore"):
-        share = light / light.sum(-1, keepdims=True)
-    mean: np.ndarray = (np.where(light > 0, values, 0.0) * share).sum(-1, keepdims=True)
-    return mean
-
-
-def _centroid(values: np.ndarray, light: np.ndarray, rounding: float) -> np.ndarray:
-    """Return the mean, (…, 1); 0 where it is nothing but rounding, a share of the largest value."""
-    mean = _mean(values, light)
-    return np.where(np.abs(mean) > rounding * np.nanmax(np.abs(values), -1, keepdims=True), mean, 0.0)
-
-
 def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
     """Return pupil points (ξ, η): the centre, then rings of 6, 12, 18 … points, equal area per point.
 
@@ -295,6 +417,13 @@ def hexapolar(rings: int) -> tuple[np.ndarray, np.ndarray]:
     radius = np.concatenate([[0.0], *(np.full(6 * k, sqrt(s)) for k, s in enumerate(square, 1))])
     angle = np.concatenate([[0.0], *(2 * np.pi * np.arange(6 * k) / (6 * k) for k in range(1, rings + 1))])
     return radius * np.sin(angle), radius * np.cos(angle)
+
+
+def to_the_rim(rings: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return `hexapolar` points spread until the outermost ring lies on the rim, whose rays often go farthest."""
+    xi, eta = hexapolar(rings)
+    outermost = eta.max()
+    return xi / outermost, eta / outermost
 
 
 def ray_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = False) -> Fan:
@@ -310,7 +439,7 @@ def opd_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = 
     return Fan(line, along, across, "waves")
 
 
-def _two_lines(lens: Lens, source: Source | Sources, count: int, clip: bool) -> tuple[np.ndarray, Pencil, Pencil]:
+def _two_lines(lens: Lens, source: Source | Sources, count: int, clip: bool) -> tuple[np.ndarray, Rays, Rays]:
     """Return ``count`` points from −1 to 1, and the pencils through those points of η and of ξ."""
     line, zero = np.linspace(-1, 1, count), np.zeros(count)
     return line, pencil(lens, source, zero, line, clip), pencil(lens, source, line, zero, clip)

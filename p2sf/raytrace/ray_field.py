@@ -1,28 +1,15 @@
-"""The field at the sensor from a traced pencil: phase, spatial frequency and landing point per ray (handbook 4.3)."""
+"""How steep the phase of a pencil is, which says how densely its field is to be sampled (handbook 4.3)."""
 
 from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
-from p2sf.raytrace.pencil import Pencil, diffraction_phase
+from p2sf.raytrace.pencil import Rays
 
 COARSE = 1.15  # margin for what a maximum over some tens of rays may miss
 SMALLEST = 1e-12
 AIRY_RADIUS = 0.61  # over the largest spatial frequency
-
-
-@dataclass(frozen=True)
-class RayData:
-    """Per ray: phase (waves), f = n'(K − K chief)/λ (cycles/µm), landing point (µm), light per unit pupil area."""
-
-    phase: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
-    x_um: np.ndarray
-    y_um: np.ndarray
-    weight: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -46,14 +33,7 @@ class Steepness:
         return max(AIRY_RADIUS / self.spread, blur / sqrt(max(self.radial, 1.0)))
 
 
-def ray_data(rays: Pencil) -> RayData:
-    """Return phase, spatial frequencies, landing points and weights of a traced pencil."""
-    scale = rays.index / rays.wavelength_um
-    fx, fy = (rays.kx - rays.chief_kx) * scale, (rays.ky - rays.chief_ky) * scale
-    return RayData(diffraction_phase(rays), fx, fy, rays.dx * UM_PER_MM, rays.dy * UM_PER_MM, rays.weight)
-
-
-def steepness(rays: RayData, xi: np.ndarray, eta: np.ndarray) -> Steepness:
+def steepness(rays: Rays, xi: np.ndarray, eta: np.ndarray) -> Steepness:
     """Return how steep the phase is, from where the rays land: over f it has the gradient −x, dw = −x·df (Hamilton).
 
     f is nearly proportional to (ξ, η), so no derivative is needed. NaN rays are left out.

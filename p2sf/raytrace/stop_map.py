@@ -9,45 +9,35 @@ from p2sf.pupil.zernike import powers, rising_powers
 
 @dataclass(frozen=True, eq=False)
 class StopMap:
-    """Polynomials over the stop: ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ for entrance points x/ξ and y (mm), and weights.
+    """Polynomials over the stop for entrance points x and y (mm), and weights where the map has them.
 
-    The axes of `Sources` stand between the first axis, which tells these apart, and the powers.
+    ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ of x/ξ, y and weights; without symmetry of the part even in ξ of each, and ``odd``
+    of the other over ξ. The axes of `Sources` stand between the first axis, which tells these apart, and the powers.
     """
 
     table: np.ndarray
+    odd: np.ndarray | None = None
 
     @classmethod
-    def of(cls, order: int, x: np.ndarray, *even: np.ndarray) -> "StopMap":
-        """Return the map of coefficients of `zernike`: of x those of the odd terms, of y and weights of the even."""
-        return cls(_tables(order, (x, *even), (True, *(False for _ in even))))
+    def of(cls, order: int, x: np.ndarray, *others: np.ndarray, symmetric: bool) -> "StopMap":
+        """Return the map of coefficients of `zernike`: of x those of the odd terms, of y and weights of the even.
+
+        Without symmetry each has coefficients of the even terms and behind them of the odd.
+        """
+        parts = (x, *others)
+        if symmetric:
+            return cls(_tables(order, parts, (True, *(False for _ in others))))
+        first = len(powers(order))
+        even = _tables(order, tuple(part[..., :first] for part in parts), (False,) * len(parts))
+        return cls(even, _tables(order, tuple(part[..., first:] for part in parts), (True,) * len(parts)))
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return entrance points x and y, and weights where the map has them, at points of the stop."""
         values = _values(self.table, xi, eta)
-        values[0] *= xi
-        return values
-
-
-@dataclass(frozen=True, eq=False)
-class SkewStopMap:
-    """As `StopMap`, without symmetry: every quantity has a part even in ξ, and one odd, ξ times its table's."""
-
-    even: np.ndarray
-    odd: np.ndarray
-
-    @classmethod
-    def of(cls, order: int, *coefficients: np.ndarray) -> "SkewStopMap":
-        """Return the map of coefficients of `zernike`, of each quantity the even terms and behind them the odd."""
-        first = len(powers(order))
-        even = _tables(order, tuple(part[..., :first] for part in coefficients), (False,) * len(coefficients))
-        odd = _tables(order, tuple(part[..., first:] for part in coefficients), (True,) * len(coefficients))
-        return cls(even, odd)
-
-    def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return entrance points x and y, and weights where the map has them, at points of the stop."""
-        values = _values(self.odd, xi, eta)
-        values *= xi
-        values += _values(self.even, xi, eta)
+        if self.odd is None:
+            values[0] *= xi
+        else:
+            values += _values(self.odd, xi, eta) * xi
         return values
 
 

@@ -53,6 +53,7 @@ class Beam:
 
     ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that an operation on all
     components is one call. The last ``exempt`` rays pass every rim. ``wavelength_um`` broadcasts against (…, ray).
+    ``transmission``: the share of energy that surfaces have passed.
     ``source``: the point (X, Y, Z, W) at (X, Y, Z)/W in the axes of the lens, mm, where all rays come from, if known.
     """
 
@@ -61,6 +62,7 @@ class Beam:
         self.x, self.y, self.z = place
         self.p, self.q, self.r = ray
         self.path = np.zeros(place.shape[1:])
+        self.transmission: FloatOrArray = 1.0
         self.status = np.zeros(place.shape[1:], np.int8)
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
         self.exempt = 0
@@ -75,6 +77,8 @@ class Beam:
     def fail(self, bad: np.ndarray, why: Status, number: int) -> None:
         """Record why and where rays fail and make them NaN; a ray keeps its first reason."""
         fresh = bad & (self.status == Status.PASSED)
+        if not fresh.any():
+            return
         self.status[fresh], self.failed_surface[fresh] = why, number
         self.p[fresh] = self.path[fresh] = np.nan
 
@@ -83,8 +87,8 @@ class Normal(NamedTuple):
     """Surface normal (−slope·x, −slope·y, axial), not normalised, where the rays meet the surface.
 
     ``axial`` None stands for 1 − slope·z, a sphere's. ``square`` is the normal's squared length, None for 1.
-    ``along`` = ray·normal = n·cosI·length, and ``along_square`` its square. ``uneven``: (2, …) what an irregularity
-    adds to ∂z/∂x and ∂z/∂y, to be taken from the normal as well.
+    ``along`` = ray·normal = n·cosI·length, and ``along_square`` its square. ``uneven``: (2, …) what parts
+    that are not of revolution add to ∂z/∂x and ∂z/∂y, to be taken from the normal as well.
     """
 
     slope: np.ndarray | float
@@ -120,7 +124,7 @@ def move(beam: Beam, motion: Motion, index: FloatOrArray, number: int) -> None:
 
 def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal | None:
     """Carry every ray to the surface and return its normal there; None for a plane."""
-    if surface.shape is not None or any(surface.aspheric) or surface.irregularity is not None:
+    if len(surface.parts) > 1:
         return _meet_asphere(beam, surface, index, number)
     if surface.curvature:
         return _meet_conic(beam, surface, index, number)
@@ -167,24 +171,8 @@ def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) 
     )
 
 
-def sag_and_slope(surface: Surface, square: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
-    """Return sag z and dz/d(r²) of an asphere at squared radius ``square`` mm² (NaN beyond the conic's edge)."""
-    c, k = surface.curvature, surface.conic
-    root = np.sqrt(1 - (1 + k) * (c * c) * square)
-    sag, slope = c * square / (1 + root), c / (2 * root)
-    power = square
-    for order, coefficient in enumerate(surface.aspheric, 2):
-        slope = slope + order * coefficient * power
-        power = power * square
-        sag = sag + coefficient * power
-    if surface.shape is None:
-        return sag, slope
-    more, steeper = surface.shape.sag_and_slope(square, c, k)
-    return sag + more, slope + steeper
-
-
 def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
-    """Carry rays to an asphere by Newton's method, from the conicoid under it or, where that is missed, the plane.
+    """Carry rays to a surface of several parts by Newton's method, from the conicoid or, if that is missed, the plane.
 
     A ray for which it does not converge is refused.
     """
@@ -192,14 +180,18 @@ def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int
     beam.advance(np.where(np.isfinite(step), step, 0.0), index)
     uneven = None
     for _ in range(NEWTON_STEPS):
-        sag, slope = sag_and_slope(surface, beam.x * beam.x + beam.y * beam.y)
+        sag, slope = surface.sag_and_slope(beam.x * beam.x + beam.y * beam.y)
         along = beam.r - 2 * slope * (beam.x * beam.p + beam.y * beam.q)
-        if surface.irregularity is not None:
-            more, uneven = surface.irregularity.sag_and_gradient(beam.x, beam.y)
-            sag = sag + more
-            along -= (uneven * beam.ray[:2]).sum(0)
+        uneven = None
+        for part in surface.uneven_parts:
+            more, gradient = part.sag_and_gradient(beam.x, beam.y, surface.curvature, surface.conic)
+            sag, uneven = sag + more, gradient if uneven is None else uneven + gradient
+            along -= (gradient * beam.ray[:2]).sum(0)
         miss = sag - beam.z
-        open_ = ~(np.abs(miss) <= ROUNDING * (np.abs(beam.x) + np.abs(beam.y) + np.abs(beam.z)))
+        size = np.abs(beam.x) + np.abs(beam.y) + np.abs(beam.z)
+        if surface.addends_mm:
+            size += surface.addends_mm
+        open_ = ~(np.abs(miss) <= ROUNDING * size)
         if not open_.any() or not np.isfinite(miss[open_]).any():
             break
         beam.advance(np.where(open_, miss / along, 0.0), index)

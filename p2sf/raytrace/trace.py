@@ -195,6 +195,8 @@ def _cross(
         clip(beam, rims[number - 1], surface.rim, number)
         if surface.inner_radius:
             clip_inside(beam, surface.inner_radius, surface.rim, number)
+    if surface.transmission is not None:
+        beam.transmission = beam.transmission * surface.transmission.at(beam.x * beam.x + beam.y * beam.y)
     if surface.ideal:
         bend_ideally(beam, surface.ideal_focal_length, before, after, object_point(lens, beam, index, number))
     elif surface.diffraction is not None:

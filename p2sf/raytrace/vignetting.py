@@ -19,16 +19,16 @@ from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
-from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes, holes_of, piece_nodes
+from p2sf.raytrace.clear_pieces import CLIPPED, LOST, changes_of, check_without_holes, holes_of, piece_nodes
 from p2sf.raytrace.fit import FittedPencil, Gradient, Level, determinant, fit, map_slopes
-from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.surface import ended_at
 
 SEARCH_RINGS = 12
 SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
 BISECTIONS = 36  # the pupil radius to 2e-11
-CORNER_BISECTIONS = 26  # a corner's direction to 2e-10
+CORNER_STEPS = 7  # a corner's direction to 6e-11
 FEWEST_PER_ARC = 6
 BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
@@ -125,13 +125,9 @@ def _corners(lens: Lens, source: Source, clip: bool, centre: tuple[float, float]
     count = 2 * SCAN + 1 if lens.misaligned else SCAN
     theta = (np.arange(count) + 0.5) * (np.pi / SCAN)
     rim = _edge(lens, source, clip, centre, theta)[1]
-    change = np.flatnonzero(np.diff(rim))
-    low, high, first = theta[change], theta[change + 1], rim[change]
-    for _ in range(CORNER_BISECTIONS if change.size else 0):
-        middle = (low + high) / 2
-        same = _edge(lens, source, clip, centre, middle)[1] == first
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    corners: list[float] = ((low + high) / 2).tolist()
+    corners: list[float] = changes_of(
+        lambda angle: _edge(lens, source, clip, centre, angle)[1], theta, rim, CORNER_STEPS
+    ).tolist()
     return corners
 
 
@@ -174,15 +170,19 @@ def _edge(
     return np.where(whole, outer, low), np.where(whole, 0, rim)
 
 
-def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, pupil: FittedPencil | None = None) -> float | None:
+def pencil_blur(
+    lens: Lens, source: Source, clip: bool = False, whole: bool = True, pupil: FittedPencil | None = None
+) -> float | None:
     """Return ∫|field|²dx in µm² at unit unaberrated peak, by Parseval from a fit; None where rays are lost.
 
-    ``pupil``: the fit, for the `radiometric` amplitude.
+    ``clip``, ``whole``: as `pupil_nodes` has them. ``pupil``: the fit, for the `radiometric` amplitude. What is
+    integrated is as smooth as the fit, however steep the phase, so BLUR_NODES do.
     """
     try:
         found = pupil or fit(lens, source)
     except GeometryError:
         return None
+    nodes = pupil_nodes(lens, source, BLUR_NODES, clip, whole)
     plain = pupil is None and isinstance(nodes.amplitude, float)
     if nodes.share == 1.0 and plain:
         return found.blur_um2
@@ -191,7 +191,7 @@ def pencil_blur(lens: Lens, source: Source, nodes: ClearNodes, pupil: FittedPenc
 
 def masked_blur(found: FittedPencil) -> float:
     """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
-    if found.mask.clear:
+    if found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
         return found.blur_um2
     nodes, slopes = _kept_slopes(found.level, found.mask)
     return _blur(found, nodes, np.abs(determinant(found.fx, found.fy, *slopes)))
@@ -206,13 +206,7 @@ def _kept_slopes(level: Level, mask: PupilMask) -> tuple[ClearNodes, tuple[Gradi
 
 
 def _blur(found: FittedPencil, nodes: ClearNodes, area: np.ndarray, radiometrically: bool = False) -> float:
-    light = found.weight_at(nodes.xi, nodes.eta)
+    light = found.amplitude_at(nodes.xi, nodes.eta)
     field = nodes.amplitude * (radiometric(light, area) if radiometrically else light)
     field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
     return float(nodes.weight @ (field * field / area) / (np.pi * nodes.share))
-
-
-def radiometric(light: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
-    """Return √(light·|∂f/∂(ξ, η)|), the field of unit pupil area that spreads over f with all the energy sent in."""
-    field: np.ndarray = np.sqrt(light * np.abs(jacobian))
-    return field

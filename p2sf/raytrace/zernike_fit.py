@@ -14,6 +14,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.tilt import rms
 from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
@@ -30,9 +31,9 @@ class ZernikeFit:
 
     ``waves``: coefficients, waves RMS in Noll's order and peak waves in the Fringe order, as both are defined on the
     disc. ``rms_waves``: each term's share of the RMS, with its sign. ``share``: of the variance without piston and
-    tilt, which do not blur; 0 for those two. ``rms``: of the wavefront without piston; ``rms_without_tilt`` without
-    tilt too; ``residual``: of what the terms leave. ``clear``: the part of the pupil's area that passes light; below 1
-    the terms are orthogonal over that part. ``rays``: how many were traced.
+    tilt, which do not blur; 0 for those two. ``rms``: of the wavefront without piston and tilt; ``rms_with_tilt``
+    without piston alone; ``residual``: of what the terms leave. ``clear``: the part of the pupil's area that
+    passes light; below 1 the terms are orthogonal over that part. ``rays``: how many were traced.
     """
 
     order: ZernikeOrder
@@ -41,7 +42,7 @@ class ZernikeFit:
     rms_waves: np.ndarray
     share: np.ndarray
     rms: float
-    rms_without_tilt: float
+    rms_with_tilt: float
     residual: float
     clear: float
     rays: int
@@ -108,7 +109,7 @@ def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms:
     found = np.zeros(len(terms))
     found[there] = columns.T @ (root * waves)
     rest = root * waves - columns @ found[there]
-    variance, blur = variances(nodes, waves)
+    blur = rms(waves, nodes.weight, nodes.axes)
     still = np.array([term.n < 2 for term in terms])  # piston and tilt
     scale = np.array([term.norm if order == "fringe" else 1.0 for term in terms])
     return ZernikeFit(
@@ -116,21 +117,10 @@ def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms:
         terms=terms,
         waves=found * scale,
         rms_waves=found,
-        share=np.where(still, 0.0, found**2) / (blur or 1.0),
-        rms=float(np.sqrt(variance)),
-        rms_without_tilt=float(np.sqrt(blur)),
+        share=np.where(still, 0.0, found**2) / (blur**2 or 1.0),
+        rms=blur,
+        rms_with_tilt=rms(waves, nodes.weight),
         residual=float(np.linalg.norm(rest)),
         clear=nodes.share,
         rays=nodes.xi.size,
     )
-
-
-def variances(nodes: ClearNodes, waves: np.ndarray) -> tuple[float, float]:
-    """Return the variance of a wavefront over its nodes, waves², and what is left of it without its tilt."""
-    axes = nodes.eta[None] if nodes.even else np.stack([nodes.eta, nodes.xi])
-    places = axes - (axes @ nodes.weight)[:, None]
-    rest = waves - float(nodes.weight @ waves)
-    variance = float(nodes.weight @ rest**2)
-    along = (places * nodes.weight) @ rest
-    tilt = float(along @ np.linalg.solve((places * nodes.weight) @ places.T, along))
-    return variance, max(variance - tilt, 0.0)

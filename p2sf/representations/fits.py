@@ -15,7 +15,7 @@ from p2sf.paraxial.pupils import find_stop
 from p2sf.psf.fitted import summed
 from p2sf.raytrace.fit import fit, level_rays, levels
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data, steepness
+from p2sf.raytrace.ray_field import steepness
 from p2sf.representations.representation import Representation
 from p2sf.representations.space import LensSpace, Points
 
@@ -89,7 +89,7 @@ def _reach_um(space: LensSpace) -> float:
     found = []
     for depth in (space.near_mm, space.far_mm):
         source = Source(depth, space.slopes[1], space.wavelengths_um[0])
-        rays = ray_data(pencil(space.lens, source, xi, eta))
+        rays = pencil(space.lens, source, xi, eta)
         landing = float(np.sqrt(np.mean(rays.x_um**2 + rays.y_um**2)))
         found.append(np.hypot(landing, steepness(rays, xi, eta).light_um))
     return float(max(found))

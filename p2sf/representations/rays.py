@@ -28,7 +28,7 @@ def ray_representations(space: LensSpace) -> Iterator[Representation]:
 def prescription_numbers(lens: Lens) -> int:
     """Return how many numbers a prescription holds: surfaces, their figures, and six for each glass."""
     figures = sum((surface.conic != 0) + len(surface.aspheric) for surface in lens.surfaces)
-    parts = (part for s in lens.surfaces for part in (s.shape, s.diffraction, s.irregularity))
+    parts = (part for s in lens.surfaces for part in (s.shape, s.diffraction, s.irregularity, s.transmission))
     figures += sum(len(part.numbers) for part in parts if part is not None)
     figures += sum(surface.ideal for surface in lens.surfaces)
     glasses = {surface.medium for surface in lens.surfaces if surface.medium.label != "air"}

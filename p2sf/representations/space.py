@@ -8,7 +8,7 @@ from math import ceil, copysign, inf
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
-from p2sf.database.space import Space, depth_nodes
+from p2sf.database import Space, depth_nodes
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_aligned, check_unmasked, with_f_number
 from p2sf.lens.source import Source

@@ -19,7 +19,6 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, terms
 from p2sf.raytrace.fit import FittedPencil, Level
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
 from p2sf.representations.interpolation import Counts, Rule, node_weights
 from p2sf.representations.pictures import used_counts
 from p2sf.representations.representation import Representation
@@ -58,7 +57,7 @@ def wavefront(space: LensSpace, source: Source, order: int) -> np.ndarray:
     """
     nodes, turn = disc_nodes(*RAYS), np.linspace(0, np.pi, RIM)
     xi, eta = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))
-    rays = ray_data(pencil(space.lens, source, xi, eta))
+    rays = pencil(space.lens, source, xi, eta)
     across = float(rays.fx[np.abs(rays.fx).argmax()])
     low, high = float(rays.fy.min()), float(rays.fy.max())
     middle, along = (high + low) / 2, (high - low) / 2

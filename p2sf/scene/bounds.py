@@ -4,13 +4,13 @@ from math import isinf
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, depth_of
 from p2sf.errors import GlassError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, half_widths, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
-from p2sf.scene.scene import Scene, depth_of
+from p2sf.scene.scene import Scene
 from p2sf.scene.study import SAMPLINGS, Sampling, Study
 
 

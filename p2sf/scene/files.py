@@ -34,7 +34,8 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     try:
         return scene_from(table, Path(path))
     except RequestError as error:
-        raise RequestError("{path}: {error}", path=str(path), error=error) from error
+        # In words, so that keys of the file do not turn into options of the command line.
+        raise RequestError("{path}: {error}", path=str(path), error=str(error)) from error
     except (TypeError, ValueError, LookupError, AttributeError, OverflowError) as error:
         raise RequestError(
             "{path}: a value is missing or of the wrong kind ({reason}); numbers stand without quotes",

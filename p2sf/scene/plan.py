@@ -7,6 +7,7 @@ from math import hypot
 
 import numpy as np
 
+from p2sf.conventions import depth_of
 from p2sf.database.fitted import FittedDatabase
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
@@ -26,7 +27,7 @@ from p2sf.scene.nodes import (
     worst_errors,
 )
 from p2sf.scene.pricing import mirrored, naive_work, plan_work
-from p2sf.scene.scene import Channel, Scene, depth_of
+from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sharing import seidel_table, share_pupils
 from p2sf.scene.skew import SkewKernels, SkewStudy, database_map
 from p2sf.scene.spectrum import reduced

@@ -9,11 +9,11 @@ from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels import SensorMap
-from p2sf.psf.plane_waves import counts_for, pupil_amplitude
+from p2sf.psf.plane_waves import counts_for, pupil_amplitude, window_reach_um
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves
-from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data, steepness
+from p2sf.raytrace.pencil import pencil, rays_through
+from p2sf.raytrace.ray_field import steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.scene.field_points import FieldMap, landing_mm
@@ -73,19 +73,18 @@ def exact_pixels(
     # Its mask is turned, which stays in the lens, and so are a lens's tilts and decentres.
     seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))
     probe = pupil_nodes(lens, seen, PROBE, clip)
-    steep = steepness(ray_data(pencil(lens, seen, probe.xi, probe.eta)), probe.xi, probe.eta)
+    steep = steepness(pencil(lens, seen, probe.xi, probe.eta), probe.xi, probe.eta)
     steep = with_slopes(steep, lens.mask, source.wavelength_um)
     size = 2 * half + 1
     place, share = _pixel_points(size, pixel_um, steep.spread)
-    counts = counts_for(steep, size, pixel_um)
+    counts = counts_for(steep, window_reach_um(size, pixel_um))
     radii, directions = (2 * ceil(0.55 * count) for count in counts)
     nodes = pupil_nodes(lens, seen, (radii, directions), clip).unfolded()
-    data = ray_data(pencil(lens, seen, nodes.xi, nodes.eta))
-    phase = data.phase + nodes.path_um / source.wavelength_um
-    weight, across_f, along_f = nodes.weight * nodes.amplitude * data.weight, data.fx, data.fy
+    rays = rays_through(lens, seen, nodes)
+    weight, across_f, along_f = rays.share * rays.amplitude, rays.fx, rays.fy
     sine, cosine = np.sin(angle), np.cos(angle)
     fx, fy = across_f * cosine + along_f * sine, along_f * cosine - across_f * sine
-    amplitude = pupil_amplitude(weight, phase - along_f * shift_um - across_f * aside_um)
+    amplitude = pupil_amplitude(weight, rays.phase - along_f * shift_um - across_f * aside_um)
     field = sum_plane_waves(amplitude, fx, fy, place, place, even=False)
     light = (field.real**2 + field.imag**2).reshape(size, len(share), size, len(share))
     pixels = np.einsum("aibj,i,j->ab", light, share, share)

@@ -5,10 +5,12 @@ from math import inf, isfinite, log10, sqrt
 
 import numpy as np
 
+from p2sf.arguments import check_fields
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Alternatives, Message
+from p2sf.parameters import check_reach
 from p2sf.request import AimChoice, Request, check_aim, set_up
 from p2sf.scene.sensor import Sensor
 
@@ -28,6 +30,7 @@ class Channel:
     weights: tuple[float, ...]
 
     def __post_init__(self) -> None:
+        check_fields(self)
         if not self.wavelengths_nm or len(self.wavelengths_nm) != len(self.weights):
             raise RequestError(
                 "channel {channel} has {waves} wavelengths and {weights} weights; give as many of both, at least one",
@@ -92,6 +95,9 @@ class Scene:
     name: str = "scene"
 
     def __post_init__(self) -> None:
+        check_fields(self)
+        for name in ("near_mm", "far_mm", "focus_mm"):
+            check_reach(name, getattr(self, name))
         if not 0 < self.near_mm <= self.far_mm:
             raise RequestError(
                 "the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first",
@@ -174,8 +180,3 @@ class Scene:
             f_number=self.f_number,
             aim=self.aim,
         )
-
-
-def depth_of(vergence_per_mm: float) -> float:
-    """Return the depth in mm of a vergence, inf for 0."""
-    return inf if vergence_per_mm == 0 else 1 / float(vergence_per_mm)

@@ -6,6 +6,7 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.arguments import check_fields
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 
@@ -22,12 +23,14 @@ class Sensor:
     centre_mm: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
+        check_fields(self)
         for name in ("rows", "columns"):
-            if not 1 <= getattr(self, name) <= LARGEST_SIDE:
+            count = getattr(self, name)
+            if not 1 <= count <= LARGEST_SIDE or count % 1:
                 raise RequestError(
                     "sensor {name} is {count}; give a whole number from 1 to {most}",
                     name=name,
-                    count=getattr(self, name),
+                    count=count,
                     most=LARGEST_SIDE,
                 )
         if not 0 < self.pixel_um < 1e5:

@@ -12,10 +12,10 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, depth_of
+from p2sf.database import Space, depth_nodes
 from p2sf.database.fitted import FittedDatabase, split
 from p2sf.database.fitted_build import build_fitted, rays_on_sensor
-from p2sf.database.space import Space, depth_nodes
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source, source_at
@@ -29,7 +29,7 @@ from p2sf.pupil.zernike import terms
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import SKEW, Level, PencilForms, pencil_forms
 from p2sf.scene.field_points import FIELDS, FieldMap, field_map, fitted_map, sensor_ends_mm
-from p2sf.scene.scene import Scene, depth_of
+from p2sf.scene.scene import Scene
 from p2sf.scene.study import CONVERGED_WAVES, SCAN, SEEN_AT, Place, PupilAt, Sampling, Study
 
 BORDER = 9  # places along each side of the sensor whose fields a database has to cover
@@ -114,9 +114,9 @@ def looked_up(
     """Return the pupils of sources in the sensor's axes, and how far each lands from its place, (sources, 2) µm."""
     numbers = np.stack([database.numbers_at(source) for source in sources])
     forms = (np.stack(form) for form in zip(*(split(database.level, row)[:4] for row in numbers), strict=True))
-    phase, fx, fy, weight = forms
+    phase, fx, fy, amplitude = forms
     unknown = np.full(len(numbers), database.residual_waves)
-    fits = PencilForms(phase, fx, fy, weight, unknown, 0 * unknown, 0 * unknown)
+    fits = PencilForms(phase, fx, fy, amplitude, unknown, 0 * unknown, 0 * unknown)
     several = Sources(*np.array([(s.depth_mm, s.field_slope, s.wavelength_um) for s in sources]).T)
     return pupils_of(lens, several, fits, database.level), (numbers[:, -2:] - places_mm) * UM_PER_MM
 

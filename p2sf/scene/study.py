@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM
+from p2sf.conventions import UM_PER_MM, depth_of
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels import Recipe, SensorMap, sensor_maps
@@ -24,7 +24,7 @@ from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import Level, PencilForms, levels
-from p2sf.scene.scene import Scene, depth_of
+from p2sf.scene.scene import Scene
 
 # Fineness and margin of `Recipe`, cheapest first.
 SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)

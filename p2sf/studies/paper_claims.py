@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, slope_from_degrees
+from p2sf.database import Space, depth_nodes
 from p2sf.database.build import build_exact
-from p2sf.database.space import Space, depth_nodes
 from p2sf.lens.lens import Lens, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop

@@ -160,9 +160,9 @@ def system_matrix(figure: Published, lens: Lens) -> float:
     return float(abcd(lens, figure.wavelength_um)[figure.row, figure.column])
 
 
-def rms_wavefront(figure: Published, lens: Lens) -> float:
+def rms_with_tilt(figure: Published, lens: Lens) -> float:
     """Return the RMS of the wavefront about its mean on the chief ray's sphere, waves; tilt counts, rims do not."""
-    return zernike_fit(lens, figure.point).rms
+    return zernike_fit(lens, figure.point).rms_with_tilt
 
 
 def chief_ray(figure: Published, lens: Lens) -> float:
@@ -179,12 +179,15 @@ def r_squared_of_seidel(figure: Published, lens: Lens) -> float:
 
 
 def strehl(figure: Published, lens: Lens) -> float:
-    """Return the highest sample of the Huygens sum over the unaberrated peak; rims and holes end the pupil."""
-    peak = huygens_psf(lens, figure.point, figure.pixels, figure.pixel_um, clip=True).strehl
-    return float("nan") if peak is None else float(peak)
+    """Return the highest sample of the Huygens sum over the unaberrated peak; rims and holes end the pupil.
+
+    The highest of their samples is what the listings state, not that of the continuous picture.
+    """
+    samples = huygens_psf(lens, figure.point, figure.pixels, figure.pixel_um, clip=True).over_unaberrated
+    return float("nan") if samples is None else float(samples.max())
 
 
-def rms_of_listed_points(figure: Published, lens: Lens) -> float:
+def rms_with_tilt_of_listed_points(figure: Published, lens: Lens) -> float:
     """Return the RMS of the wavefront about its mean over the 32 × 32 points of a listing, waves; tilt counts.
 
     Sample (row, column) is the pupil point (column − 16, row − 16)/15; rims and holes block. Where the field lies off
@@ -205,11 +208,11 @@ MEASURES: dict[str, Callable[[Published, Lens], float]] = {
     "front_focal_plane": front_focal_plane,
     "entrance_pupil": entrance_pupil,
     "abcd": system_matrix,
-    "rms_wavefront": rms_wavefront,
+    "rms_with_tilt": rms_with_tilt,
     "chief_ray": chief_ray,
     "r_squared_of_seidel": r_squared_of_seidel,
     "strehl": strehl,
-    "rms_of_listed_points": rms_of_listed_points,
+    "rms_with_tilt_of_listed_points": rms_with_tilt_of_listed_points,
 }
 COLUMNS = ("quantity", "lens", "theirs", "source", "ours", "difference", "tolerance", "verdict")
 

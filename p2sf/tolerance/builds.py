@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -10,9 +10,10 @@ from p2sf.conventions import protected
 from p2sf.errors import Cancelled, RequestError
 from p2sf.pupil import zernike
 from p2sf.pupil.quadrature import whole_disc
+from p2sf.pupil.tilt import without_tilt
 from p2sf.threads import one_blas_thread
-from p2sf.tolerance.contrast import Pairs, pairs_of
-from p2sf.tolerance.differentials import NODES, Differentials, OpenRays
+from p2sf.tolerance.contrast import NEAR, Pairs, at_frequency, pairs_of
+from p2sf.tolerance.differentials import NODES, Differentials
 from p2sf.tolerance.errors_of_build import IRREGULAR, Tolerance
 
 TOGETHER = 500  # builds at a time
@@ -26,10 +27,11 @@ ROUNDS = 2  # of Gauss and Newton's method for compensators, whose effect is nea
 class Builds:
     """Builds drawn at random: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
 
-    ``rms_waves`` (builds, fields): of the wavefront without piston and tilt. ``strehl``: |mean of exp(2πiW)|² without
-    these, and beyond `SUMMED_RMS` exp(−(2π·RMS)²), nothing (Mahajan 1983). ``boresight_um``
-    (builds, fields, 2): how far the image has moved. ``mtf`` (builds, fields, 2): the contrast at one frequency of
-    patterns along x (sagittal) and y (tangential), NaN where none was asked for.
+    ``rms_waves`` (builds, fields): of the displayed wavefront without piston and tilt, as `zernike_fit` has it.
+    ``strehl``: |mean of exp(2πiW)|² of the phase at the focus without these, weighted as the field, and beyond
+    `SUMMED_RMS` exp(−(2π·RMS)²), nothing (Mahajan 1983). ``boresight_um`` (builds, fields, 2): how far the image has
+    moved. ``mtf`` (builds, fields, 2): the contrast at one frequency of patterns along x (sagittal) and y (tangential),
+    NaN where none was asked for.
     """
 
     errors: np.ndarray
@@ -87,7 +89,7 @@ def evaluate(
     cancelled: Callable[[], bool] | None = None,
 ) -> Builds:
     """Return the builds with these errors, (builds, errors), and with the compensators set."""
-    form, errors = _Form(known, frequency_per_mm), np.array(errors, dtype=float)
+    form, errors = QuadraticForm(known, frequency_per_mm), np.array(errors, dtype=float)
     rms, strehl = (np.empty((len(errors), len(known.sources))) for _ in range(2))
     mtf = np.full((*rms.shape, 2), np.nan)
     for begin in range(0, len(errors), TOGETHER):
@@ -96,45 +98,59 @@ def evaluate(
         some = slice(begin, begin + TOGETHER)
         for _ in range(ROUNDS if compensators else 0):
             errors[some][:, list(compensators)] += form.compensated(errors[some], tuple(compensators))
-        change = form.change(errors[some])
-        rms[some], strehl[some] = form.quality(change)
-        form.contrast(change, mtf[some])
+        change = form.phase.change(errors[some])
+        rms[some], strehl[some] = form.quality(change, form.wavefront.change(errors[some]))
+        stretch = np.einsum("be,efx->bfx", errors[some], known.stretch)
+        form.contrast(change, stretch, mtf[some])
         if progress:
             progress(min(1.0, (begin + TOGETHER) / len(errors)))
     boresight = np.einsum("be,efx->bfx", errors, known.chief_um)
     return Builds(errors, rms, strehl, boresight, mtf)
 
 
-def sensitivities(
-    known: Differentials, compensators: Sequence[int] = (), frequency_per_mm: float | None = None
-) -> Builds:
-    """Return builds with one error each, at plus and then at minus its tolerance: (2·errors) builds, and the lens last.
+def by_form(known: Differentials, compensators: Sequence[int] = (), frequency_per_mm: float | None = None) -> Builds:
+    """Return what the quadratic form says of one error at a time, as `p2sf.tolerance.sensitivities` has it."""
+    return evaluate(known, single_errors(known, compensators), compensators, frequency_per_mm)
+
+
+def single_errors(known: Differentials, compensators: Sequence[int] = ()) -> np.ndarray:
+    """Return each error alone, at plus and then at minus its tolerance: (2·errors + 1, errors), none at last.
 
     That of a compensator is 0.
     """
     amounts = known.amounts
     amounts[list(compensators)] = 0.0
     alone = np.stack([np.diag(amounts), -np.diag(amounts)], axis=1).reshape(-1, amounts.size)
-    return evaluate(known, np.concatenate([alone, np.zeros((1, amounts.size))]), compensators, frequency_per_mm)
+    return np.concatenate([alone, np.zeros((1, amounts.size))])
 
 
-class _Field:
-    """The waves of one field at open rays, without the piston and the tilt that are best there.
+class FieldForm:
+    """The waves of one field at open rays, (rays,), without the piston and the tilt that are best there.
 
     A build adds polynomials to those of the lens: it has ``still`` (rays,) + change (terms,) @ ``terms`` (terms, rays).
-    (1, change) @ ``root`` are numbers whose squares add to the mean square.
+    (1, change) @ ``root`` are numbers whose squares add to the mean square. ``axes``: what a tilt is linear in.
     """
 
-    def __init__(self, rays: OpenRays):
-        self.weight = rays.weight
-        rows = np.concatenate([rays.phase[None], _terms(rays.xi, rays.eta)])
-        flat = np.stack([np.ones_like(rays.fx), rays.fx, rays.fy])
-        weighted = flat * rays.weight
-        rows = rows - np.linalg.solve(weighted @ flat.T, weighted @ rows.T).T @ flat
+    def __init__(self, places: np.ndarray, waves: np.ndarray, weight: np.ndarray, axes: np.ndarray):
+        self.weight = weight
+        rows = without_tilt(np.concatenate([waves[None], _terms(*places)]), weight, axes)
         self.still, self.terms = rows[0], rows[1:]
         # Not of the rays themselves times roots of their weights, since those of a mask's edges may be negative.
-        values, vectors = np.linalg.eigh((rows * rays.weight) @ rows.T)
+        values, vectors = np.linalg.eigh((rows * weight) @ rows.T)
         self.root = vectors * np.sqrt(np.maximum(values, 0.0))
+
+    def polynomials(self, waves: np.ndarray) -> np.ndarray:
+        """Return the polynomials, (terms,), by which waves without piston and tilt, (rays,), differ from the lens's."""
+        found: np.ndarray = (waves - self.still) @ self._inverse
+        return found
+
+    def mean_square(self, waves: np.ndarray) -> float:
+        """Return the mean square of waves, (rays,)."""
+        return max(float(self.weight @ waves**2), 0.0)
+
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        return np.linalg.pinv(self.terms)
 
     def strehl(self, change: np.ndarray) -> np.ndarray:
         """Return |Σ weight·exp(2πi·waves)|² of builds, (builds,), that differ by (builds, terms)."""
@@ -143,70 +159,92 @@ class _Field:
         return strehl
 
 
-class _Form:
-    """The quadratic form of all fields' waves in the errors, by polynomials over the stop."""
+class Expansion:
+    """What errors add to the waves of every field, by polynomials over the stop, to second order."""
 
-    def __init__(self, known: Differentials, frequency_per_mm: float | None = None):
-        self.fields = [_Field(rays) for rays in known.fine]
-        clear = known.lens.mask.clear
-        self.few = [_Field(_few_rays(known, k)) for k in range(len(self.fields))] if clear else self.fields
-        one, other = np.triu_indices(len(known.tolerances))
-        felt = known.second[one, other].any((1, 2))
-        self.pairs = one[felt], other[felt]
-        factor = np.where(self.pairs[0] == self.pairs[1], 0.5, 1.0)
-        self.first, self.by_one = known.first @ _to_terms(), known.second @ _to_terms()
-        self.second = self.by_one[self.pairs] * factor[:, None, None]
-        self.patterns = []
-        if frequency_per_mm is not None:
-            for k in range(len(self.fields)):
-                both = pairs_of(known, k, frequency_per_mm)
-                self.patterns.append([pairs and (pairs, _differences(pairs)) for pairs in both])
+    def __init__(self, first: np.ndarray, second: np.ndarray):
+        one, other = np.triu_indices(len(first))
+        felt = second[one, other].any((1, 2))
+        self._pairs = one[felt], other[felt]
+        factor = np.where(self._pairs[0] == self._pairs[1], 0.5, 1.0)
+        self._first, self._by_one = first @ _to_terms(), second @ _to_terms()
+        self._second = self._by_one[self._pairs] * factor[:, None, None]
 
     def change(self, errors: np.ndarray) -> np.ndarray:
         """Return the polynomials that errors, (builds, errors), add to every field's waves, (builds, fields, terms)."""
-        products = errors[:, self.pairs[0]] * errors[:, self.pairs[1]]
-        return np.tensordot(errors, self.first, 1) + np.tensordot(products, self.second, 1)
+        products = errors[:, self._pairs[0]] * errors[:, self._pairs[1]]
+        return np.tensordot(errors, self._first, 1) + np.tensordot(products, self._second, 1)
+
+    def slope(self, errors: np.ndarray, place: int) -> np.ndarray:
+        """Return the polynomials that a unit of one error adds to builds, (builds, fields, terms)."""
+        slope: np.ndarray = self._first[place] + np.tensordot(errors, self._by_one[place], 1)
+        return slope
+
+
+class QuadraticForm:
+    """The quadratic form of all fields' waves in the errors.
+
+    ``phase`` is for the Strehl ratio and the contrast, and the displayed ``wavefront`` for the RMS.
+    """
+
+    def __init__(self, known: Differentials, frequency_per_mm: float | None = None):
+        self.fields = [FieldForm(one.axes, one.phase, one.weight, one.frequencies) for one in known.fine]
+        self.few = [_few_rays(known, k) for k in range(len(self.fields))] if known.lens.mask.clear else self.fields
+        self.on_sphere = [FieldForm(one.axes, one.wavefront, one.share, one.axes) for one in known.fine]
+        self.phase = Expansion(known.first, known.second)
+        self.wavefront = Expansion(known.first_of_wavefront, known.second_of_wavefront)
+        self.patterns = []
+        if frequency_per_mm is not None:
+            for k in range(len(self.fields)):
+                asked, near = (pairs_of(known, k, by * frequency_per_mm) for by in (1.0, 1.0 - NEAR))
+                both = zip(asked, near, strict=True)
+                self.patterns.append([(_Pattern(a), _Pattern(b)) if a and b else None for a, b in both])
 
     def _rooted(self, change: np.ndarray, still: float) -> np.ndarray:
         """Return numbers whose squares add to each field's mean square, (…, fields, terms + 1).
 
-        Of a change of the waves alone where ``still`` is 0, and of the waves where it is 1.
+        Of a change of the wavefront alone where ``still`` is 0, and of the wavefront where it is 1.
         """
-        roots = [still * field.root[0] + change[..., k, :] @ field.root[1:] for k, field in enumerate(self.fields)]
+        roots = [still * one.root[0] + change[..., k, :] @ one.root[1:] for k, one in enumerate(self.on_sphere)]
         return np.stack(roots, axis=-2)
 
     def compensated(self, errors: np.ndarray, places: tuple[int, ...]) -> np.ndarray:
         """Return the step of compensators, (builds, compensators), that makes the mean square of all fields least."""
-        waves = self._rooted(self.change(errors), 1.0).reshape(len(errors), -1)
-        each = [self.first[place] + np.tensordot(errors, self.by_one[place], 1) for place in places]
+        waves = self._rooted(self.wavefront.change(errors), 1.0).reshape(len(errors), -1)
+        each = [self.wavefront.slope(errors, place) for place in places]
         slopes = np.stack([self._rooted(one, 0.0).reshape(len(errors), -1) for one in each], axis=1)
         normal = slopes @ slopes.swapaxes(1, 2)
         step: np.ndarray = -np.linalg.solve(normal, (slopes @ waves[..., None]))[..., 0]
         return step
 
-    def quality(self, change: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return RMS in waves and Strehl ratio, (builds, fields)."""
-        rms = np.sqrt(np.square(self._rooted(change, 1.0)).sum(-1))
+    def quality(self, of_phase: np.ndarray, of_wavefront: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return RMS in waves and Strehl ratio, (builds, fields), of changes of both, (builds, fields, terms)."""
+        rms = np.sqrt(np.square(self._rooted(of_wavefront, 1.0)).sum(-1))
         strehl = np.exp(-((2 * np.pi * rms) ** 2))
         for k, field in enumerate(self.fields):
             near = rms[:, k] <= FEW_RAYS_RMS
-            strehl[near, k] = self.few[k].strehl(change[near, k])
+            strehl[near, k] = self.few[k].strehl(of_phase[near, k])
             far = ~near & (rms[:, k] <= SUMMED_RMS)
-            strehl[far, k] = field.strehl(change[far, k])
+            strehl[far, k] = field.strehl(of_phase[far, k])
         return rms, strehl
 
-    def contrast(self, change: np.ndarray, found: np.ndarray) -> None:
+    def contrast(self, change: np.ndarray, stretch: np.ndarray, found: np.ndarray) -> None:
         """Write the contrast of builds, (builds, fields, 2), where a frequency is asked for; 0 beyond the cut-off."""
         for field, both in enumerate(self.patterns):
             terms = change[:, field].astype(np.float32)
             for axis, known in enumerate(both):
-                found[:, field, axis] = known[0].contrast(terms @ known[1]) if known else 0.0
+                if known is None:
+                    found[:, field, axis] = 0.0
+                    continue
+                contrast, near = (pattern.contrast(terms) for pattern in known)
+                found[:, field, axis] = at_frequency(contrast, near, stretch[:, field, axis])
 
 
-def _few_rays(known: Differentials, field: int) -> OpenRays:
-    """Return the rays of the differentials, which carry exp(2πiW) of a clear stop where W is small."""
-    xi, eta, _ = whole_disc(*NODES)
-    return OpenRays(xi, eta, known.weight[field], known.phase[field], known.fx[field], known.fy[field])
+def _few_rays(known: Differentials, field: int) -> FieldForm:
+    """Return the phase at the rays of the differentials, which carry exp(2πiW) of a clear stop where W is small."""
+    frequencies = np.stack([known.fx[field], known.fy[field]])
+    places = np.stack(whole_disc(*NODES)[:2])
+    return FieldForm(places, known.phase[field], known.weight[field], frequencies)
 
 
 @lru_cache(maxsize=1)
@@ -221,7 +259,13 @@ def _terms(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     return rows
 
 
-def _differences(pairs: Pairs) -> np.ndarray:
-    """Return the difference of every polynomial at pairs of points, (terms, pairs)."""
-    found: np.ndarray = (_terms(*pairs.ends[0]) - _terms(*pairs.ends[1])).astype(np.float32)
-    return found
+class _Pattern:
+    """Pairs of points, and the difference of every polynomial at them, (terms, pairs)."""
+
+    def __init__(self, pairs: Pairs):
+        self._pairs = pairs
+        self._differences = (_terms(*pairs.ends[0]) - _terms(*pairs.ends[1])).astype(np.float32)
+
+    def contrast(self, terms: np.ndarray) -> np.ndarray:
+        """Return the contrast of builds that add polynomials, (builds, terms), to the waves."""
+        return self._pairs.contrast(terms @ self._differences)

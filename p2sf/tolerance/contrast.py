@@ -5,7 +5,9 @@ With D(f) the density of rays over frequencies f = n'K/λ and w their phase (see
     OTF(ν) = ∫ D(f)·D(f − ν)·exp(2πi(w(f) − w(f − ν))) df / ∫ D² df
 
 (Goodman 2005, eq. 6-28). Pairs of points of the stop whose frequencies differ by ν are found once in the lens without
-errors; a build changes their phases only. That its pupil changes too is left out: it moves the cut-off, by some 1e-3.
+errors; a build changes their phases. It also stretches the pupil by 1 + ε along the pattern, since its iris stays and
+its focal length does not, so that these pairs differ by ν(1 + ε): their contrast is moved to ν along the chord from a
+slightly smaller frequency. That the shape of the pupil changes is left out.
 Behind a mask both D have its amplitude, and rows of points are broken where an edge of the mask crosses them.
 """
 
@@ -23,14 +25,16 @@ from p2sf.parameters import check_positive
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import gauss_legendre, whole_disc
+from p2sf.raytrace.pencil import reaching
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.tolerance.differentials import FINE, FINEST, Differentials, fly
+from p2sf.tolerance.differentials import FINE, FINEST, Differentials
 
 ORDER = 10  # of the polynomials that follow the pupil
 SIZES = (12, 16), (18, 24), (26, 34), (38, 50), (56, 72)  # rows and columns of pairs
 DISTORTION = 1.1  # by which the edge of a pupil is farther from its middle than the middle's scale says, at most
 SETTLED = 1e-3  # by which the lens's contrast may differ between one size and the next, which is taken
 FEWEST, ALONG, STEPS, HALVINGS = 6, 17, 128, 14  # of a part of a row: points; of a row: where its edges are sought
+NEAR = 0.02  # by which the second frequency of a pattern is smaller: some times what a build stretches its pupil by
 ROUNDS = 7  # that find them: each reduces the error by the pupil's distortion, some per cent
 
 
@@ -54,31 +58,31 @@ class Pairs:
 
 
 class _PupilMap:
-    """Frequencies and weight over the stop, as polynomials T_i(ξ)·T_j(η) through many rays."""
+    """Frequencies and amplitude over the stop, as polynomials T_i(ξ)·T_j(η) through many rays."""
 
     def __init__(self, known: Differentials, field: int):
         xi, eta, _ = whole_disc(*FINE)
-        rays = fly(known.lens, known.sources[field], xi, eta)
+        rays = reaching(known.lens, known.sources[field], xi, eta)
         places = np.indices((ORDER + 1, ORDER + 1))
         kept = places.sum(0) <= ORDER
         rows = chebvander2d(xi, eta, (ORDER, ORDER)).reshape(xi.size, *kept.shape)[:, kept]
         self._tables = np.zeros((3, *kept.shape))
-        self._tables[:, kept] = np.linalg.lstsq(rows, np.stack([rays.fx, rays.fy, rays.weight], axis=1))[0].T
+        self._tables[:, kept] = np.linalg.lstsq(rows, np.stack([rays.fx, rays.fy, rays.amplitude], axis=1))[0].T
         self._slopes = [[chebder(table, axis=axis) for axis in (0, 1)] for table in self._tables[:2]]
         self.mask = mask_seen(known.lens, known.sources[field])
         nodes = mask_nodes(self.mask, *FINEST).unfolded()
         xi, eta = nodes.xi, nodes.eta
-        density = np.square(self.weight(np.stack([xi, eta]))) / np.abs(np.linalg.det(self.jacobian(xi, eta)))
+        density = np.square(self.amplitude(np.stack([xi, eta]))) / np.abs(np.linalg.det(self.jacobian(xi, eta)))
         self.square = float((nodes.weight * np.square(nodes.amplitude) * density).sum()) * np.pi * nodes.share
 
     def at(self, place: np.ndarray) -> np.ndarray:
         """Return the frequencies (2, points) at places (2, points) of the stop."""
         return np.stack([chebval2d(place[0], place[1], table) for table in self._tables[:2]])
 
-    def weight(self, place: np.ndarray) -> np.ndarray:
-        """Return the weight of the field at places."""
-        weight: np.ndarray = chebval2d(place[0], place[1], self._tables[2])
-        return weight
+    def amplitude(self, place: np.ndarray) -> np.ndarray:
+        """Return the field of unit pupil area at places, without the mask's."""
+        amplitude: np.ndarray = chebval2d(place[0], place[1], self._tables[2])
+        return amplitude
 
     def jacobian(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η), (points, 2, 2)."""
@@ -107,6 +111,12 @@ def pairs_of(known: Differentials, field: int, frequency_per_mm: float) -> tuple
     source, lens = known.sources[field], known.lens
     sagittal, tangential = (_settled(pupil, lens, source, shift * np.array(axis)) for axis in ((1.0, 0.0), (0.0, 1.0)))
     return sagittal, tangential
+
+
+def at_frequency(contrast: np.ndarray, near: np.ndarray, stretch: np.ndarray) -> np.ndarray:
+    """Return the contrast of builds, (builds,), whose pairs differ by ν(1 + stretch); ``near``: that at ν(1 − NEAR)."""
+    moved: np.ndarray = np.maximum(contrast - stretch * (contrast - near) / NEAR, 0.0)
+    return moved
 
 
 def _settled(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray) -> Pairs | None:
@@ -139,9 +149,9 @@ def _pairs(
     # From F(m + δ/2) − F(m − δ/2) = ν: ∂δ/∂m = 2(J + J′)⁻¹(J′ − J), and df = |J(1 + ½∂δ/∂m)| dm.
     turned = np.eye(2) + np.linalg.solve(first + second, second - first)
     area = area * np.abs(np.linalg.det(first @ turned))
-    density = [pupil.weight(end) / np.abs(np.linalg.det(by)) for end, by in zip(ends, (first, second), strict=True)]
+    density = [pupil.amplitude(end) / np.abs(np.linalg.det(by)) for end, by in zip(ends, (first, second), strict=True)]
     light = density[0] * density[1] * area / pupil.square
-    phase = fly(lens, source, *ends.swapaxes(0, 1).reshape(2, -1)).phase.reshape(2, -1)
+    phase = reaching(lens, source, *ends.swapaxes(0, 1).reshape(2, -1)).phase.reshape(2, -1)
     phase = phase + pupil.mask.path_um(ends[:, 0], ends[:, 1]) / source.wavelength_um
     return Pairs(ends, light, phase[0] - phase[1])
 

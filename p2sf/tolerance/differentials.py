@@ -9,27 +9,38 @@ the chief ray does, and W = V − n′K·(I − C) of paths V, the change at fix
     ∂ᵢW = gᵢ − n′∂ᵢK·(I − C) + n′(K − K chief)·∂ᵢC,
 
 gᵢ by Fermat; of its derivative by another error only −n′∂ᵢⱼK·(I − C), an aberration times a second-order change of
-direction, is left out. So is all that an irregularity, of waves, does together with another error.
+direction, is left out. The displayed wavefront, of which the RMS is (handbook 3.4), goes back to the reference sphere
+of radius R: it lacks the n′((K·(I − C))² − |I − C|²)/2R of the phase, whose derivative by two errors is, as far as the
+phase's own, n′(K·∂ᵢI K·∂ⱼI − ∂ᵢI·∂ⱼI)/R with I from C. By one error the phase is about the image instead of C
+(`image_um`). Left out as well is all that an irregularity, of waves, does together with another error but the back
+focus, which compensates for it and is large: the sensor alone moves, and C and I by as much as the rays there are
+steep.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import Cancelled, GeometryError
-from p2sf.lens.lens import Lens, seen_from
+from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.source import Source
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import whole_disc
-from p2sf.raytrace.aiming import pupil_rays, start
+from p2sf.raytrace.pencil import (
+    Crossings,
+    Rays,
+    all_reaching,
+    exit_radius,
+    opd_on_sphere,
+    rays_through,
+    reaching_by_surfaces,
+)
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.surface import Status
-from p2sf.raytrace.trace import run
 from p2sf.threads import one_blas_thread
-from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, placed
+from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, placed, source_of_build
 
 NODES = 6, 12  # radii and directions of the rays
 FINE = 16, 40  # those of the lens without errors, which carry exp(2πiW) where the lens itself has waves of aberration
@@ -43,16 +54,36 @@ LEAST_STEP = 1e-5
 class OpenRays:
     """Rays of one source through what the stop leaves open, all (rays,), at points (ξ, η) of it.
 
-    ``weight``: shares of the field at the focus, some of them negative where a mask has vanes or blades. ``phase``:
-    waves, that of a mask included. ``fx``, ``fy``: frequencies, cycles per µm.
+    ``share``: of the open area, ``weight``: of the field at the focus, some of both negative where a mask has vanes or
+    blades. ``phase``: waves, that of a mask included, and ``wavefront`` the same on the reference sphere, as
+    `wavefront_of` has it. ``fx``, ``fy``: frequencies, cycles per µm.
     """
 
     xi: np.ndarray
     eta: np.ndarray
+    share: np.ndarray
     weight: np.ndarray
     phase: np.ndarray
+    wavefront: np.ndarray
     fx: np.ndarray
     fy: np.ndarray
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Return what the phase of a shifted image is linear in, (2, rays)."""
+        return np.stack([self.fx, self.fy])
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Return what a tilt of the wavefront is linear in, (2, rays)."""
+        return np.stack([self.xi, self.eta])
+
+
+_COLUMNS = {
+    **dict.fromkeys(("weight", "phase", "fx", "fy"), 0),
+    **{"first": 1, "second": 2, "first_of_wavefront": 1, "second_of_wavefront": 2, "chief_um": 1, "stretch": 1},
+}
+"""What `_of_source` returns, and which axis the fields take in it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +91,11 @@ class Differentials:
     """Waves at the rays of every field: (fields, rays), and what errors add, the axes of these first.
 
     They are those of the clear stop. ``weight``: shares of the light of each ray. ``fx``, ``fy``: its frequencies,
-    cycles per µm. ``first``: (errors, fields, rays) waves per unit, ``second``: (errors, errors, fields, rays).
-    ``chief_um``: (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit. ``fine``: for every field
-    more rays through the lens without errors, over what a mask in its stop leaves open.
+    cycles per µm. ``first``: (errors, fields, rays) waves of phase per unit, ``second``: (errors, errors, fields,
+    rays). ``first_of_wavefront``, ``second_of_wavefront``: the same of the displayed wavefront (`wavefront_of`).
+    ``chief_um``: (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit. ``stretch``: (errors,
+    fields, 2), the share by which frequencies grow along x and y, per unit. ``fine``: for every field more rays through
+    the lens without errors, over what a mask in its stop leaves open.
     """
 
     lens: Lens
@@ -74,7 +107,10 @@ class Differentials:
     fy: np.ndarray
     first: np.ndarray
     second: np.ndarray
+    first_of_wavefront: np.ndarray
+    second_of_wavefront: np.ndarray
     chief_um: np.ndarray
+    stretch: np.ndarray
     fine: tuple[OpenRays, ...]
 
     @property
@@ -110,9 +146,10 @@ def differentials(
             progress(done / total)
 
     parts = [_of_source(lens, source, known, steps, one_more) for source in sources]
-    weight, phase, fx, fy, first, second, chief = (np.stack(column, axis) for column, axis in _columns(parts))
-    fine = tuple(_open_rays(lens, source) for source in sources)
-    return Differentials(lens, tuple(sources), known, weight, phase, fx, fy, first, second, chief, fine)
+    columns = dict(zip(_COLUMNS, zip(*parts, strict=True), strict=True))
+    stacked = {name: np.stack(rows, axis=_COLUMNS[name]) for name, rows in columns.items()}
+    fine = tuple(open_rays(lens, source) for source in sources)
+    return Differentials(lens, tuple(sources), known, fine=fine, **stacked)
 
 
 def usual_sources(lens: Lens, source: Source) -> tuple[Source, ...]:
@@ -124,109 +161,170 @@ def usual_sources(lens: Lens, source: Source) -> tuple[Source, ...]:
     return tuple(Source(depth, field_deg=part * top, wavelength_um=wavelength) for part in FIELDS)
 
 
-def _open_rays(lens: Lens, source: Source) -> OpenRays:
-    """Return many rays through the lens without errors and the mask in its stop."""
+def open_rays(lens: Lens, source: Source, counts: tuple[int, int] = FINE) -> OpenRays:
+    """Return many rays through the lens without errors and the mask in its stop; radii and directions at least."""
     mask = mask_seen(lens, source)
-    nodes = mask_nodes(mask, *(FINEST if mask.shaded or mask.phased else FINE)).unfolded()
-    found = fly(lens, source, nodes.xi, nodes.eta)
-    weight = nodes.weight * nodes.amplitude * found.weight
-    phase = found.phase + nodes.path_um / source.wavelength_um
-    return OpenRays(nodes.xi, nodes.eta, weight / weight.sum(), phase, found.fx, found.fy)
+    if mask.shaded or mask.phased:
+        counts = max(counts[0], FINEST[0]), max(counts[1], FINEST[1])
+    nodes = mask_nodes(mask, *counts).unfolded()
+    rays = all_reaching(rays_through(lens, source, nodes))
+    weight, share = rays.share * rays.amplitude, np.asarray(rays.share)
+    wavefront = wavefront_of(lens, source, rays) + rays.mask_path_um / source.wavelength_um
+    each = share / share.sum(), weight / weight.sum(), rays.phase, wavefront, rays.fx, rays.fy
+    return OpenRays(rays.xi, rays.eta, *each)
 
 
-def _columns(parts: list[tuple[np.ndarray, ...]]) -> list[tuple[list[np.ndarray], int]]:
-    """Return each quantity of all fields, and which axis the fields take in it."""
-    return [(list(column), axis) for column, axis in zip(zip(*parts, strict=True), (0, 0, 0, 0, 1, 2, 1), strict=True)]
+def wavefront_of(lens: Lens, source: Source, rays: Rays) -> np.ndarray:
+    """Return the displayed wavefront of rays, waves, with the sign of a phase and without the mask's path."""
+    return -opd_on_sphere(rays, exit_radius(lens, source, rays))
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
-    """Rays of one source through one lens, the chief ray last, in the axes of the lens.
+class _Differences:
+    """Differences of rays through lenses with one error either way, per unit of it, the errors first.
 
-    ``points``: (surfaces + 1, 3, ray) on every surface and the sensor, mm. ``rays``: optical cosines as they arrive
-    there. ``phase``: waves, without the chief ray. ``chief_um``: where that lands. ``cosines``: (2, ray) optical ones
-    along the sensor's x and y. ``landing``: (2, ray), mm from the chief ray.
+    ``first``, ``pure``: (2, errors, rays), derivatives of the phase about the image and of the displayed wavefront,
+    ``pure`` the second by one error, 0 of irregularities.
+    ``chief_um``: (errors, 2). ``turn``: (errors, 2, rays + 1) of the cosines along x and y, ``shift``: (errors, 2,
+    rays) of the landing points from the chief ray's, mm. ``paths``: (errors, errors, rays), by the first of the change
+    of path that the second makes, waves.
     """
 
-    lens: Lens
-    points: np.ndarray
-    rays: np.ndarray
-    phase: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
-    weight: np.ndarray
+    first: np.ndarray
+    pure: np.ndarray
     chief_um: np.ndarray
-    cosines: np.ndarray
-    landing: np.ndarray
-
-
-def fly(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> Flight:
-    """Return the rays through points of the stop; GeometryError where one does not reach the sensor."""
-    lens = seen_from(lens, source.azimuth_deg)
-    rays = pupil_rays(lens, source, np.append(xi, 0.0), np.append(eta, 0.0))
-    beam, points, along = start(rays), [], []
-
-    def visit(number: int) -> None:
-        rotation, origin = lens.frames[number - 1]
-        points.append(rotation @ beam.place + origin[:, None])
-        along.append(rotation @ beam.ray)
-
-    run(lens, beam, rays.index, visit=visit)
-    lost = beam.status != Status.PASSED
-    if lost.any():
-        raise GeometryError(
-            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
-            lost=int(lost.sum()),
-            total=xi.size,
-        )
-    path = beam.path + rays.path
-    (dx, dy), (p, q) = (values[:2, :-1] - values[:2, -1:] for values in (beam.place, beam.ray))
-    phase = path[:-1] - path[-1] - beam.p[:-1] * dx - beam.q[:-1] * dy
-    waves = UM_PER_MM / source.wavelength_um
-    light = np.broadcast_to(rays.weight, xi.shape[0] + 1)[:-1]
-    chief = UM_PER_MM * beam.place[:2, -1]
-    scale = 1 / source.wavelength_um
-    made = lens, np.stack(points), np.stack(along), phase * waves, p * scale, q * scale, light, chief
-    return Flight(*made, beam.ray[:2].copy(), np.stack([dx, dy]))
+    turn: np.ndarray
+    shift: np.ndarray
+    paths: np.ndarray
 
 
 def _of_source(
     lens: Lens, source: Source, tolerances: tuple[Tolerance, ...], steps: np.ndarray, after_each: Callable[[], None]
 ) -> tuple[np.ndarray, ...]:
-    """Return weight, phase, fx, fy, first and second derivatives, and the chief ray's, of one source."""
-    nodes, wavelength = whole_disc(*NODES)[:2], source.wavelength_um
-    still = fly(lens, source, *nodes)
-    count, rays = len(tolerances), still.phase.size
-    first, second, chief = np.empty((count, rays)), np.zeros((count, count, rays)), np.empty((count, 2))
-    pure = np.zeros((count, rays))
-    turn, shift = np.zeros((count, 2, rays + 1)), np.zeros((count, 2, rays))
+    """Return weight, phase, fx, fy, first and second derivatives, the chief ray's, and stretch, of one source."""
+    nodes = whole_disc(*NODES)
+    still = reaching_by_surfaces(lens, source, *nodes[:2])
+    weight = nodes[2] * still.amplitude
+    weight = weight / weight.sum()
+    found = _differences(lens, source, (still, image_um(still, weight)), tolerances, steps, after_each)
+    of_phase, of_wavefront = _second(lens, tolerances, found, source, still)
+    stretch = _stretch(_cosines(still)[:, :-1], found.turn[:, :, :-1], weight)
+    waves = found.first[0], of_phase, found.first[1], of_wavefront
+    return weight, still.phase, still.fx, still.fy, *waves, found.chief_um, stretch
+
+
+def through_build(designed: Lens, built: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> Rays:
+    """Return the rays of a source, which stands where ``designed`` has it, through points of the stop of a build."""
+    return reaching_by_surfaces(built, source_of_build(designed, built, source), xi, eta)
+
+
+def image_um(still: Rays, weight: np.ndarray) -> np.ndarray:
+    """Return the place about which the phase is least, x and y in µm from where the chief ray lands.
+
+    About it little tilt is left in a lens with errors. A tilt is X·f with the frequencies of that lens, not of the one
+    without errors, and those times a large X would be left as aberrations.
+    """
+    flat = np.stack([np.ones_like(weight), still.fx, still.fy])
+    amounts: np.ndarray = np.linalg.lstsq(flat * weight @ flat.T, flat @ (weight * still.phase), rcond=None)[0]
+    return -amounts[1:]
+
+
+def _differences(
+    lens: Lens,
+    source: Source,
+    designed: tuple[Rays, np.ndarray],
+    tolerances: tuple[Tolerance, ...],
+    steps: np.ndarray,
+    after_each: Callable[[], None],
+) -> _Differences:
+    """Return differences of the rays of ``designed``, whose phases are about a place near the image."""
+    (still, (x, y)), nodes = designed, whole_disc(*NODES)[:2]
+    count, rays, wavelength = len(tolerances), still.phase.size, source.wavelength_um
+    first, pure, paths = np.empty((2, count, rays)), np.zeros((2, count, rays)), np.empty((count, count, rays))
+    chief, turn, shift = np.empty((count, 2)), np.empty((count, 2, rays + 1)), np.empty((count, 2, rays))
+
+    def both(built: Lens, one: Rays) -> np.ndarray:
+        return np.stack([one.phase + x * one.fx + y * one.fy, wavefront_of(built, source, one)])
+
+    waves_still = both(lens, still)
     for place, step in enumerate(steps):
-        one = tolerances[place : place + 1]
-        more, less = (fly(build(lens, one, [error]), source, *nodes) for error in (step, -step))
-        first[place] = (more.phase - less.phase) / (2 * step)
+        builds = [build(lens, tolerances[place : place + 1], [error]) for error in (step, -step)]
+        more, less = (through_build(lens, built, source, *nodes) for built in builds)
+        waves = both(builds[0], more), waves_still, both(builds[1], less)
+        first[:, place] = (waves[0] - waves[2]) / (2 * step)
         chief[place] = (more.chief_um - less.chief_um) / (2 * step)
         after_each()
-        if tolerances[place].kind in IRREGULAR:
-            continue
-        turn[place] = (more.cosines - less.cosines) / (2 * step)
-        shift[place] = (more.landing - less.landing) / (2 * step)
-        there = _gradient(more, tolerances, wavelength, place, step)
-        second[place] = (there - _gradient(less, tolerances, wavelength, place, -step)) / (2 * step)
-        pure[place] = (more.phase - 2 * still.phase + less.phase) / step**2
-    # second[j, i] = ∂ⱼgᵢ so far
-    waves = UM_PER_MM / wavelength
-    second -= waves * np.einsum("ixr,jxr->jir", turn[:, :, :-1], shift)
-    second += np.einsum("jxr,ix->jir", turn[:, :, :-1] - turn[:, :, -1:], chief) / wavelength
-    second = (second + second.swapaxes(0, 1)) / 2
-    second[np.arange(count), np.arange(count)] = pure
-    slight = [place for place, one in enumerate(tolerances) if one.kind in IRREGULAR]
-    second[slight] = second[:, slight] = 0.0
-    weight = whole_disc(*NODES)[2] * still.weight
-    return weight / weight.sum(), still.phase, still.fx, still.fy, first, second, chief
+        turn[place] = (_cosines(more) - _cosines(less)) / (2 * step)
+        there = _gradient(more.on_surfaces, tolerances, wavelength, place, step)
+        paths[place] = (there - _gradient(less.on_surfaces, tolerances, wavelength, place, -step)) / (2 * step)
+        shift[place] = np.stack([more.dx - less.dx, more.dy - less.dy]) / (2 * step)
+        if tolerances[place].kind not in IRREGULAR:
+            pure[:, place] = (waves[0] - 2 * waves[1] + waves[2]) / step**2
+    return _Differences(first, pure, chief, turn, shift, paths)
+
+
+def _second(
+    lens: Lens, tolerances: tuple[Tolerance, ...], found: _Differences, source: Source, still: Rays
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the second derivatives of phase and displayed wavefront, (errors, errors, rays) waves per unit of both."""
+    turn, waves = found.turn, UM_PER_MM / source.wavelength_um
+    uneven = [place for place, one in enumerate(tolerances) if one.kind in IRREGULAR]
+    shift = found.shift.copy()
+    shift[uneven] = 0.0
+    second = found.paths - waves * np.einsum("ixr,jxr->jir", turn[:, :, :-1], shift)
+    second += np.einsum("jxr,ix->jir", turn[:, :, :-1] - turn[:, :, -1:], found.chief_um) / source.wavelength_um
+    along = np.einsum("xr,ixr->ir", np.stack([still.kx, still.ky]), found.shift)
+    back = along[:, None] * along - np.einsum("ixr,jxr->ijr", found.shift, found.shift)
+    on_sphere = second - back * (waves * still.index / exit_radius(lens, source, still))
+    focus = _back_focus(lens, tolerances)
+    of_phase, of_wavefront = (
+        _symmetric(values, pure, uneven, focus) for values, pure in zip((second, on_sphere), found.pure, strict=True)
+    )
+    return of_phase, of_wavefront
+
+
+def _symmetric(second: np.ndarray, pure: np.ndarray, uneven: list[int], focuses: list[int]) -> np.ndarray:
+    """Return second derivatives by two errors in either order, and by one; irregularities meet the back focus alone."""
+    every = np.arange(len(second))
+    both: np.ndarray = (second + second.swapaxes(0, 1)) / 2
+    both[every, every] = pure
+    both[uneven] = both[:, uneven] = 0.0
+    for focus in focuses:
+        both[uneven, focus] = both[focus, uneven] = second[uneven, focus]
+    return both
+
+
+def _cosines(rays: Rays) -> np.ndarray:
+    """Return optical cosines along the sensor's x and y, (2, ray), the chief ray last."""
+    pairs = (rays.kx, rays.chief_kx), (rays.ky, rays.chief_ky)
+    cosines: np.ndarray = np.stack([np.append(*pair) for pair in pairs]) * rays.index
+    return cosines
+
+
+def _back_focus(lens: Lens, tolerances: tuple[Tolerance, ...]) -> list[int]:
+    """Return which errors move the sensor along the axis, and nothing else."""
+    last = "thickness", len(lens.surfaces)
+    return [place for place, one in enumerate(tolerances) if (one.kind, one.first) == last]
+
+
+def with_moved_sensor(lens: Lens, rays: Rays, by_mm: float) -> tuple[Lens, Rays]:
+    """Return the lens with its sensor farther behind its last surface, and its rays there."""
+    moved = with_sensor(lens, lens.sensor_mm + by_mm)
+    axis = lens.frames[-1][0].T @ _behind(lens, len(lens.surfaces) - 1).rotation[:, 2]
+    way, chief = by_mm * axis[2] / rays.kz, by_mm * axis[2] / rays.chief_kz
+    dx, dy = rays.dx + rays.kx * way - rays.chief_kx * chief, rays.dy + rays.ky * way - rays.chief_ky * chief
+    return moved, replace(rays, dx=dx, dy=dy, path=rays.path + rays.index * (way - chief), crossings=None)
+
+
+def _stretch(cosines: np.ndarray, change: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Return the slope of each change (errors, 2, rays) over the cosines (2, rays), (errors, 2), by least squares."""
+    apart = cosines - (cosines @ weight)[:, None]
+    slope: np.ndarray = (change * apart) @ weight / (apart**2 @ weight)
+    return slope
 
 
 def _gradient(
-    found: Flight, tolerances: tuple[Tolerance, ...], wavelength_um: float, moved: int, error: float
+    found: Crossings, tolerances: tuple[Tolerance, ...], wavelength_um: float, moved: int, error: float
 ) -> np.ndarray:
     """Return ∂(path)/∂(error) of every tolerance less the chief ray's, (errors, rays) waves, by Fermat's principle.
 
@@ -238,19 +336,21 @@ def _gradient(
     return out
 
 
-def _path_change(found: Flight, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float) -> np.ndarray:
+def _path_change(
+    found: Crossings, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float
+) -> np.ndarray:
     """Return how the optical path of every ray changes with one error, mm per unit, (rays,); 0 for irregularities."""
     tolerance, lens = tolerances[number], found.lens
     place = tolerance.first - 1
     if tolerance.kind in IRREGULAR:
         return np.zeros(found.points.shape[-1])
     if tolerance.kind == "thickness":
-        behind = found.rays[place + 1]
+        behind = found.cosines[place + 1]
         turn = _behind(lens, place).rotation[:, 2]
         along: np.ndarray = turn @ behind
         return along
     if tolerance.kind == "index":
-        behind = found.rays[place + 1]
+        behind = found.cosines[place + 1]
         crossed = found.points[place + 1] - found.points[place]
         length: np.ndarray = (crossed * behind).sum(0) / np.sqrt((behind * behind).sum(0))
         return length
@@ -263,14 +363,14 @@ def _path_change(found: Flight, tolerances: tuple[Tolerance, ...], number: int, 
     return change
 
 
-def _push(found: Flight, place: int, shift: np.ndarray) -> np.ndarray:
+def _push(found: Crossings, place: int, shift: np.ndarray) -> np.ndarray:
     """Return −(n′K′ − nK)·δ of every ray at a surface that moves by δ, (3, rays); behind the sensor there is no K′."""
-    onward = found.rays[place + 1] if place + 1 < len(found.rays) else 0.0
-    push: np.ndarray = -((onward - found.rays[place]) * shift).sum(0)
+    onward = found.cosines[place + 1] if place + 1 < len(found.cosines) else 0.0
+    push: np.ndarray = -((onward - found.cosines[place]) * shift).sum(0)
     return push
 
 
-def _radius_shift(found: Flight, place: int) -> np.ndarray:
+def _radius_shift(found: Crossings, place: int) -> np.ndarray:
     """Return by how much the surface moves along its axis where rays meet it, per percent of its radius.
 
     From c·r² − 2z + c(1 + K)z² = 0: ∂z/∂c = (r² + (1 + K)z²)/(2(1 − c(1 + K)z)).
@@ -286,7 +386,7 @@ def _radius_shift(found: Flight, place: int) -> np.ndarray:
     return shift
 
 
-def _rigid(found: Flight, place: int, tolerance: Tolerance, mount: Motion, own: Placement) -> np.ndarray:
+def _rigid(found: Crossings, place: int, tolerance: Tolerance, mount: Motion, own: Placement) -> np.ndarray:
     """Return the motion of a piece's points for a unit of decentre or tilt, in the axes that it is mounted in."""
     axis = 0 if tolerance.kind.endswith("x") else 1
     if tolerance.kind.startswith("decentre"):

@@ -11,7 +11,8 @@ from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
-from p2sf.paraxial.pupils import needed_radii
+from p2sf.lens.source import Source
+from p2sf.paraxial.pupils import needed_radii, pupils, with_fixed_stop
 
 Kind = Literal[
     "decentre_x", "decentre_y", "tilt_x", "tilt_y", "radius", "thickness", "index", "irregularity", "irregularity_45"
@@ -121,7 +122,7 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
     """Return the lens with these errors, one for each tolerance in its unit; indices are off at every wavelength alike.
 
     Errors of one piece are one break of the coordinates, and pieces named later are moved on top of earlier ones. The
-    surface behind the last one is the sensor, which can be moved alone.
+    surface behind the last one is the sensor, which can be moved alone. The radius of the stop is that of ``lens``.
     """
     count = len(lens.surfaces)
     surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[Kind, float]]()
@@ -142,13 +143,29 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
         else:
             place = tolerance.first - 1
             surfaces[place] = _altered(lens, surfaces[place], tolerance, error)
-    built = replace(lens, surfaces=tuple(surfaces))
+    built = replace(with_fixed_stop(lens), surfaces=tuple(surfaces))
     for (first, last), numbers in moves.items():
         if first > count:
             built = replace(built, sensor_before=(*lens.sensor_before, placed(numbers)))
         else:
             built = displaced(built, first, last, placed(numbers))
     return built
+
+
+def source_of_build(designed: Lens, built: Lens, source: Source) -> Source:
+    """Return the source where it stands before ``designed``, by its slope at the entrance pupil of ``built``.
+
+    An object at a finite depth is a place: errors move the entrance pupil, which its field angle refers to, and not the
+    object. Nearly telecentric lenses, whose pupil moves by metres, would see another object.
+    """
+    if isinf(source.depth_mm) or not source.field_slope:
+        return source
+    planes = (float(pupils(lens, source.wavelength_um).entrance_from_first) for lens in (designed, built))
+    before, after = (source.depth_mm + plane for plane in planes)
+    # An object in a pupil, or a pupil at infinity, has no field slope; whoever traces says so.
+    if before == after or not after:
+        return source
+    return replace(source, field_slope=source.field_slope * before / after)
 
 
 def _altered(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -> Surface:

@@ -25,7 +25,8 @@ from p2sf.paraxial.first_order import basis_rays
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf._seidel_sum import kernels_for, shape_terms
-from p2sf.psf.huygens import LIVE, huygens_psf
+from p2sf.psf.huygens import first_counts, huygens_psf
+from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.quadrature import disc_nodes, grid_rows
 from p2sf.raytrace.aiming import PupilRays, pupil_rays
@@ -121,9 +122,10 @@ def huygens_picture(apart: float = 0.0) -> tuple[Work, Work]:
     Call after call the field's slope is ``apart`` larger, so that nothing is known of the source if that is not 0.
     """
     steps_aside = count()
-    nodes, wave = disc_nodes(*LIVE), SOURCE.wavelength_um
+    wave = SOURCE.wavelength_um
+    nodes = disc_nodes(*first_counts(LENS, SOURCE, window_reach_um(PIXELS, PIXEL_UM), False))
     rays = pupil_rays(LENS, SOURCE, np.append(nodes.xi, 0.0), np.append(nodes.eta, 0.0))
-    weight, index = nodes.weight * np.asarray(rays.weight)[:-1], indices(LENS, wave).tolist()
+    weight, index = nodes.weight * np.asarray(rays.launch)[:-1], indices(LENS, wave).tolist()
     weight = (weight / weight.sum()).astype(np.float32)
     steps = np.arange(PIXELS // 2 + 1, dtype=np.float32) * np.float32(2 * np.pi * PIXEL_UM)
 

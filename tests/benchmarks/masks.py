@@ -23,7 +23,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fit, fitted_intensity, fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import whole_pixel_um
-from p2sf.psf.plane_waves import counts_for
+from p2sf.psf.plane_waves import counts_for, window_reach_um
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.seidel_stack import as_fit
 from p2sf.psf.traced import traced_psf
@@ -88,7 +88,7 @@ def finer(method: str, case: Case) -> np.ndarray:
     if method == "fitted":
         found = fit(lens, source)
     if method in ("seidel", "fitted"):
-        radial, angular = counts_for(found.steepness, 2 * PIXELS, case.pixel_um)
+        radial, angular = counts_for(found.steepness, window_reach_um(2 * PIXELS, case.pixel_um))
         return unit(fitted_intensity(found, (radial, angular), PIXELS, case.pixel_um))
     return huygens_psf(lens, source, PIXELS, case.pixel_um, tolerance=FINER).values
 

@@ -54,7 +54,7 @@ PARTS = {  # what is timed by ``--split``: the name that calls it, and what it i
     "p2sf_explorer.compute.live:paraxial_setup": "compute: first order",
     "p2sf_explorer.compute.live:layout_of": "compute: layout's rays",
     "p2sf_explorer.compute.live:rendered": "compute: method and window",
-    "p2sf_explorer.compute.ray_density:pencil": "compute: aiming and tracing",
+    "p2sf.psf.geometric:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.method:main_reach_um": "compute: ray density",
     "p2sf_explorer.compute.method:geometric_psf": "compute: ray density",
     "p2sf_explorer.compute.method:chosen": "compute: choice",
@@ -70,7 +70,7 @@ PARTS = {  # what is timed by ``--split``: the name that calls it, and what it i
     "p2sf_explorer.matrix.pictures:pencil": "compute: aiming and tracing",
     "p2sf_explorer.matrix.pictures:preview_psf": "matrix: sum of waves",
     "p2sf_explorer.matrix.pictures:too_coarse": "matrix: fit",
-    "p2sf_explorer.matrix.pictures:psf_figure": "matrix: figures",
+    "p2sf_explorer.matrix.pictures:radius_figure": "matrix: figures",
     "p2sf_explorer.matrix.pictures:paraxial_setup": "compute: first order",
 }
 

@@ -1,5 +1,7 @@
 """`p2sf measure` finds, fits and writes; `p2sf compare` puts two of its files beside each other."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -24,6 +26,7 @@ def picture(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 def test_a_picture_beside_its_lens(picture, answer, tmp_path, capsys):
     file, built = tmp_path / "coefficients.npz", tmp_path / "built.toml"
     command = ("measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um")
@@ -38,6 +41,7 @@ def test_a_picture_beside_its_lens(picture, answer, tmp_path, capsys):
     assert "6 points in common" in out and "sensor_shift_um" in out
 
 
+@pytest.mark.slow
 def test_light_of_several_wavelengths_is_taken(picture, answer, tmp_path):
     """The picture is of 550 nm; light within a nanometre of it tells the same. Five standard deviations."""
     command = ("measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um")
@@ -47,6 +51,7 @@ def test_light_of_several_wavelengths_is_taken(picture, answer, tmp_path):
     assert read_measurement(tmp_path / "found.npz")[1]["optics"]["light"] == [[0.549, 1.0], [0.551, 1.0]]
 
 
+@pytest.mark.slow
 def test_points_are_those_of_a_target(picture, answer, tmp_path, capsys):
     """Places on the sensor, far away: the lens's focal length of 50 mm makes angles of them, to its distortion."""
     places, target, file = grid_of_points(3, 2, 1.2, 0.6), tmp_path / "target.csv", tmp_path / "found.npz"
@@ -81,6 +86,10 @@ def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
         ((*SCALE, "--wavelength-nm", "550", "--read-noise", "nan"), "--read-noise is nan"),
         ((*SCALE, "--wavelength-nm", "550", "--full-scale", "0"), "--full-scale is 0"),
         ((*SCALE, "--wavelength-nm", "550", "-o", "x.csv"), "choose .npz"),
+        ((*SCALE, "--lens", "cooke_triplet", "--field-deg", "5"), "--field-deg is given"),
+        ((*SCALE, "--lens", "cooke_triplet", "--image-height-mm", "5"), "--image-height-mm is given"),
+        ((*SCALE, "--wavelength-nm", "550", "--f-number-error", "-1"), "--f-number-error is -1 %"),
+        ((*SCALE, "--wavelength-nm", "550", "--threads", "0"), "--threads is 0"),
         ((*SCALE, "--wavelength-nm", "550", "--light", "550"), '--light "550" is not a wavelength'),
         ((*SCALE, "--wavelength-nm", "550", "--light", "550:-1"), "550 nm that brings -1"),
     ):
@@ -92,3 +101,22 @@ def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
     assert "no point rises above" in capsys.readouterr().err
     assert main(["compare", str(picture), str(picture)]) == 2
     assert "not a measurement" in capsys.readouterr().err
+
+
+def test_percent_and_what_is_left_are_told_on_a_terminal_alone(picture, monkeypatch, capsys):
+    """To the end and never back, one thread or two with the same numbers."""
+    command = ["measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um", "--json"]
+    assert main([*command, "--threads", "2"]) == 0
+    quiet = capsys.readouterr()
+    assert "%" not in quiet.err
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    assert main([*command, "--threads", "1"]) == 0
+    told = capsys.readouterr()
+    assert told.out == quiet.out
+    shares = [int(line.split("%")[0]) for line in told.err.split("\r") if "%" in line]
+    assert shares == sorted(shares) and len(set(shares)) > 10 and shares[-1] == 100
+    assert "s left" in told.err and told.err.rstrip("\n").endswith("\r")
+    unknowns = json.loads(told.out)["frame"]["unknowns"]
+    assert (
+        unknowns["f_number"]["unit"] == "%" and abs(unknowns["f_number"]["value"]) < 4 * unknowns["f_number"]["error"]
+    )

@@ -10,6 +10,7 @@ from p2sf.cli import main
 from p2sf.cli.cautions import long_sum
 from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.library import find_lens
+from p2sf.psf.result import IN_WINDOW
 from p2sf.request import Request, set_up
 
 
@@ -61,13 +62,13 @@ def test_of_a_fitted_shape_the_figures_are_those_of_its_samples(answer, tmp_path
     found = answer("psf", "tessar", "--field-deg", 15, "--method", "gaussian", "-o", tmp_path / "a.csv")
     psf, _ = read_psf(tmp_path / "a.csv")
     centre = [(psf.values.sum(0) * psf.x_um).sum(), (psf.values.sum(1) * psf.y_um).sum()]
-    assert found["share_of"] == "the picture's light" and found["centroid_um"] == pytest.approx(centre, abs=1e-9)
+    assert found["share_of"] == f"the {IN_WINDOW}" and found["centroid_um"] == pytest.approx(centre, abs=1e-9)
     assert 0 < found["radius_50_um"] < found["radius_80_um"]
 
 
 def test_a_table_for_people(said):
     text = said("psf", "asphere", "--method", "seidel", "--pixels", 31)
-    assert "31 × 31" in text and "Strehl ratio" in text and "µm" in text
+    assert "31 × 31" in text and "Strehl ratio" in text and "µm" in text and IN_WINDOW in text
 
 
 @pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens", "gaussian"])
@@ -94,6 +95,7 @@ def test_auto_is_the_default_and_takes_the_cheapest_method_that_holds(capsys):
     assert found == ["seidel", "fitted"]
 
 
+@pytest.mark.slow
 def test_a_virtual_image_is_told_beside_the_blur(capsys):
     assert main(["psf", "plano_convex", "--depth-mm", "20", "--method", "seidel", "--pixels", "8"]) == 0
     error = capsys.readouterr().err
@@ -119,3 +121,36 @@ def test_a_mask_is_stated_by_options(capsys):
     assert stated == pytest.approx(p2sf.render(lens, source, "huygens", pixels=16, pixel_um=0.5).strehl, rel=1e-6)
     assert main(["psf", "cooke_triplet", "--blades", "2"]) == 2
     assert "--blades is 2" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("method", ["auto", "seidel", "fitted", "traced", "huygens", "gaussian"])
+def test_a_file_holds_what_the_library_returns(answer, tmp_path, method):
+    """4 µm at f/5 are wider than λ/(4 NA): light of pixels on both roads."""
+    options = ("--f-number", 5, "--pixels", 16, "--pixel-um", 4, "--field-deg", 5, "--method", method)
+    found = answer("psf", "double_gauss_28", *options, "-o", tmp_path / "psf.npz")
+    lens = find_lens("double_gauss_28")
+    source = p2sf.Source(field_deg=5, wavelength_um=lens.reference_wavelength_um)
+    mine = p2sf.render(lens, source, method, f_number=5, pixels=16, pixel_um=4.0)
+    assert mine.integrated and found["integrated"]
+    np.testing.assert_allclose(read_psf(tmp_path / "psf.npz")[0].values, mine.values, rtol=1e-6)  # float32 in the file
+
+
+def test_a_looked_up_file_holds_what_the_library_looks_up(answer, tmp_path):
+    place = tmp_path / "dg.npz"
+    stored = p2sf.build_database(find_lens("double_gauss_28"), [np.inf], [0, 10], [550], path=place, f_number=5)
+    answer("psf", place, "--pixels", 16, "--pixel-um", 4, "--field-deg", 5, "-o", tmp_path / "psf.npz")
+    mine = stored.psf(p2sf.Source(field_deg=5, wavelength_nm=550), 16, 4.0)
+    assert mine.integrated
+    np.testing.assert_allclose(read_psf(tmp_path / "psf.npz")[0].values, mine.values, rtol=1e-6)
+
+
+def test_a_window_that_cuts_light_off_is_warned_about(capsys):
+    cut = ["psf", "double_gauss_28", "--field-deg", "10", "--f-number", "2.8", "--pixel-um", "1", "--method", "fitted"]
+    assert main(cut) == 0
+    error = capsys.readouterr().err
+    assert error.startswith("warning: ") and "--pixels" in error and "--pixel-um" in error
+
+
+def test_the_peak_has_two_coordinates(said):
+    rows = [line for line in said("psf", "achromat_f6", "--field-deg", 3).splitlines() if line.startswith("peak,")]
+    assert [row.split("  ")[0][-1] for row in rows] == ["x", "y"]

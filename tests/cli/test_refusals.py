@@ -22,7 +22,8 @@ from p2sf.lensfile.toml import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
-from p2sf.raytrace.pencil import pencil, spot
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.spot import spot
 from p2sf.scene import Sensor, read_scene
 from tests.support.lens_files import read, read_file
 from tests.support.simple_lenses import twice_telecentric
@@ -68,6 +69,7 @@ def test_a_blur_of_more_rays_than_allowed_is_refused_before_the_work():
         huygens_psf(lens, Source(20.0, 0.0, 0.5876), 512, 500.0)
 
 
+@pytest.mark.slow
 def test_a_bundle_of_which_the_chief_ray_alone_arrives_has_no_psf():
     """Every ray of a rim 400 times the ball's radius misses it, but for the one through its middle."""
     with pytest.raises(GeometryError, match="no ray but the chief ray reaches the sensor"):

@@ -1,8 +1,11 @@
 """`p2sf tolerance`: what hurts, compensators, yields, and a file of one's own tolerances."""
 
+import re
+
 import pytest
 
 from p2sf.cli import main
+from p2sf.cli.tolerances import WORST
 from p2sf.errors import LensFileError
 from p2sf.lensfile.library import find_lens
 from p2sf.tolerance import Tolerance, usual_tolerances
@@ -19,6 +22,7 @@ amount = 0.05
 """
 
 
+@pytest.mark.slow
 def test_what_hurts_most_comes_first_and_more_of_it_hurts_more(answer):
     found, worse = (answer(*LENS, "--builds", 200, "--grade", grade) for grade in ("high", "commercial"))
     adds = [row["adds_waves"] for row in found["errors"]]
@@ -41,7 +45,15 @@ def test_the_percentiles_are_of_the_criterion_too(answer, capsys):
     capsys.readouterr()
     assert main([str(word) for word in asked]) == 0
     said = capsys.readouterr().out
-    assert "largest shift of the image, µm" in said and f"{found['percentiles']['90']['boresight_um']:.6g}" in said
+    assert WORST["boresight_um"] in said and f"{found['percentiles']['90']['boresight_um']:.6g}" in said
+
+
+def test_every_column_of_builds_says_on_which_side_its_figures_lie(capsys):
+    assert main([*LENS, "--builds", "200"]) == 0
+    table = capsys.readouterr().out.partition("200 builds")[2].splitlines()
+    heads = re.split(r"  +", table[1].strip())
+    assert len(heads) == 1 + len(table[2].split()[-2:])
+    assert all(("at most" in head) != ("at least" in head) for head in heads[1:]) and "at " not in heads[0]
 
 
 def test_a_file_of_ones_own(tmp_path):
@@ -96,3 +108,28 @@ def test_a_field_beside_the_plane_is_named_by_both_angles(capsys):
 def test_what_cannot_be_is_one_sentence(capsys, wrong):
     assert main([*LENS, *wrong]) == 2
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+DOUBTFUL = """grade = "none"
+[[tolerance]]
+kind = "thickness"
+first = 3
+amount = 0.05
+[[tolerance]]
+kind = "decentre_y"
+first = 3
+amount = 0.03
+"""
+
+
+def test_what_loses_rays_has_no_figure_and_what_the_form_misses_is_said(answer, capsys, tmp_path):
+    (tmp_path / "own.toml").write_text(DOUBTFUL, encoding="utf-8")
+    asked = ("tolerance", "phone_f28", "--set", tmp_path / "own.toml", "--builds", 10)
+    lost, off = answer(*asked)["errors"]
+    assert (lost["kind"], lost["adds_waves"], lost["harm"]) == ("decentre_y", None, None)
+    assert off["form_error"] > 0.1 * off["harm"] > 0
+    capsys.readouterr()
+    assert main([str(word) for word in asked]) == 0
+    said = capsys.readouterr().out
+    assert "Rays are lost at ± the tolerance of: decentre y of surface 3." in said
+    assert "is off for: thickness behind surface 3 (+" in said and "|mean of exp(2πiW)|²" in said

@@ -22,6 +22,7 @@ def test_the_json_has_every_method_with_its_errors_and_costs(capsys):
     assert next(row for row in rows if row["method"] == "seidel")["errors"]["r_squared"] > 0.9999
 
 
+@pytest.mark.slow
 def test_the_narrowest_rim_can_be_the_stop(tmp_path, capsys):
     """A front rim narrower than the named stop: by auto it is the stop, the bundle is smaller and the blur too."""
     path = tmp_path / "narrow.toml"
@@ -43,6 +44,7 @@ def test_a_database_takes_the_narrowest_rim_too(answer, tmp_path):
     assert answer(*common, tmp_path / "d.npz", "--stop", "auto")["bytes"] > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["json", "csv", "png"])
 def test_the_result_is_written_by_its_ending(tmp_path, capsys, ending):
     path = tmp_path / f"trade.{ending}"

@@ -120,6 +120,7 @@ def test_one_line_is_the_plain_psf():
     assert found.light_in_window == pytest.approx(plain.energy)
 
 
+@pytest.mark.slow
 def test_the_colour_does_not_jump_where_samples_grow_too_far_apart_to_tell_the_light():
     """λ/2NA runs from 1.15 µm for blue to 2.1 µm for red: from pitch to pitch other wavelengths have a known share.
 

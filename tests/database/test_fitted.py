@@ -121,7 +121,7 @@ def test_a_database_of_the_real_stop_knows_the_weights_of_its_rays(lens, tmp_pat
         for known in (database, load_database(path).database):
             found = known.fit_at(source)
             # Between its nodes the map's numbers are as good as the phase: 1e-3 waves of some hundreds.
-            np.testing.assert_allclose(found.weight, direct.weight, atol=1e-5)
+            np.testing.assert_allclose(found.amplitude, direct.amplitude, atol=1e-5)
             assert (
                 relative_l2(
                     database_psf(known, source, 32, 2.0).values,

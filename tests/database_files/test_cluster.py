@@ -20,6 +20,8 @@ from p2sf.errors import DatabaseError
 from tests.database_files.test_stack import SAMPLING, contents, small
 from tests.support.cluster import running_cluster
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def plain(tmp_path_factory):

@@ -1,6 +1,10 @@
 """A hundred random events on the window; ``python -m tests.long.stress`` goes on for an hour."""
 
+import pytest
+
 from tests.long.stress import stress
+
+pytestmark = pytest.mark.slow
 
 
 def test_random_hands_find_no_error(qapp, monkeypatch):

@@ -14,11 +14,12 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Aperture, Lens, with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.metrics.measures import energy_in, mtf_of, parts_of
-from p2sf.metrics.perfect import circle_energy, diffraction_mtf
+from p2sf.metrics.perfect import diffraction_mtf
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import numerical_aperture
 from tests.extremes.regimes import BASES, WAVELENGTH, Case, aperture_cases, base, depth_cases, field_cases, scaled
 from tests.metrics.test_laws import check_laws
+from tests.support.airy import circle_energy
 
 AIMS = ("stop", "paraxial")
 NAMED = "named error"

@@ -44,6 +44,7 @@ def test_the_limiting_rim_is_the_witnesses(seed):
 POINTS = ((0.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (0.6, 0.8), (-0.3, 0.1), (1e-9, 1e-9))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("regime", [depth_cases, scaling_cases, many_surface_cases])
 def test_w_is_as_good_as_its_conditioning(regime, record):
     for case in regime():

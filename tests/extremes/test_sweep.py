@@ -94,6 +94,7 @@ def answerable(case: Case) -> Case:
     return replace(case, field="height", depth=min(case.depth, 1e9), slope=2.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("regime", REGIMES, ids=lambda r: r.__name__.removesuffix("_cases"))
 def test_every_result_is_as_good_as_its_conditioning(regime, record):
     worst = []

@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -14,6 +16,7 @@ def crashed(kind: str, folder: Path, *more: str) -> str:
     return run.stdout
 
 
+@pytest.mark.slow
 def test_kill_9_at_any_moment_leaves_every_file_whole(tmp_path):
     """Lens, state, snapshot, photo, database and the list of recent files; 60 deaths of a process that writes them."""
     assert "60 kills" in crashed("kill", tmp_path)
@@ -25,6 +28,7 @@ def test_a_disk_that_is_full_is_a_sentence_and_keeps_the_old_file(tmp_path):
     assert all("cannot be written" in line and "; choose " in line for line in told)
 
 
+@pytest.mark.slow
 def test_kill_9_of_a_window_in_use_costs_a_second_at_most(tmp_path):
     """Twice; ``python -m tests.long.crash window`` kills fifty. It has to open the windows it kills."""
     assert "2 windows killed" in crashed("window", tmp_path, "2")

@@ -29,6 +29,7 @@ def test_what_broke_once_is_answered():
         assert answered(path.name.rsplit("-", 1)[0], path.read_bytes()) in ("accepted", "refused"), path.name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TARGETS)
 def test_damage_is_accepted_or_refused(name):
     found = set()

@@ -119,7 +119,7 @@ def test_illumination_is_the_light_that_passes_the_mask(mask):
         rays = pupil_rays(lens, source, across, along)
         cosine = 1 / np.sqrt(1 + rays.slope_x**2 + rays.slope_y**2)
         return float(
-            (rays.weight * cosine * mask.amplitude(xi, eta) ** 2 + 0 * xi).sum() / (1 + source.field_slope**2) ** 1.5
+            (rays.launch * cosine * mask.amplitude(xi, eta) ** 2 + 0 * xi).sum() / (1 + source.field_slope**2) ** 1.5
         )
 
     plain = seen(LENS, 15.0)
@@ -140,7 +140,7 @@ def light_without(view: SensorMap, across: np.ndarray, along: np.ndarray) -> flo
         source = view.source(height, 0.546)
         rays = pupil_rays(view.lens, source, xi[inside], eta[inside])
         cosine = 1 / np.sqrt(1 + rays.slope_x**2 + rays.slope_y**2)
-        found.append(float((rays.weight * cosine + 0 * xi[inside]).sum() / (1 + source.field_slope**2) ** 1.5))
+        found.append(float((rays.launch * cosine + 0 * xi[inside]).sum() / (1 + source.field_slope**2) ** 1.5))
     return found[0] / found[1]
 
 
@@ -188,6 +188,7 @@ def test_a_preview_sees_the_mask():
         assert relative_l2(preview(with_mask(LENS, mask), scene, values), plain) > 0.02
 
 
+@pytest.mark.slow
 def test_holes_of_mirrors_end_the_light_of_pictures_where_rims_clip():
     """The pupil's polynomials find the hole's edge, by the height of rays, where bisection of exact rays finds it."""
     lens = find_lens("cassegrain_f10")

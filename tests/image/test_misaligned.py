@@ -78,6 +78,7 @@ def test_kernels_of_a_mirrored_lens_are_mirrored(gauss, bad, seen):
     assert np.linalg.norm(one - one[..., ::-1]) > 0.02 * np.linalg.norm(one)
 
 
+@pytest.mark.slow
 def test_without_misalignment_it_is_the_picture_of_the_symmetric_lens(gauss):
     """A sphere turned about its own centre takes the other road; a plan's kernels are fits, good to its prediction."""
     lens = with_f_number(gauss, 11.0)
@@ -97,6 +98,7 @@ def test_several_depths_are_refused(bad):
         form_misaligned(bad, replace(SCENE, near_mm=1000.0), np.zeros((25, 37, 1)))
 
 
+@pytest.mark.slow
 def test_the_command_line_plans_and_forms_it(bad, tmp_path, answer, refused):
     lens, scene, out = tmp_path / "bad.toml", tmp_path / "scene.toml", tmp_path / "out.png"
     lens.write_text(lens_to_toml(bad), encoding="utf-8")

@@ -181,6 +181,7 @@ except ExportError as error:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "png"])
 def test_a_write_that_breaks_off_in_the_middle_is_one_sentence(tmp_path, ending):
     path = tmp_path / f"a.{ending}"

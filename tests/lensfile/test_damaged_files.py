@@ -5,6 +5,7 @@ import pytest
 from tests.long.damaged_files import SAMPLES, attempt
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAMPLES)
 def test_damage_ends_in_a_lens_or_a_sentence(name):
     results = attempt(name, 200)

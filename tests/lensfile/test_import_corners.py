@@ -125,11 +125,11 @@ def test_a_table_in_inches_is_in_millimetres_afterwards():
     ("ending", "change", "words"),
     [
         ("json", {"object_medium": ConstantIndex(1.33)}, "which an ISET file cannot express; save as TOML"),
-        ("zmx", {"aspheric": (1e-6,), "shape": Qbfs((1e-3,), 5.0)}, "is a Qbfs asphere with .* save as TOML"),
+        ("zmx", {"aspheric": (1e-6,), "shape": Qbfs((1e-3,), 5.0)}, "beside its shape .* save as TOML"),
         ("zmx", {"shape": RadialPolynomial((1e-3,)), "diffraction": PHASE}, "surface 1 diffracts and .* save as TOML"),
         ("json", {"shape": RadialPolynomial((1e-3,))}, "which a file for ISET cannot express; save as TOML"),
-        ("json", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "which a file for ISET cannot express; save as TOML"),
-        ("json", {"diffraction": PHASE}, "which a file for ISET cannot express; save as TOML"),
+        ("json", {"conic": 0.0, "shape": Qbfs((1e-3,), 5.0)}, "surface 1: .* cannot express its shape; save as TOML"),
+        ("json", {"diffraction": PHASE}, "surface 1: .* cannot express its diffraction; save as TOML"),
     ],
 )
 def test_what_a_format_cannot_say_is_refused_and_not_left_out(tmp_path, ending, change, words):

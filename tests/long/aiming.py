@@ -81,7 +81,7 @@ def entering(lens: Lens, source: Source, cells: int) -> float:
 def light(lens: Lens, source: Source) -> float:
     """Return the program's light of a source: the pupil's mean of its rays' weights."""
     nodes = disc_nodes(24, 48)
-    return float(nodes.weight @ pencil(lens, source, nodes.xi, nodes.eta).weight)
+    return float(nodes.weight @ pencil(lens, source, nodes.xi, nodes.eta).light)
 
 
 def stop_miss(lens: Lens, source: Source) -> float:

@@ -26,7 +26,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.measure import point_model
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, lens_optics
+from p2sf.measure.frame_terms import F_NUMBER, FIELD, FOCUS, FrameModel, lens_optics
 from p2sf.measure.listings import read_listing
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import PointFit, fit_point
@@ -241,13 +241,13 @@ def frames(trials: int, seed: int, columns: int = 9, rows: int = 7, size_mm: tup
         began = process_time()
         found = measured([frame], optics, lens=lens, singly=False).whole
         seconds.append(process_time() - began)
-        misses.append(found.values - np.array([shift, *tilt, 0.0, 0.0, 0.0, 0.0]))
+        misses.append(found.values - np.array([shift, *tilt, 0.0, 0.0, 0.0, 0.0, 0.0]))
         sizes.append(found.bounds)
         stated.append(found.errors)
         print(f"  {trial}: {np.round(misses[-1], 4)} bounds {np.round(sizes[-1], 4)} χ² {found.chi2:.3f}", flush=True)
     miss, size, within = np.array(misses), np.array(sizes), np.abs(misses) < np.array(stated)
     print(f"frames of {columns * rows} points, {trials} trials, CPU median {np.median(seconds):.1f} s")
-    for k, name in enumerate((*FOCUS, *FIELD)):
+    for k, name in enumerate((*FOCUS, *FIELD, F_NUMBER)):
         print(
             f"  {name:16} RMS error {np.sqrt(np.mean(miss[:, k] ** 2)):.4f}, mean {miss[:, k].mean():.4f}, bound "
             f"{np.median(size[:, k]):.4f}, within the stated 1σ {within[:, k].mean():.0%}"
@@ -299,7 +299,8 @@ def misaligned(trials: int, seed: int) -> None:
         found = measured([frame], optics, lens=lens, unknowns=unknowns, singly=False).whole
         took = process_time() - began
         print(f"misaligned triplet, seed {trial}: reduced χ² {found.chi2:.3f}, CPU {took:.1f} s")
-        for name, value, wanted, error in zip(unknowns, found.values, truth, found.errors, strict=True):
+        columns = zip((*unknowns, F_NUMBER), found.values, np.append(truth, 0.0), found.errors, strict=True)
+        for name, value, wanted, error in columns:
             print(f"  {name:16} {value:.5f} ± {error:.5f}, put in {wanted}, {(value - wanted) / error:+.1f}σ")
 
 

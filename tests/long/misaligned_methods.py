@@ -26,6 +26,7 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf.psf.methods import choose, render
+from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.fit import SKEW
@@ -82,7 +83,7 @@ def outcome(number: int, seed: int) -> Outcome:
             c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
             pixel = float(suitable_pixel_um(c, PIXELS))
             steep = pixel * PIXELS * float(c.na) / source.wavelength_um / 2 > STEEPEST / 2
-            if not steep and prod(first_counts(bad, source, (PIXELS, pixel), False)) <= MOST_NODES:
+            if not steep and prod(first_counts(bad, source, window_reach_um(PIXELS, pixel), False)) <= MOST_NODES:
                 reference = huygens_psf(bad, source, PIXELS, pixel)
                 choice = choose(bad, source, tolerance)
                 break

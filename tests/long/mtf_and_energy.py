@@ -23,6 +23,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.metrics.measures import energy_in, mtf_of, parts_of
 from p2sf.paraxial.pupils import f_number
+from tests.support.depths import NEAR_MM, RELAYS_MM
 from tests.support.pupil_sums import LostRays, best_shift_mm, sums
 
 MTF_ERROR, RADIUS_PERCENT, ENERGY = 2e-3, 0.5, 3e-3
@@ -32,14 +33,8 @@ FITTED = 1e-3  # waves
 FREQUENCIES = 64
 SHARES = 0.5, 0.8
 RADII = np.array([0.2, 0.4, 0.7, 1.0, 1.4, 2.0])  # in units of R80, at which the energy is compared
-# Ten to thirty focal lengths; with the sensor at the focus of infinity some 5 to 350 waves per pupil radius.
-NEAR_MM = {
-    **{"achromat_f6": 300, "asphere": 300, "cooke_triplet": 1000, "double_gauss_28": 2000, "eye_navarro": 250},
-    **{"fast_gauss_f14": 2000, "landscape": 3000, "periskop": 1000, "petzval": 1500, "plano_convex": 300},
-    **{"reverse_telephoto": 30, "singlet_f6": 300, "telephoto": 3000, "tessar": 60, "wide_angle_35": 700, "relay": 110},
-}
-FAR_MM = {"relay": 95.0}  # made for objects at unit magnification: one at infinity has no useful image
-FIELDS_DEG = {"relay": (0.0, 0.2, 0.5)}  # its entrance pupil is far away; 1° is an object wider than its glass
+FIELDS_DEG = {"relay": (0.0, 0.2, 0.5)}
+BESIDE_MM = {"relay": 110.0, "telecentric_relay": 92.0}  # the second depth of a relay
 
 
 @dataclass(frozen=True)
@@ -116,7 +111,7 @@ def states(aim: str, names: tuple[str, ...] = shipped_lenses()) -> Iterator[Stat
         full = float(f_number(lens, lens.reference_wavelength_um))
         down = with_f_number(lens, 8.0 if full < 8 else 2 * full)  # a lens slower than f/8 by two stops
         for field in FIELDS_DEG.get(name, lens.fields_deg):
-            for depth in (FAR_MM.get(name, inf), float(NEAR_MM[name])):
+            for depth in (RELAYS_MM.get(name, inf), float((NEAR_MM | BESIDE_MM)[name])):
                 source = Source(depth, float(np.tan(np.deg2rad(field))), lens.reference_wavelength_um)
                 for opened, word in ((lens, "full"), (down, "down")):
                     label = f"{name} {field:g}° {depth:g} mm {word}"

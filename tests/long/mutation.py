@@ -44,7 +44,7 @@ TESTS = {
     "paraxial/seidel": FIRST_ORDER,
     "paraxial/wavefront": ("tests/paraxial/test_wavefront.py", "tests/pupil/test_quadrature.py"),
     "psf/seidel": ("tests/psf/test_seidel.py", "tests/extremes/test_psf_extremes.py"),
-    "psf/fitted": ("tests/psf/test_fitted.py", "tests/psf/test_separable_sum.py"),
+    "psf/fitted": ("tests/psf/test_fitted.py", "tests/psf/test_traced.py"),
 }
 BARE = (
     "paraxial/seidel",

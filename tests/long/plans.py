@@ -27,6 +27,7 @@ from time import process_time
 
 import numpy as np
 
+from p2sf.conventions import depth_of
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.image import plan_lattice
 from p2sf.lens.lens import lens_range_um, with_f_number
@@ -35,14 +36,13 @@ from p2sf.paraxial.pupils import f_number, numerical_aperture
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels import Colour, Kernels
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.psf.plane_waves import counts_for
+from p2sf.psf.plane_waves import counts_for, window_reach_um
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data, steepness
+from p2sf.raytrace.ray_field import steepness
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan, verify
 from p2sf.scene.pricing import naive_recipe
 from p2sf.scene.reference import LEAST_POINTS, PROBE
-from p2sf.scene.scene import depth_of
 
 SCENES, POINTS, SAMPLE = 20, 2, 12
 TOLERANCES = 0.2, 0.1, 0.05, 0.03
@@ -141,10 +141,10 @@ def check_affordable(planned: Plan) -> None:
     half = planned.kernels(0, planned.vergences[0]).half_width(sensor.corners_mm()[1])
     source = seen.source(sensor.corners_mm()[1], min(planned.colours[0].wavelengths_um))
     probe = disc_nodes(*PROBE)
-    steep = steepness(ray_data(pencil(seen.lens, source, probe.xi, probe.eta)), probe.xi, probe.eta)
+    steep = steepness(pencil(seen.lens, source, probe.xi, probe.eta), probe.xi, probe.eta)
     size = 2 * half + 1
     points = size * max(LEAST_POINTS, ceil(np.pi * steep.spread * sensor.pixel_um) + 3)
-    products = float(np.prod(counts_for(steep, size, sensor.pixel_um))) * points**2
+    products = float(np.prod(counts_for(steep, window_reach_um(size, sensor.pixel_um)))) * points**2
     if products > AFFORDABLE:
         raise GeometryError(
             "its reference is a sum of {products:.0e} products; too long to be tried", products=products

@@ -21,6 +21,7 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf import huygens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import first_counts, huygens_psf
+from p2sf.psf.plane_waves import window_reach_um
 from p2sf_explorer.compute.deferred_sums import SumCache, by_rays
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescription, ranges
@@ -146,7 +147,7 @@ def on_samples(answer: Live, samples: int) -> float:
 
 def too_many(setup: ParaxialSetup, window: tuple[int, float], clip: bool) -> bool:
     """Return whether the reference would take minutes for a window."""
-    radii, directions = first_counts(setup.lens, setup.source, window, clip)
+    radii, directions = first_counts(setup.lens, setup.source, window_reach_um(*window), clip)
     return radii * directions * window[0] ** 2 > MOST_PRODUCTS
 
 

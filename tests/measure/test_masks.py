@@ -105,6 +105,7 @@ def light_along_the_field(nodes, found, azimuth):
     return light / light.sum()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("azimuth_deg", [0.0, 50.0])
 @MASKS
 def test_light_of_a_lens_behind_a_mask_is_that_of_its_rays(mask, azimuth_deg):
@@ -175,6 +176,7 @@ def test_two_foci_behind_a_ring_give_the_coefficients():
     assert np.abs((found.numbers - SIX) / found.bounds).max() < 5
 
 
+@pytest.mark.slow
 def test_a_frame_through_an_iris_gives_back_how_the_sensor_stands():
     """Five standard deviations. Taken for a round stop of the same rim, χ² tells that the model is wrong."""
     round_ = with_f_number(find_lens("cooke_triplet"), 4.0)
@@ -191,5 +193,5 @@ def test_a_frame_through_an_iris_gives_back_how_the_sensor_stands():
         ).whole
         for one in (lens, round_)
     )
-    assert np.abs((found.values - [30.0, 0.2]) / found.errors).max() < 5
-    assert found.chi2 < 1.1 < 2 < wrong.chi2
+    assert np.abs((found.values - [30.0, 0.2, 0.0]) / found.errors).max() < 5
+    assert found.chi2 < 1.1 < 1.3 < wrong.chi2 and not wrong.explains  # another f-number, -8 %, hides some of it

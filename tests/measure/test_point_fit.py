@@ -145,6 +145,7 @@ def test_two_foci_give_the_coefficients_with_their_signs(seed):
     assert found.r2.min() > 0.9 and not found.others and not found.warnings
 
 
+@pytest.mark.slow
 def test_what_explains_each_of_two_pictures_is_tried_where_nothing_explains_both():
     """Starts from both together end in a minimum of 2.5 times the noise; a search of all kinds takes 2 s."""
     six, rng, foci = np.array([1.658, 0.091, -0.226, -2.541]), np.random.default_rng(1), (0.0, 1.5)
@@ -155,6 +156,7 @@ def test_what_explains_each_of_two_pictures_is_tried_where_nothing_explains_both
     assert np.abs((found.numbers - six) / found.bounds).max() < 5 and found.chi2 < 1.2
 
 
+@pytest.mark.slow
 def test_light_of_two_wavelengths_is_the_sum_of_both_by_the_same_path():
     """W is a path: 1 wave at 0.55 µm is 1.1 at 0.5. Each colour by itself has its own NA/λ and its own waves.
 
@@ -181,6 +183,7 @@ def test_light_of_two_wavelengths_is_the_sum_of_both_by_the_same_path():
     assert np.abs((other.numbers - SIX) / other.bounds).max() > 5
 
 
+@pytest.mark.slow
 def test_derivatives_of_a_turned_map_are_those_of_differences():
     """As above."""
     made, at = problem("26", with_map(3), 20, azimuth=2.2, place=(0.3, -0.5))

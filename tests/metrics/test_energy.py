@@ -1,34 +1,89 @@
 """Encircled energy of all light, against Rayleigh's closed form, geometry, and the light in windows of known share."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from numpy.polynomial.legendre import leggauss
+from numpy.polynomial.legendre import Legendre, leggauss
+from scipy.optimize import brentq
 from scipy.special import j0
 
+from p2sf.api import encircled_energy
+from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.energy import landing_points, ring_sums, samples_across
+from p2sf.metrics import energy
+from p2sf.metrics.energy import landed, landing_points
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, energy_in
-from p2sf.metrics.perfect import circle_energy
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
+from p2sf.pupil.mask import CLEAR, PupilMask
+from tests.support.airy import circle_energy
+from tests.support.ray_figures import ray_figures
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 UNIT = WAVELENGTH_UM / NA
 
 
 def test_a_perfect_lens_has_rayleighs_energy():
-    """Where the calibration does not tell: a pupil sampled twice as finely, whose own calibration is another one."""
-    pupil = pupil_of_coefficients(waves())
     radius = UNIT * np.linspace(0, 8, 161)
-    plain = ring_sums(pupil, 0.0, 512)
-    from p2sf.metrics.energy import _disc_transform
+    found = energy_in([PupilPart(pupil_of_coefficients(waves()))], "seidel", radius).fraction
+    np.testing.assert_allclose(found, circle_energy(radius / UNIT), atol=2e-5)
 
-    raw = _disc_transform(radius * plain.step, plain.radius) @ plain.sums
-    np.testing.assert_allclose(raw, circle_energy(radius / UNIT), atol=1e-4)
-    np.testing.assert_allclose(ring_sums(pupil, 0.0, 128).within(radius), circle_energy(radius / UNIT), atol=2e-5)
+
+def axial_radius_um(figures, share: float) -> float:
+    """Return the radius that holds a share on the axis of a round lens: plain Hankel sums over radii of the rays."""
+    rays = figures.rays.denser(int(3 * figures.rays.slope) + 60, 8)
+    area, frequency = rays.share.sum(1) * np.pi, np.hypot(rays.fx, rays.fy)[:, 0]
+    wave = area * rays.light[:, 0] * np.exp(2j * np.pi * rays.waves[:, 0])
+    jacobian = Legendre.fit(rays.square, frequency**2, 12).deriv()(rays.square)
+    light = float((area * rays.light[:, 0] ** 2 / jacobian).sum())
+    node, weight = leggauss(int(8 * figures.rays.slope) + 60)
+
+    def within(radius: float) -> float:
+        r = radius * (1 + node) / 2
+        field = j0(2 * np.pi * np.outer(r, frequency)) @ wave
+        return float(np.pi * radius * (weight * r) @ np.abs(field) ** 2 / light)
+
+    return brentq(lambda r: within(r) - share, 1e-3, 1.2 * float(np.hypot(rays.x, rays.y).max()) + 20)
+
+
+@pytest.mark.parametrize("name", ["petzval", "asphere", "tessar"])
+def test_on_the_axis_it_is_a_hankel_sum_over_rays(name):
+    """Petzval's R80 was 1e-3 larger, since the wings of its blur came around the period of a grid."""
+    lens, source = find_lens(name), Source(wavelength_um=find_lens(name).reference_wavelength_um)
+    figures, found = ray_figures(lens, source), energy_in([PupilPart(pupil_of_rays(lens, source))], "traced")
+    for radius, share in ((found.radius_50_um, 0.5), (found.radius_80_um, 0.8)):
+        plain = axial_radius_um(figures, share)
+        assert figures.radius_um(share) == pytest.approx(plain, rel=1e-5)
+        assert radius == pytest.approx(plain, rel=1e-4)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_fewer_circles_and_nodes_than_all_harmonics_are_enough(monkeypatch, seed):
+    """Of any third-order blur, also at caustics, where opposite edges of the pupil meet."""
+    rng = np.random.default_rng(seed)
+    names = ("w40", "w31", "w22", "w20", "wd")
+    chosen = rng.normal(size=5) * rng.choice([0.0, 1.0, 6.0, 20.0], 5)
+    pupil = pupil_of_coefficients(waves(**dict(zip(names, chosen, strict=True))))
+    found = landed(pupil, pupil.centroid_um)
+    for name in ("NODES", "CIRCLES", "DIRECTIONS"):
+        monkeypatch.setattr(energy, name, 1.3)
+    monkeypatch.setattr(energy, "_circles", energy._kept_circles.__wrapped__)
+    radius = np.linspace(0, found.top_um, 80)
+    np.testing.assert_allclose(found.within(radius), landed(pupil, pupil.centroid_um).within(radius), atol=2e-5)
+
+
+@pytest.mark.parametrize("clear", [True, False])
+def test_columns_between_edges_give_what_rows_do(clear):
+    """Rows of the even pupil against columns of the same one without symmetry; a faint filter takes the masks' road."""
+    pupil = pupil_of_coefficients(waves(w40=2.0, w31=3.0, wd=-1.5))
+    mask = CLEAR if clear else PupilMask(apodisation=1e4)
+    rows, other = (landed(one, pupil.centroid_um) for one in (pupil, replace(pupil.unfolded, mask=mask)))
+    radius = np.linspace(0, min(rows.top_um, other.top_um), 60)
+    np.testing.assert_allclose(landed(pupil, pupil.centroid_um).within(radius), other.within(radius), atol=2e-5)
 
 
 def test_known_radii_of_the_airy_pattern():
@@ -42,10 +97,10 @@ def test_known_radii_of_the_airy_pattern():
 def test_a_large_blur_tends_to_the_density_of_rays(w):
     pupil = pupil_of_coefficients(waves(**w))
     waves_sum, rays = (
-        ring_sums(pupil, pupil.centroid_um, samples_across(pupil, pupil.centroid_um)),
+        landed(pupil, pupil.centroid_um),
         landing_points(pupil, pupil.centroid_um),
     )
-    radius = np.linspace(0, 1.2 * pupil.rms_um, 40)
+    radius = np.linspace(0, 1.2 * pupil.spot.rms_um, 40)
     assert np.abs(waves_sum.within(radius) - rays.within(radius)).max() < 0.04
 
 
@@ -132,3 +187,14 @@ def test_of_a_clipped_pupil_it_is_the_light_in_a_window_of_the_reference(name, f
     for radius, share in ((found.radius_50_um, 0.5), (found.radius_80_um, 0.8)):
         inside = np.clip((radius - distance) / pitch + 0.5, 0, 1)
         assert psf.energy * (psf.values * inside).sum() == pytest.approx(share, abs=3e-3)
+
+
+@pytest.mark.parametrize("name", ["relay", "telecentric_relay"])
+def test_a_relay_at_infinity_is_refused_before_its_outline_is_sought(name, monkeypatch):
+    def sought(*_):
+        raise AssertionError("the outline of what few rays pass was sought")
+
+    monkeypatch.setattr("p2sf.raytrace.vignetting._edge", sought)
+    with pytest.raises(GeometryError) as caught:
+        encircled_energy(find_lens(name), Source())
+    assert 0 < caught.value.message.values["percent"] < 5

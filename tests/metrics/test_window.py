@@ -78,6 +78,15 @@ def test_centroid_is_where_the_light_balances():
     assert (x, y) == (pytest.approx(0.7, abs=1e-9), pytest.approx(-1.3, abs=1e-9))
 
 
+@pytest.mark.parametrize("pixels", [31, 32])
+def test_the_centroid_of_a_symmetric_psf_is_its_centre_in_any_window(pixels):
+    """Airy's wings fall as 1/r³: the unpaired row and column of an even window alone would draw it to one side."""
+    symmetric = seidel_psf(waves(), pixels, 1.0)
+    assert centroid(symmetric) == (0.0, 0.0)
+    coma = seidel_psf(waves(w31=0.5), pixels, 1.0)
+    assert centroid(coma)[0] == 0.0 and abs(centroid(coma)[1]) > 0.1
+
+
 def test_centroid_of_coma_is_the_mean_ray():
     """The PSF's first moment is λ/(n'u') times the mean of ∂W/∂η, which is W31; the window keeps most of it."""
     c = waves(w31=-2.0)

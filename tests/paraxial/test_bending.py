@@ -46,6 +46,7 @@ def test_the_eye_has_its_vitreous_behind_and_no_element_in_air():
 LONG = {"cassegrain_f10", "maksutov", "microscope_10x", "telecentric_relay", "zoom_3x"}  # seconds, and like others here
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(shipped_lenses()) - LONG))
 @some
 @given(by=st.floats(-0.02, 0.02))

@@ -33,6 +33,7 @@ def relative(kernel, good) -> float:
     return float(np.linalg.norm(kernel - good) / np.linalg.norm(good))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 14])
 def test_the_fft_of_a_fitted_pupil_is_the_huygens_sum_of_exact_rays(degrees):
     """46 numbers leave 2e-4 waves here, 4πσ = 2.5e-3; the rim's linear share of a cell adds as much."""

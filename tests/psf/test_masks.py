@@ -19,11 +19,9 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import choose, render
 from p2sf.psf.polychromatic import estimated_share
 from p2sf.psf.seidel import seidel_psf
-from p2sf.psf.seidel_stack import as_fit
-from p2sf.psf.separable_sum import iris_rows
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMap, PupilMask
-from p2sf.pupil.mask_nodes import edge_nodes, mask_nodes, throughput, vane_nodes
+from p2sf.pupil.mask_nodes import edge_nodes, mask_nodes, throughput
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.pencil import pupil_rays, trace
 from p2sf.raytrace.seen_mask import mask_seen
@@ -52,7 +50,7 @@ def besinc(v: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("ratio", [0.01, 0.1, 0.5, 0.9, 0.99])
-@pytest.mark.parametrize(("quality", "rounding"), [("settled", 1e-10), ("preview", 1e-4)])
+@pytest.mark.parametrize(("quality", "rounding"), [("settled", 1e-9), ("preview", 1e-4)])
 def test_the_annular_airy_pattern(ratio, quality, rounding):
     """Of a perfect lens: [2J₁(v)/v − ε²·2J₁(εv)/(εv)]²/(1 − ε²)² (Born & Wolf 1999, ch. 8)."""
     psf = seidel_psf(waves(), 65, 0.9, quality, mask=PupilMask(obscuration=ratio))
@@ -96,7 +94,7 @@ def test_every_method_makes_the_same_picture(mask):
         exact, fitted = (method(lens, source, 32, 1.4, quality=quality) for method in (traced_psf, fitted_psf))
         assert r_squared(exact.values, reference.values) > 0.9999
         assert r_squared(fitted.values, reference.values) > 0.998
-        assert exact.strehl == pytest.approx(reference.strehl, rel=1e-3)
+        assert exact.over_unaberrated.max() == pytest.approx(reference.over_unaberrated.max(), rel=1e-3)
     assert fitted.predicted_error > 1 - r_squared(fitted.values, reference.values)
     assert fitted.energy == pytest.approx(reference.energy, rel=0.02)
 
@@ -172,8 +170,8 @@ def test_six_coefficients_behind_a_mask_are_the_plain_sum(mask, quality):
 
 
 @pytest.mark.parametrize("mask", EVEN + UNEVEN, ids=repr)
-def test_vanes_and_what_is_behind_them_make_the_open_part(mask):
-    """The signed pieces of all ways to divide the pupil integrate one and the same function."""
+def test_the_ring_less_what_vanes_and_blades_cover_is_the_open_part(mask):
+    """The signed pieces of both ways to divide the pupil integrate one and the same function."""
 
     def integral(nodes, light):
         mean = (light(nodes.xi, nodes.eta) + light(-nodes.xi, nodes.eta)) / 2 if nodes.even else None
@@ -182,31 +180,10 @@ def test_vanes_and_what_is_behind_them_make_the_open_part(mask):
     def light(xi, eta):
         return np.exp(xi * eta + eta**3) * np.cos(xi + eta)
 
-    opened, disc = mask_nodes(mask, 24, 60), mask_nodes(replace(mask, vanes=0), 24, 60)
-    ring = mask_nodes(PupilMask(mask.obscuration), 24, 60)
-    for whole, edges in ((disc, vane_nodes(mask, 24, 60)), (ring, edge_nodes(mask, 24, 60))):
-        rest = whole.share * integral(whole, light) + (0 if edges is None else integral(edges, light))
-        assert opened.share * integral(opened, light) == pytest.approx(rest, abs=1e-10)
-
-
-@pytest.mark.parametrize("turn", [0.0, 30.0, 7.0])
-@pytest.mark.parametrize(("blades", "roundness"), [(3, 0.0), (5, 0.4), (6, 0.0), (6, 0.7)])
-def test_rows_of_an_iris_have_its_area_and_moments(blades, roundness, turn):
-    """n(sin 2φ/2 + (2ψ − sin 2ψ)/2κ²), φ = π/n: triangles and circular segments; for straight blades ∫ξ² + η² too."""
-    mask = PupilMask(blades=blades, roundness=roundness, blade_angle_deg=turn)
-    found = as_fit(waves(), mask)
-    rows, area, side = iris_rows(found, 40, 40)
-    half = np.sin(np.pi / blades)
-    wanted = blades * np.sin(2 * np.pi / blades) / 2
-    if roundness:
-        psi = np.arcsin(roundness * half)
-        wanted += blades * (2 * psi - np.sin(2 * psi)) / (2 * roundness**2)
-    assert area == pytest.approx(wanted / np.pi, abs=1e-10)
-    assert (side is None) == mask.even
-    if not roundness:  # of a regular polygon: area·(3 cos²φ + sin²φ)/6 about the centre
-        mean = (rows.weight * (rows.xi**2 + rows.eta**2)).sum()
-        assert mean == pytest.approx((3 * np.cos(np.pi / blades) ** 2 + half**2) / 6, abs=1e-10)
-    assert (rows.weight * rows.eta).sum() == pytest.approx(0, abs=1e-10)  # the centroid
+    opened, ring = mask_nodes(mask, 24, 60), mask_nodes(PupilMask(mask.obscuration), 24, 60)
+    edges = edge_nodes(mask, 24, 60)
+    rest = ring.share * integral(ring, light) + (0 if edges is None else integral(edges, light))
+    assert opened.share * integral(opened, light) == pytest.approx(rest, abs=1e-10)
 
 
 def test_a_mask_that_leaves_nothing_open_is_refused():

@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.glass.media import ConstantIndex
-from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_f_number, with_sensor
+from p2sf.lens.lens import Aperture, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf import separable_sum
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import (
@@ -28,9 +26,9 @@ from p2sf.psf.methods import (
 )
 from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
 from p2sf.raytrace.fit import level_rays
-from p2sf.raytrace.ray_field import RayData
 from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import summary, trials
+from tests.support.made_rays import made_rays
 from tests.support.pencils import double_gauss
 from tests.support.reference import case, huygens_rows
 from tests.support.shaped_lenses import ODD, singlet
@@ -59,7 +57,7 @@ def test_six_coefficients_miss_by_their_phase_and_by_where_diffraction_takes_the
     scale, side = float(c.reduced_slope) / float(c.wavelength_um), np.where(xi > np.median(xi), 1.0, -1.0)
     off = waves_off * side + 0.7  # a constant phase is no error
     zero = 0 * xi
-    rays = RayData(off - wavefront(c, xi, eta), scale * xi + frequency_off, scale * eta, zero, zero, np.ones_like(xi))
+    rays = made_rays(off - wavefront(c, xi, eta), scale * xi + frequency_off, scale * eta, zero, zero)
     own = side[: weight.size]
     wanted = np.hypot(waves_off * np.sqrt(1 - (weight @ own) ** 2), frequency_off * 5.0)
     assert seidel_sigma(c, rays, points, 5.0) == pytest.approx(wanted, rel=1e-12)
@@ -145,18 +143,6 @@ def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
     assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
 
 
-def test_auto_falls_back_on_the_reference_where_rows_need_too_many_samples(monkeypatch):
-    """On the axis rings need few directions, where rows need as many as columns: 5120 × 5632 of them here."""
-    monkeypatch.setattr(separable_sum, "MOST_NODES", 2**24)
-    pair = Surface(20.0, 4.0, ConstantIndex(1.5), conic=-3.0), Surface(-20.0, 10.0, conic=-2.0)
-    lens = Lens(pair, Aperture("stop_semi_diameter", 13.0), 1)
-    lens, source = with_sensor(lens, float(image_distance(lens, inf, 0.5876))), Source(inf, 0.0, 0.5876)
-    assert choose(lens, source).method == "traced"
-    with pytest.raises(SamplingError):
-        render(lens, source, "traced", 32, 0.3)
-    assert render(lens, source, "auto", 32, 0.3).method == "huygens"
-
-
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_predicts_at_least_the_error_it_makes(method):
     lens, source, pixel, _ = off_axis()
@@ -208,6 +194,7 @@ def test_unknown_methods_and_qualities_and_bad_tolerances_are_refused():
         choose(lens, Source(inf, 5.0, 0.6562725), 0.99)
 
 
+@pytest.mark.slow
 def test_the_trade_is_one_table_one_picture_and_one_json():
     lens = replace(double_gauss(), fields_deg=(0.0, 14.0))
     rows = tradeoff(lens, pixels=16)

@@ -12,19 +12,17 @@ from p2sf.lens.misalignment import displaced, folding, with_tilted_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.psf.fitted import fitted_intensity, fitted_psf
+from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
-from p2sf.psf.plane_waves import counts_for
-from p2sf.psf.skew_rows import skew_rows_for
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.fit import SKEW, SLOPE_WEIGHT, fit, fit_rays, level_rays
-from p2sf.raytrace.pencil import diffraction_phase, hexapolar, pencil
-from p2sf.raytrace.ray_field import RayData
+from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.vignetting import clear_nodes
 from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
+from tests.support.made_rays import made_rays
 from tests.support.space_rays import fly, poses
 
 WINDOW = 33, 1.0  # an odd count is its own mirror image
@@ -73,7 +71,7 @@ def test_phase_and_direction_are_those_of_a_tracer_in_space(bad):
         for f, s in zip(flights[:-1], start, strict=False)
     ]
     found = pencil(bad, source, xi, eta)
-    assert diffraction_phase(found) == pytest.approx(expected, abs=1e-8)
+    assert found.phase == pytest.approx(expected, abs=1e-8)
     axes = poses(bad)[-1].turn.inv()
     local = np.array([back.T @ axes.apply(f.direction) for f in flights])
     assert found.kx == pytest.approx(local[:-1, 0], abs=1e-13) and found.chief_kx == pytest.approx(local[-1, 0])
@@ -153,25 +151,10 @@ def test_the_area_over_frequencies_of_a_fit_without_symmetry(bad):
     assert found.jacobian(xi, eta) == pytest.approx(expected, rel=1e-6)
 
 
-@pytest.mark.parametrize("field", [(0.0, 0.0), (3.0, 4.0), (-9.0, 8.0)])
-def test_rows_of_a_pupil_without_symmetry_sum_what_its_nodes_do(bad, field):
-    """Two quadratures of one fit, each converged well below 1e-4."""
-    found = fit(bad, Source(field_deg=field), SKEW[2].numbers)
-    plain = fitted_intensity(found, counts_for(found.steepness, *WINDOW), *WINDOW)
-    for window in (WINDOW, (32, 1.0)):  # an even count has a column more on one side
-        rows = skew_rows_for(found, *window, "settled")
-        phase, fx = found.at_points(rows.xi, rows.eta)
-        light = found.weight_at(rows.xi, rows.eta)
-        intensity = rows.intensity(phase, fx, light, *window, np.float64)
-        some = plain[: window[0], : window[0]]
-        assert np.linalg.norm(intensity - some) < 1e-5 * np.linalg.norm(some)
-        assert rows.weight.sum() == pytest.approx(1.0, abs=1e-6)
-
-
-def test_traced_in_rows_is_the_reference(bad):
+def test_traced_by_a_few_rays_is_the_reference(bad):
     source = Source(field_deg=(3, 4))
     traced = traced_psf(bad, source, *WINDOW)
-    assert "equal frequency" in str(traced.sampling)
+    assert traced.rays < 1500
     assert distance(traced, huygens_psf(bad, source, *WINDOW)) < 1e-3
 
 
@@ -218,7 +201,7 @@ def test_64_rays_tell_a_phase_of_order_ten_by_where_they_land():
     fx, fy = 0.2 * xi + 0.01 * eta + 0.03 * xi * eta**2, 0.19 * eta - 0.02 * xi**2
     turn = np.array([[0.2 + 0.03 * eta**2, -0.04 * xi], [0.01 + 0.06 * xi * eta, np.full_like(xi, 0.19)]])
     x, y = np.linalg.solve(np.moveaxis(turn, -1, 0), -np.stack([across, along], -1)[..., None])[..., 0].T
-    found = fit_rays(RayData(phase(xi, eta), fx, fy, x, y, np.ones_like(xi)), level, 64)
+    found = fit_rays(made_rays(phase(xi, eta), fx, fy, x, y), level, 64)
     at = hexapolar(6)
     assert xi.size == 64 and found.at(*at)[0] == pytest.approx(phase(*at), abs=1e-9)
     assert found.error_waves < 1e-9

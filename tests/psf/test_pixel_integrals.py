@@ -2,16 +2,22 @@
 
 import numpy as np
 import pytest
+from scipy.special import j1
 
+import p2sf
 from p2sf.database.build import build_database
-from p2sf.database.render import Sampling, critical_pixel_um, rendered, rendered_light
+from p2sf.database.fitted_build import build_fitted
+from p2sf.database.render import Sampling, critical_pixel_um, pixels_psf, rendered, rendered_light
 from p2sf.database.space import Space
-from p2sf.lens.lens import with_aim
+from p2sf.errors import SamplingError
+from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.seidel import coefficients
 from p2sf.psf import pixel_integrals
 from p2sf.psf.methods import render
 from p2sf.psf.pixel_integrals import render_integrated, samples_across
+from p2sf.psf.result import IN_WINDOW
 from tests.support.pupil_sums import ray_sum
 
 
@@ -73,6 +79,66 @@ def test_what_takes_too_many_samples_stays_at_points_and_says_so(monkeypatch):
     psf = render_integrated(find_lens("fast_gauss_f14"), Source(), "traced", 33, 4.0)
     assert not psf.integrated
     assert psf.values.shape == (33, 33)
+    with pytest.raises(SamplingError) as raised:
+        render_integrated(find_lens("fast_gauss_f14"), Source(), "traced", 33, 4.0, wanted=True)
+    assert raised.value.message.values["parameter"] == "integrated"
+
+
+def test_a_window_too_wide_for_waves_holds_the_share_of_rays(monkeypatch):
+    """Far from focus an evenly filled stop throws an even disc: the share is the window's part of its area."""
+    monkeypatch.setattr(pixel_integrals, "LARGEST", 100)
+    lens = find_lens("achromat_f6")
+    lens, width_mm = with_aim(with_sensor(lens, lens.sensor_mm + 20), "paraxial"), 64 * 0.02
+    psf = render_integrated(lens, Source(), "fitted", 64, 20.0)
+    radius_mm = 20 * float(coefficients(lens, np.inf, 0.0, Source().wavelength_um).na)
+    # 2 %: rays are a few tenths of a percent apart at the window's edges, and sines no tangents.
+    assert psf.energy == pytest.approx(width_mm**2 / (np.pi * radius_mm**2), rel=0.02)
+
+
+def airy_light(na: float, wavelength_um: float, half_um: float) -> float:
+    """Return the share of an Airy pattern's light in a square (Born & Wolf 1999, 8.5.2), by Gauss points."""
+    node, weight = np.polynomial.legendre.leggauss(200)
+    radius = np.hypot(*np.meshgrid(half_um * node, half_um * node))
+    v = 2 * np.pi * na / wavelength_um * radius
+    intensity = (2 * j1(v) / v) ** 2 * np.pi * (na / wavelength_um) ** 2
+    return float(half_um**2 * weight @ intensity @ weight)
+
+
+@pytest.mark.parametrize("wanted", [None, True, False])
+@pytest.mark.parametrize("pitch", [1.0, 3.0, 5.0])
+def test_the_share_of_light_is_known_at_every_pitch(wanted, pitch):
+    """On both sides of λ/(4 NA) = 1.25 µm and λ/(2 NA); odd windows stand evenly about the chief ray."""
+    pixels = round(45 / pitch) | 1
+    psf = p2sf.psf_of_opd(np.zeros((256, 256)), 0.1, 500, pixels=pixels, pixel_um=pitch, integrated=wanted)
+    assert psf.integrated == (pitch > 1.25 if wanted is None else wanted)
+    # 3e-3: samples at points hold a window's edge to half a sample, and the disc is drawn by square cells.
+    assert psf.energy == pytest.approx(airy_light(0.1, 0.5, pixels * pitch / 2), abs=3e-3)
+    if psf.integrated:
+        middle = psf.values[pixels // 2, pixels // 2] * psf.energy
+        assert middle == pytest.approx(airy_light(0.1, 0.5, pitch / 2), rel=5e-3)
+
+
+def test_a_looked_up_fit_knows_its_share_of_the_light():
+    lens, source = find_lens("cooke_triplet"), Source(field_slope=0.2, wavelength_um=0.55)
+    space = Space(np.array([np.inf]), np.linspace(0.1, 0.3, 9), np.array([0.5, 0.55, 0.6]))
+    for pitch in (0.8, 3.0):
+        traced = render_integrated(lens, source, "fitted", 32, pitch)
+        assert pixels_psf(build_fitted(lens, space), source, 32, pitch).energy == pytest.approx(traced.energy, rel=1e-3)
+
+
+def test_a_psf_that_its_window_cuts_off_is_said_to_be():
+    lens, source = find_lens("double_gauss_28"), p2sf.Source(field_deg=10)
+    with pytest.warns(p2sf.P2SFWarning) as caught:
+        cut = p2sf.render(lens, source, f_number=2.8, pixel_um=2.0)
+    whole = p2sf.render(lens, source, f_number=2.8, pixels=192, pixel_um=2.0)
+    inside = whole.values[64:128, 64:128].sum()  # both begin 32 pixels below the chief ray's
+    assert cut.energy == pytest.approx(inside * whole.energy, rel=1e-3)
+    assert cut.caution.values["share"] == pytest.approx(100 * cut.energy) and f"80.4 % of the {IN_WINDOW}" in repr(cut)
+    assert len(caught) == 1 and caught[0].filename == __file__
+    assert whole.caution is None and "integrated pixels" in repr(whole)
+    database = p2sf.build_database(lens, [np.inf], [0, 10], [550], f_number=2.8)
+    with pytest.warns(p2sf.P2SFWarning):
+        database.psf(p2sf.Source(field_deg=10, wavelength_nm=550), pixel_um=1.0)
 
 
 def test_a_databases_wide_pixels_hold_the_light_of_narrow_ones():

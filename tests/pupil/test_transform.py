@@ -6,7 +6,14 @@ import pytest
 from p2sf.conventions import centred_axis
 from p2sf.errors import SamplingError
 from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.transform import BLOCK, LINE_GRID, matrix_dft, padded_fft, sum_on_line, sum_plane_waves
+from p2sf.pupil.transform import (
+    BLOCK,
+    MOST_PRODUCTS,
+    NUFFT_ERROR,
+    matrix_dft,
+    padded_fft,
+    sum_plane_waves,
+)
 
 ROUND_OFF = 1e-12
 
@@ -90,11 +97,39 @@ def test_an_fft_of_an_odd_or_too_small_size_is_refused(pupil, samples, pixels, w
         padded_fft(pupil, samples, pixels)
 
 
-def test_a_sum_on_a_line_is_the_plain_sum():
+def test_a_line_is_a_row_of_the_picture():
+    rng = np.random.default_rng(6)
+    amplitude, kx, ky = rng.normal(size=(3, MOST_PRODUCTS // 400))
+    x, zero = centred_axis(513, 0.31), np.zeros(1)
+    across = sum_plane_waves(amplitude + 0j, kx, ky, x, zero, even=False)
+    up = sum_plane_waves(amplitude + 0j, kx, ky, zero, x, even=False)
+    for found, k in ((across[0], kx), (up[:, 0], ky)):
+        exact = np.exp(2j * np.pi * np.outer(x, k)) @ amplitude
+        assert np.abs(found - exact).max() < 100 * NUFFT_ERROR[np.dtype(float)] * np.linalg.norm(exact)
+
+
+@pytest.mark.parametrize("even", [True, False])
+@pytest.mark.parametrize(("rows", "columns", "apart"), [(40, 41, 0.0), (33, 64, 0.37)])
+def test_many_nodes_are_the_same_sum_as_few(even, rows, columns, apart):
+    """The non-uniform FFT against sums of parts so small that each is a product of matrices."""
+    rng = np.random.default_rng(4)
+    nodes = 2 * MOST_PRODUCTS // (rows * columns)
+    amplitude = rng.normal(size=(2, nodes)) + 1j * rng.normal(size=(2, nodes))
+    kx, ky = rng.normal(size=(2, nodes))
+    x, y = centred_axis(columns, 0.3) + apart, centred_axis(rows, 0.7) - 2 * apart
+    parts = [slice(start, start + nodes // 4) for start in range(0, nodes, nodes // 4)]
+    few = sum(sum_plane_waves(amplitude[:, some], kx[some], ky[some], x, y, even) for some in parts)
+    many = sum_plane_waves(amplitude, kx, ky, x, y, even)
+    # Errors are stated relative to the root of the sum of squares.
+    assert np.abs(many - few).max() < 30 * NUFFT_ERROR[np.dtype(float)] * np.linalg.norm(few)
+    single = sum_plane_waves(amplitude, kx.astype(np.float32), ky.astype(np.float32), x, y, even)
+    assert single.dtype == np.complex64
+
+
+def test_uneven_axes_are_summed_as_they_are():
     rng = np.random.default_rng(5)
-    k, amplitude = rng.uniform(-0.7, 0.7, 4000), rng.normal(size=4000) + 1j * rng.normal(size=4000)
-    x = (np.arange(513) - 256) * 0.31
-    found = sum_on_line(amplitude, k, 513, 0.31)
-    plain = np.exp(2j * np.pi * np.outer(x, k)) @ amplitude
-    bound = (np.pi * np.abs(x / 0.31) / LINE_GRID) ** 2 / 2 + 1e-12  # per node, as the docstring says
-    assert (np.abs(found - plain) <= 2 * bound * np.sqrt(4000) * 2 + 1e-9).all()
+    x = np.sort(rng.normal(size=30))
+    amplitude, kx, ky = rng.normal(size=(3, 2 * MOST_PRODUCTS // x.size**2))
+    field = sum_plane_waves(amplitude + 0j, kx, ky, x, x, even=False)
+    one = (amplitude * np.exp(2j * np.pi * (kx * x[3] + ky * x[20]))).sum()
+    assert abs(field[20, 3] - one) < ROUND_OFF * np.abs(amplitude).sum()

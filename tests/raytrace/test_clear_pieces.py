@@ -21,7 +21,6 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.clear_pieces import piece_nodes
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
 from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.studies import validate
 from tests.support.masked_sum import masked_sum
@@ -44,7 +43,7 @@ def test_the_telescope_of_another_program(field, sampled):
     """A primary with a hole behind the stop, and rims: OpticStudio's Huygens PSFs, as near as their grid allows."""
     lens, source = telescope(SAMPLED_RIM if sampled else RIM), Source(wavelength_nm=500, field_deg=FIELDS_DEG[field])
     nodes = pupil_nodes(lens, source, (60, 170), clip=True)
-    data = ray_data(pencil(lens, source, nodes.xi, nodes.eta))
+    data = pencil(lens, source, nodes.xi, nodes.eta)
     # The listing's grid lies in the sensor's directions: there frequencies are turned, of both halves of the pupil.
     turn, fx, fy = np.deg2rad(source.azimuth_deg), np.append(data.fx, -data.fx), np.append(data.fy, data.fy)
     amplitude, axis = np.tile(nodes.weight * np.exp(2j * np.pi * data.phase), 2), centred_axis(64, 0.289)

@@ -192,7 +192,7 @@ def test_files_keep_ideal_lenses():
     assert parse_toml(lens_to_toml(lens), "lens.toml").surfaces == lens.surfaces
     read = import_text(LensText("two.zmx", "utf-8", lens_to_zmx(lens)), GlassSources()).lens
     assert [s.ideal_focal_length for s in read.surfaces] == [FIRST, inf, SECOND]
-    with pytest.raises(LensFileError, match="surface 1 is no conic"):
+    with pytest.raises(LensFileError, match=r"surface 1: .* cannot express its ideal focal length"):
         lens_to_iset(lens)
 
 

@@ -1,12 +1,11 @@
 """Exact rays: against the witness's OPD maps, and against the laws that any ray obeys."""
 
 from dataclasses import replace
-from math import inf, sqrt
+from math import inf
 
 import numpy as np
 import pytest
 
-from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
@@ -15,7 +14,6 @@ from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import (
     Status,
-    diffraction_phase,
     displayed_opd,
     opd_fan,
     opd_map,
@@ -23,7 +21,6 @@ from p2sf.raytrace.pencil import (
     pupil_grid,
     pupil_rays,
     ray_fan,
-    spot,
     trace,
 )
 from p2sf.raytrace.trace import status_message
@@ -60,7 +57,7 @@ def test_wavelengths_may_be_an_axis():
     lens, (xi, eta) = double_gauss(), disc(20)
     together = pencil(lens, Source(inf, 0.1, np.array([0.5, 0.6])), xi, eta)
     alone = pencil(lens, Source(inf, 0.1, 0.6), xi, eta)
-    assert np.allclose(diffraction_phase(together)[1], diffraction_phase(alone), atol=1e-12)
+    assert np.allclose(together.phase[1], alone.phase, atol=1e-12)
 
 
 def test_a_chief_ray_that_fails_is_an_error_that_says_why_and_where():
@@ -202,13 +199,3 @@ def test_ray_errors_are_the_slope_of_the_opd():
     # Real sines differ from paraxial slopes by (1.5·NA)²: below 1 per mille at f/20.
     assert np.allclose(rays.tangential[2:-2], expected[2:-2], rtol=0, atol=1e-3 * np.max(np.abs(expected)))
     assert np.allclose(rays.tangential, rays.sagittal)
-
-
-def test_spot_of_pure_defocus_is_a_uniform_disc():
-    lens = one_surface(conic=-((1 / 1.5) ** 2), rim=1.0)
-    focus = float(image_distance(lens, inf, 0.55))
-    lens, source = with_sensor(lens, focus + 1.0), Source(inf, 0.0, 0.55)
-    radius = UM_PER_MM * abs(float(pencil(lens, source, [0.0], [1.0]).dy[0]))
-    # Eight rings of equal areas stand for a disc to 1/(2·217²); what is left is the bend of the cone, NA²/2 of f/30.
-    assert spot(lens, source, rings=8).rms_um == pytest.approx(radius / sqrt(2), rel=2e-4)
-    assert radius == pytest.approx(1.0 / focus * UM_PER_MM, rel=1e-2)

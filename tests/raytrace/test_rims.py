@@ -49,6 +49,7 @@ def footprint(field_deg: float, azimuth_deg: float) -> tuple[float, float]:
     return far * sin(turn), far * cos(turn)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("azimuth_deg", [0.0, 35.0, 200.0])
 @pytest.mark.parametrize("field_deg", [0.0, 6.0])
 @pytest.mark.parametrize("decentre", [(0.0, 3.0), (-2.5, 1.5)])

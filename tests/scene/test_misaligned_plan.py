@@ -61,6 +61,7 @@ def deep(bad):
     return plan(bad, replace(SCENE, near_mm=NEAR, tolerance=0.2))
 
 
+@pytest.mark.slow
 def test_depths_have_nodes_between_which_the_promise_holds(deep):
     assert deep.meets
     assert len(deep.vergences) > 2
@@ -80,6 +81,7 @@ def set_straight(lens):
     return replace(lens, surfaces=tuple(replace(s, before=(), after=()) for s in lens.surfaces))
 
 
+@pytest.mark.slow
 def test_a_lens_turned_about_its_centres_has_the_picture_of_the_straight_one(straight, values):
     """A sphere turned about its own centre is no other lens, but takes the road through the database."""
     turned = displaced(straight, 1, 1, Placement(tilt_x_deg=2.0, pivot=(0.0, 0.0, straight.surfaces[0].radius)))

@@ -51,6 +51,7 @@ def test_the_plan_keeps_its_tolerance_against_exact_rays(planned):
     assert verdict.worst > 0  # the two roads share no approximation
 
 
+@pytest.mark.slow
 def test_a_plan_of_clipped_pencils_keeps_its_tolerance():
     """A crop of the Double Gauss's corner, where its rims take 5 % of the pupil and a tenth of L2."""
     lens, single = find_lens("double_gauss_28"), (Channel("green", (550.0,), (1.0,)),)
@@ -224,6 +225,8 @@ def test_a_scene_is_read_from_toml(tmp_path):
         ("pixel_um = 9.0", "pixel_um = 9.0\ncentre_mm = [1]", "centre_mm has 1 numbers; give two"),
         ("[depth]\nnear_mm = 15000\nfar_mm = 25000", "[shallow]", 'the scene has "shallow"'),
         ("rows = 48", "rows = 48.5", "rows is 48.5; give a whole number"),
+        ("far_mm = 25000", "far_mm = 1e99", r"far_mm is 1e\+99.* beyond 1e\+16 mm .*give inf"),
+        ("focus_mm = 20000", "focus_mm = 1e17", r"focus_mm is 1e\+17 mm.* beyond"),
         ("rows = 48\n", "", "lacks rows"),
         ("pixel_um = 9.0", "pixel_um = -1", "positive pitch"),
         ("tolerance = 0.1", "tolerance = 2", "between 0 and 1"),

@@ -87,6 +87,7 @@ def test_memory_is_that_of_the_arrays():
     assert claim.verdict == HOLDS and "12 400 PSFs" in claim.measured and "102 MB" in claim.measured
 
 
+@pytest.mark.slow
 def test_ten_waves_are_no_limit_where_the_aperture_is_small_and_not_reached_where_it_is_large():
     lens = find_lens("double_gauss_28")
     small, large = (defocus_r_squared(lens, f, 0.6563) for f in (8.0, 3.0))
@@ -106,6 +107,7 @@ def test_the_blur_of_many_waves_is_compared_soundly():
     assert r_squared(fitted.values, reference.values) > 0.999
 
 
+@pytest.mark.slow
 def test_the_paper_is_judged_in_the_paraxial_pupil(monkeypatch):
     """Whatever fills the pupil by default, and though the six are made to suit the stop; all claims have a verdict."""
     aims = []

@@ -29,6 +29,7 @@ def test_the_figures_asked_for_are_in_the_table():
     assert sum(figure.kind == "paper" for figure in published()) == 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("figure", OPTICSTUDIO, ids=lambda figure: figure.quantity)
 def test_a_wrong_figure_is_red(figure):
     assert compare(replace(figure, value=figure.value + 3 * figure.tolerance)).verdict == DIFFERS
@@ -61,6 +62,7 @@ def test_the_command_fails_where_a_figure_differs(capsys, monkeypatch):
     assert main(["validate"]) == 0
 
 
+@pytest.mark.slow
 def test_the_handbook_has_the_table():
     """`python -c "from p2sf.studies.validate import *; print(markdown(validation()))"` writes it."""
     assert markdown(validation()) in page("numerics")

@@ -18,6 +18,12 @@ def send_key(widget, key, repeated: bool) -> None:
     QApplication.sendEvent(widget, QKeyEvent(QEvent.Type.KeyPress, key, none, "", repeated))
 
 
+def choose(box, value) -> None:
+    """Choose an item of a combo box as a person does: Qt then says that it was activated."""
+    box.setCurrentIndex(box.findData(value))
+    box.activated.emit(box.currentIndex())
+
+
 def turn_wheel(widget, place: QPoint, angle: int) -> None:
     at, none = QPointF(place), Qt.KeyboardModifier.NoModifier
     phase = Qt.ScrollPhase.NoScrollPhase

@@ -41,6 +41,7 @@ from tests.support.skew_rays import (
     through_paraxial_pupil,
     through_stop,
 )
+from tests.support.waves import rms_about_plane
 
 AIRY = 0.609835  # first zero of J1 over 2π
 SMALL = 0.3  # of pupil and field: where a polynomial of eighth order is exact to 1e-6
@@ -66,7 +67,7 @@ def paraxial_ray(system: System, y: float, u: float) -> tuple[float, float]:
     """Return height at the last surface and slope behind it of a ray that meets the first surface at y with slope u."""
     for j, shape in enumerate(system.shapes):
         before, after = system.index[j], system.index[j + 1]
-        u = (before * u - y * (after - before) * shape.curvature) / after
+        u = (before * u - y * shape.power(before, after)) / after
         if j < len(system.shapes) - 1:
             y += u * system.thickness[j]
     return y, u
@@ -333,7 +334,7 @@ def airy_radius(state: State) -> float:
 
 
 def rms(state: State) -> float:
-    """Return the RMS of the wavefront about its mean, over a uniform grid of the pupil outside its obscuration."""
+    """Return the RMS of the wavefront without piston and tilt over the pupil outside its obscuration."""
     lens, source = lens_and_source(state)
     by_coefficients = is_altered(state) or state.optics.method == "seidel"
     if lens.misaligned and not by_coefficients:
@@ -344,7 +345,19 @@ def rms(state: State) -> float:
     xi, eta = (rho * np.sin(angle)).ravel(), (rho * np.cos(angle)).ravel()
     waves = shape(coefficients(state), xi, eta) if by_coefficients else on_sphere(lens, source, xi, eta)
     share = np.repeat(weight, angle.size) / (2 * angle.size)
-    return float(np.sqrt(share @ (waves - share @ waves) ** 2))
+    return rms_about_plane(waves, xi, eta, share)
+
+
+def left_out(state: State) -> float:
+    """Return the RMS of what exact rays have beyond the six coefficients, over a uniform grid of the pupil."""
+    lens, source = lens_and_source(state)
+    node, weight = leggauss(20)
+    rho, angle = np.sqrt((1 + node) / 2)[:, None], 2 * np.pi * (np.arange(44) + 0.5) / 44
+    xi, eta = (rho * np.sin(angle)).ravel(), (rho * np.cos(angle)).ravel()
+    rest = on_sphere(lens, source, xi, eta) + shape(
+        coefficients(state), xi, eta
+    )  # the paths are longer where W is less
+    return rms_about_plane(rest, xi, eta, np.repeat(weight, angle.size))
 
 
 def on_sphere(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -466,6 +479,7 @@ REFEREE: dict[str, Callable[[State], float]] = {
     "image_height_mm": image_height,
     **{f"{term}_waves": (lambda state, term=term: coefficients(state)[term]) for term in TERMS},
     "rms_waves": rms,
+    "left_out_waves": left_out,
     "strehl": strehl,
     "centre_over_peak": centre_over_peak,
     "radius_80_um": radius_80,

@@ -7,7 +7,6 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.ray_field import ray_data
 
 AT_ONCE = 2**17
 
@@ -29,11 +28,10 @@ def masked_sum(
             continue
         xi, eta = xi[inside], eta[inside]
         rays = pencil(lens, source, xi, eta, clip)
-        data = ray_data(rays)
-        phase = data.phase + mask.path_um(xi, eta) / source.wavelength_um
-        light = np.where(rays.passed, data.weight * mask.amplitude(xi, eta) * np.exp(2j * np.pi * phase), 0)
-        data.fx[~rays.passed] = data.fy[~rays.passed] = 0.0
-        across = np.exp(2j * np.pi * data.fx[:, None] * axis)
-        field += (light[:, None] * np.exp(2j * np.pi * data.fy[:, None] * axis)).T @ across
+        phase = rays.phase + mask.path_um(xi, eta) / source.wavelength_um
+        light = np.where(rays.passed, rays.amplitude * mask.amplitude(xi, eta) * np.exp(2j * np.pi * phase), 0)
+        rays.fx[~rays.passed] = rays.fy[~rays.passed] = 0.0
+        across = np.exp(2j * np.pi * rays.fx[:, None] * axis)
+        field += (light[:, None] * np.exp(2j * np.pi * rays.fy[:, None] * axis)).T @ across
     intensity = np.abs(field) ** 2
     return intensity / intensity.sum()

@@ -11,7 +11,7 @@ from math import inf, isinf
 
 import numpy as np
 
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.source import Source
 
 NEWTON = 30
@@ -21,14 +21,30 @@ SOLVED = 1e-14  # of a slope: some roundings
 
 @dataclass(frozen=True)
 class Shape:
-    """A surface of revolution: curvature, conic constant, and the terms A4, A6 and so on."""
+    """A surface of revolution: curvature, conic constant, and the terms A4, A6 and so on.
+
+    ``grating``: the terms of r², r⁴ and so on, mm⁻¹, mm⁻³, of the path that diffraction adds, the same either way.
+    """
 
     curvature: float
     conic: float
     aspheric: tuple[float, ...]
+    grating: tuple[float, ...] = ()
 
     def mirrored(self) -> "Shape":
-        return Shape(-self.curvature, self.conic, tuple(-a for a in self.aspheric))
+        return Shape(-self.curvature, self.conic, tuple(-a for a in self.aspheric), self.grating)
+
+    def power(self, before: float, after: float) -> float:
+        return (after - before) * self.curvature - 2 * sum(self.grating[:1])
+
+    def added_path(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        square = x * x + y * y
+        return sum((a * square ** (1 + j) for j, a in enumerate(self.grating)), 0.0 * square)
+
+    def added_gradient(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return 2·d(path)/d(r²)."""
+        square = x * x + y * y
+        return sum((2 * (1 + j) * a * square**j for j, a in enumerate(self.grating)), 0.0 * square)
 
     def sag(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         square = x * x + y * y
@@ -80,7 +96,7 @@ class Rays:
 
 def system_of(lens: Lens, wavelength_um: float) -> System:
     """Return the numbers of a lens that names its stop, at a wavelength; the rim follows from its aperture."""
-    shapes = tuple(Shape(0.0 if isinf(s.radius) else 1 / s.radius, s.conic, tuple(s.aspheric)) for s in lens.surfaces)
+    assert not any(s.shape or s.irregularity or s.ideal or s.before or s.after for s in lens.surfaces)
     gaps = tuple(s.thickness for s in lens.surfaces)
 
     def at(wavelength: float, rim: float) -> System:
@@ -88,9 +104,21 @@ def system_of(lens: Lens, wavelength_um: float) -> System:
         for s in lens.surfaces:  # a mirror is n' = −n, with every direction written so that it points along +z
             here = -index[-1] if s.reflects else np.sign(index[-1]) * float(s.medium.index(wavelength))
             index.append(here)
+        shapes = tuple(
+            Shape(0.0 if isinf(s.radius) else 1 / s.radius, s.conic, tuple(s.aspheric), _grating(s, wavelength))
+            for s in lens.surfaces
+        )
         return System(shapes, gaps, tuple(index), lens.stop_surface - 1, rim, wavelength / 1000)
 
     return at(wavelength_um, _rim(lens, at(lens.reference_wavelength_um, 1.0)))
+
+
+def _grating(surface: Surface, wavelength_um: float) -> tuple[float, ...]:
+    """Return the terms of the path that a diffractive surface adds: mλ/2π of its radians."""
+    if surface.diffraction is None:
+        return ()
+    one, waves = surface.diffraction, surface.diffraction.order * wavelength_um / 1000 / (2 * np.pi)
+    return tuple(waves * a / one.normalisation_mm ** (2 + 2 * j) for j, a in enumerate(one.coefficients))
 
 
 def _rim(lens: Lens, unit: System) -> float:
@@ -107,7 +135,7 @@ def _power(system: System) -> float:
     y, u = 1.0, 0.0
     for j, shape in enumerate(system.shapes):
         before, after = system.index[j], system.index[j + 1]
-        u = (before * u - y * (after - before) * shape.curvature) / after
+        u = (before * u - y * shape.power(before, after)) / after
         if j < len(system.shapes) - 1:
             y += u * system.thickness[j]
     return -system.last * u
@@ -119,7 +147,7 @@ def entrance_pupil(system: System) -> tuple[float, float]:
     before_stop = system.index[system.stop]
     for shape, gap, before, after in _towards_object(system):
         y += u * gap
-        u = (before * u - y * (after - before) * shape.curvature) / after
+        u = (before * u - y * shape.power(before, after)) / after
     return y / u, abs(system.rim * before_stop / (system.index[0] * u))
 
 
@@ -128,7 +156,7 @@ def exit_pupil_mm(system: System) -> float:
     y, u = 0.0, 1.0
     for j in range(system.stop, len(system.shapes)):
         before, after = system.index[j], system.index[j + 1]
-        u = (before * u - y * (after - before) * system.shapes[j].curvature) / after
+        u = (before * u - y * system.shapes[j].power(before, after)) / after
         if j < len(system.shapes) - 1:
             y += u * system.thickness[j]
     return -y / u
@@ -157,6 +185,8 @@ def meet(shape: Shape, point: np.ndarray, ray: np.ndarray) -> np.ndarray:
     a = c * (ray[0] ** 2 + ray[1] ** 2 + k * ray[2] ** 2)
     b = ray[2] - c * (x * ray[0] + y * ray[1])
     step = to_plane + c * (x * x + y * y) / (b + np.sqrt(b * b - a * c * (x * x + y * y)))
+    if any(shape.aspheric):  # a ray may miss the conic and meet the surface
+        step = np.where(np.isfinite(step), step, to_plane)
     for _ in range(NEWTON if any(shape.aspheric) else 0):
         x, y, z = (point[a] + step * ray[a] for a in (0, 1, 2))
         steep = shape.gradient(x, y)
@@ -164,13 +194,23 @@ def meet(shape: Shape, point: np.ndarray, ray: np.ndarray) -> np.ndarray:
     return step
 
 
-def bend(shape: Shape, point: np.ndarray, ray: np.ndarray, before: float, after: float) -> np.ndarray:
-    """Return unit directions behind a surface by Snell's law as a vector; NaN for total reflection."""
+def bend(
+    shape: Shape, point: np.ndarray, ray: np.ndarray, before: float, after: float, pull: np.ndarray | None = None
+) -> np.ndarray:
+    """Return unit directions behind a surface, n'K' = nK + ∇(path added) + Γ·normal; NaN for total reflection.
+
+    ``pull`` (2, ray) is added to the gradient of the path.
+    """
     steep = shape.gradient(point[0], point[1])
     normal = np.stack([-steep * point[0], -steep * point[1], np.ones_like(steep * point[0])])
     normal /= np.sqrt((normal**2).sum(0))
-    cosine, ratio = (ray * normal).sum(0), before / after
-    return ratio * ray + (np.sqrt(1 - ratio**2 * (1 - cosine**2)) - ratio * cosine) * normal
+    onward = before / after * ray
+    if shape.grating:
+        onward[:2] += shape.added_gradient(point[0], point[1]) * point[:2] / after
+    if pull is not None:
+        onward[:2] += pull / after
+    along = (onward * normal).sum(0)
+    return onward + (np.sqrt(1 - (onward**2).sum(0) + along**2) - along) * normal
 
 
 def _backwards(system: System, start: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -283,7 +323,8 @@ def forwards(system: System, source: Source, point: np.ndarray, ray: np.ndarray)
     stop = None
     for j, shape in enumerate(system.shapes):
         step = meet(shape, point, ray)
-        point, path = point + step * ray, path + system.index[j] * step
+        point = point + step * ray
+        path = path + system.index[j] * step + shape.added_path(point[0], point[1])
         stop = point[:2] if j == system.stop else stop
         ray = bend(shape, point, ray, system.index[j], system.index[j + 1])
         point = point - np.array([[0.0], [0.0], [system.thickness[j]]])

@@ -4,7 +4,7 @@ The chief ray is aimed at the middle of the real stop. All others are launched o
 has when it is set straight, and where they met the stop is measured: what they carry is a polynomial over that.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isinf
 
@@ -15,6 +15,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from tests.support.skew_rays import back_to_sphere, entrance_pupil, exit_pupil_mm, object_point, system_of
 from tests.support.space_rays import Flight, fly, poses
+from tests.support.waves import rms_about_plane
 
 RADII, ANGLES, DEGREE = 8, 18, 9  # of the rays, and of the polynomials: two degrees more change no RMS by 1e-8 waves
 BEYOND = 1.05  # how much wider than the pupil rays are launched, so that it is nowhere extrapolated
@@ -47,11 +48,12 @@ def _powers(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.stack([x**a * y**b for a in range(DEGREE + 1) for b in range(DEGREE + 1 - a)], -1)
 
 
-def disc_nodes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return ξ, η and weights of a rule over the unit disc, of sum 1."""
+def open_nodes(lens: Lens) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ξ, η and weights of a rule over the unit disc outside the obscuration, of sum 1."""
     node, weight = leggauss(12)
     angle = 2 * np.pi * (np.arange(32) + 0.5) / 32
-    rho = np.sqrt((1 + node) / 2)[:, None]
+    dark = lens.mask.obscuration**2
+    rho = np.sqrt((1 + dark + (1 - dark) * node) / 2)[:, None]
     return (rho * np.sin(angle)).ravel(), (rho * np.cos(angle)).ravel(), np.repeat(weight / 2, 32) / 32
 
 
@@ -92,7 +94,8 @@ class _Launch:
 
     def __init__(self, lens: Lens, source: Source):
         self.lens, self.source = lens, source
-        self.system = system_of(lens, source.wavelength_um)
+        straight = replace(lens, surfaces=tuple(replace(s, before=(), after=()) for s in lens.surfaces))
+        self.system = system_of(straight, source.wavelength_um)
         self.plane, self.radius = entrance_pupil(self.system)
         self.where = object_point(self.system, source)
 
@@ -135,10 +138,9 @@ class _Launch:
 
 
 def rms_waves(lens: Lens, source: Source) -> float:
-    """Return the RMS of the wavefront about its mean over the stop."""
-    pupil, (xi, eta, share) = space_pupil(lens, source), disc_nodes()
-    waves = pupil.at(pupil.waves, xi, eta)
-    return float(np.sqrt(share @ (waves - share @ waves) ** 2))
+    """Return the RMS of the wavefront without piston and tilt over the stop."""
+    pupil, (xi, eta, share) = space_pupil(lens, source), open_nodes(lens)
+    return rms_about_plane(pupil.at(pupil.waves, xi, eta), xi, eta, share)
 
 
 def centroid_um(lens: Lens, source: Source) -> np.ndarray:
@@ -148,7 +150,7 @@ def centroid_um(lens: Lens, source: Source) -> np.ndarray:
     area, f that of directions at the sensor and s that of the stop.
     """
     assert isinf(source.depth_mm)
-    pupil, (xi, eta, share) = space_pupil(lens, source), disc_nodes()
+    pupil, (xi, eta, share) = space_pupil(lens, source), open_nodes(lens)
     entered, directions = (_jacobian(pupil, values, xi, eta) for values in (pupil.entered, pupil.slope))
     light = share * entered**2 / directions
     return pupil.at(pupil.place_um, xi, eta) @ light / light.sum()

@@ -7,24 +7,24 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.quadrature import whole_disc
-from p2sf.raytrace.pencil import diffraction_phase, pencil
-from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.pencil import displayed_opd, pencil
+from tests.support.waves import rms_about_plane
 
 NODES, GRID = (16, 40), 300
 
 
 def exact_quality(lens: Lens, sources: Sequence[Source]) -> tuple[np.ndarray, np.ndarray]:
-    """Return RMS (waves) without piston and tilt, and the Strehl ratio without these, of every field."""
+    """Return RMS (waves) of the displayed wavefront without piston and tilt, and the Strehl ratio of every field."""
     xi, eta, area = whole_disc(*NODES)
     rms, strehl = [], []
     for source in sources:
         rays = pencil(lens, source, xi, eta)
-        data, light = ray_data(rays), area * rays.weight
+        light = area * rays.launch
         light /= light.sum()
-        terms = np.stack([np.ones_like(xi), data.fx, data.fy], axis=1) * np.sqrt(light)[:, None]
-        waves = diffraction_phase(rays) * np.sqrt(light)
+        terms = np.stack([np.ones_like(xi), rays.fx, rays.fy], axis=1) * np.sqrt(light)[:, None]
+        waves = rays.phase * np.sqrt(light)
         left = waves - terms @ np.linalg.lstsq(terms, waves, rcond=None)[0]
-        rms.append(np.sqrt((left**2).sum()))
+        rms.append(rms_about_plane(displayed_opd(lens, source, xi, eta), xi, eta, area))
         strehl.append(abs((light * np.exp(2j * np.pi * left / np.sqrt(light))).sum()) ** 2)
     return np.array(rms), np.array(strehl)
 
@@ -39,11 +39,12 @@ def masked_quality(lens: Lens, sources: Sequence[Source]) -> tuple[np.ndarray, n
     for source in sources:
         assert not source.azimuth_deg, "the mask would be seen turned"
         rays = pencil(lens, source, xi, eta)
-        data, field = ray_data(rays), rays.weight * lens.mask.amplitude(xi, eta)
+        field = rays.launch * lens.mask.amplitude(xi, eta)
         field = field / field.sum()
-        waves = diffraction_phase(rays) + lens.mask.path_um(xi, eta) / source.wavelength_um
-        terms = np.stack([np.ones_like(xi), data.fx, data.fy])
+        waves = rays.phase + lens.mask.path_um(xi, eta) / source.wavelength_um
+        terms = np.stack([np.ones_like(xi), rays.fx, rays.fy])
         left = waves - np.linalg.solve(terms * field @ terms.T, terms * field @ waves) @ terms
-        rms.append(np.sqrt(field @ left**2))
+        displayed = lens.mask.path_um(xi, eta) / source.wavelength_um - displayed_opd(lens, source, xi, eta)
+        rms.append(rms_about_plane(displayed, xi, eta, np.full(xi.size, 1 / xi.size)))
         strehl.append(abs(field @ np.exp(2j * np.pi * left)) ** 2)
     return np.array(rms), np.array(strehl)

@@ -42,3 +42,11 @@ def rms(coefficients: Coefficients, tilt_removed: bool = True) -> np.ndarray:
     mean_focus = focus + w22 / 2
     axial = 4 / 45 * w40**2 + w40 * mean_focus / 6 + mean_focus**2 / 12
     return np.sqrt(axial + w31**2 / (72 if tilt_removed else 8) + w22**2 / 24)
+
+
+def rms_about_plane(waves: np.ndarray, xi: np.ndarray, eta: np.ndarray, share: np.ndarray | float = 1.0) -> float:
+    """Return the RMS of a wavefront at points of these shares about the plane of least squares through it."""
+    root = np.sqrt(np.broadcast_to(share, waves.shape))
+    plane = np.stack([np.ones_like(waves), xi, eta], axis=1) * root[:, None]
+    rest = waves * root - plane @ np.linalg.lstsq(plane, waves * root, rcond=None)[0]
+    return float(np.sqrt(rest @ rest / (root @ root)))

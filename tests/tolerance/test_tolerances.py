@@ -7,8 +7,9 @@ import pytest
 
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens.lens import with_mask, with_sensor
+from p2sf.lens.lens import Aperture, indices, with_f_number, with_mask, with_sensor
 from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
 from p2sf.metrics.frequency_pupil import pupil_of_rays
 from p2sf.metrics.measures import PupilPart, mtf_of
 from p2sf.pupil.mask import PupilMask
@@ -29,7 +30,7 @@ from p2sf.tolerance import (
     usual_tolerances,
 )
 from p2sf.tolerance.builds import evaluate
-from p2sf.tolerance.differentials import NODES
+from p2sf.tolerance.differentials import NODES, usual_sources
 from p2sf.tolerance.errors_of_build import IRREGULAR
 from tests.long.tolerances import agreement, gauss
 from tests.support.simple_lenses import in_the_stop
@@ -131,6 +132,52 @@ def test_builds_are_those_of_exact_rays(lens, known):
         assert found.strehl[number] == pytest.approx(strehl, abs=3e-3)
 
 
+def rim_of(lens, f_number: float) -> float:
+    """Return where the paraxial ray of height f/(2N) meets the stop, surface by surface (Welford 1986, ch. 3)."""
+    index, y, nu, heights = indices(lens, lens.reference_wavelength_um), 1.0, 0.0, []
+    for number, surface in enumerate(lens.surfaces):
+        heights.append(y)
+        nu -= y * surface.curvature * (index[number + 1] - index[number])
+        y += surface.thickness * nu / index[number + 1]
+    return abs(heights[lens.stop_surface - 1] / nu) / (2 * f_number)
+
+
+def worst_refocused(lens, sources) -> float:
+    """Return the RMS of exact rays in the worst field, the sensor where the mean square of all fields is least."""
+    shift = 0.0
+    for step in (0.05, 0.01, 0.005):
+        places = shift + np.array([-step, 0.0, step])
+        less, least, more = (
+            (exact_quality(with_sensor(lens, lens.sensor_mm + by), sources)[0] ** 2).sum() for by in places
+        )
+        shift += step * (less - more) / (2 * (less - 2 * least + more))
+    return float(exact_quality(with_sensor(lens, lens.sensor_mm + shift), sources)[0].max())
+
+
+@pytest.mark.parametrize(
+    ("name", "f_number", "number"), [("double_gauss_28", 8.0, 3), ("fast_gauss_f14", 1.4, 3), ("wide_angle_35", 2.0, 7)]
+)
+def test_a_thickness_that_is_off_does_not_resize_the_iris(name, f_number, number):
+    """By exact rays through lenses whose stop keeps the radius that the f-number of the lens as designed means.
+
+    3 %: the third order of an error that adds up to a third of a wave, which a quadratic form leaves out. A resized
+    iris would be 33 to 54 % off.
+    """
+    lens = find_lens(name)
+    stopped = replace(lens, aperture=Aperture("stop_semi_diameter", rim_of(lens, f_number)))
+    sources = usual_sources(lens, Source())
+    thick, focus = Tolerance("thickness", number, 0.05), Tolerance("thickness", len(lens.surfaces), 0.2)
+    known = differentials(with_f_number(lens, f_number), sources, (thick, focus))
+    surface = lens.surfaces[number - 1]
+    worst = []
+    for error in (0.05, -0.05, 0.0):
+        wrong = replace(surface, thickness=surface.thickness + error)
+        surfaces = (*lens.surfaces[: number - 1], wrong, *lens.surfaces[number:])
+        worst.append(worst_refocused(replace(stopped, surfaces=surfaces), sources))
+    found = harms(sensitivities(known, (1,)), "rms_waves", (1,))[0]
+    assert found == pytest.approx(max(worst[:2]) - worst[2], rel=0.03)
+
+
 def test_an_irregularity_hardly_meets_other_errors(far):
     """What is left out: of ten fringes with 0.1 mm or 0.1°, by four lenses with both, less than 0.002 waves RMS."""
     tolerances = Tolerance("irregularity", 3, 10.0), Tolerance("decentre_y", 3, 0.1), Tolerance("tilt_x", 3, 0.1)
@@ -184,6 +231,7 @@ def trace_heights(lens, field_deg: float, eta: float) -> float:
     return float(trace(lens, rays.origins, rays.directions, UM).points[1, 0, 1])
 
 
+@pytest.mark.slow
 def test_most_builds_agree_with_exact_rays_focused_anew():
     """500 builds are tried by ``python -m tests.long.tolerances``."""
     assert agreement(gauss(8.0), "precision", (0.0, 7.0), 6, 200).agree >= 0.95
@@ -299,7 +347,7 @@ def test_a_compensator_that_there_is_not_is_refused(known):
 
 @pytest.mark.parametrize("frequency", [10.0, 40.0])
 def test_contrast_of_builds_is_that_of_their_own_pupils(known, frequency):
-    """By the autocorrelation on a grid of every build's own pupil; that of builds leaves out how the pupil changes."""
+    """By the autocorrelation of every build's own pupil; left out is the square of its stretch, some 1 % here."""
     errors = np.random.default_rng(5).uniform(-1, 1, (3, len(known.tolerances))) * known.amounts
     found = evaluate(known, errors, frequency_per_mm=frequency)
     for number, one in enumerate(errors):
@@ -307,7 +355,7 @@ def test_contrast_of_builds_is_that_of_their_own_pupils(known, frequency):
         for field, source in enumerate(known.sources):
             exact = mtf_of([PupilPart(pupil_of_rays(built, source))], "", [frequency])
             both = [exact.sagittal[0], exact.tangential[0]]
-            assert found.mtf[number, field] == pytest.approx(both, abs=1.5e-3)
+            assert found.mtf[number, field] == pytest.approx(both, abs=3e-4)
     assert np.ptp(found.mtf[:, 0]) > 0.05, "errors that matter"
 
 
@@ -334,7 +382,7 @@ def test_contrast_of_builds_behind_a_mask_is_that_of_their_own_pupils(behind):
         for field, source in enumerate(FIELDS):
             exact = mtf_of([PupilPart(pupil_of_rays(built, source))], "", [30.0])
             both = [exact.sagittal[0], exact.tangential[0]]
-            assert found.mtf[number, field] == pytest.approx(both, abs=2e-3)
+            assert found.mtf[number, field] == pytest.approx(both, abs=1e-3)
     still = evaluate(behind, 0 * errors, frequency_per_mm=30.0)
     assert np.abs(found.mtf - still.mtf).max() > 0.03, "errors that matter"
 

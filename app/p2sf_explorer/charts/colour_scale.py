@@ -6,7 +6,6 @@ import numpy as np
 
 from p2sf_explorer.charts.brightness import DECADES, stretched
 
-STRETCHES = ("linear", "sqrt", "log")
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 Labels = tuple[tuple[float, str], ...]
 

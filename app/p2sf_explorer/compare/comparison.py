@@ -14,7 +14,7 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
-from p2sf_explorer.compute.pupil import PupilMap, pupil_map
+from p2sf_explorer.compute.pupil import PupilMap, disc, pupil_map
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.pinning import side_b
 from p2sf_explorer.state.state import State
@@ -132,9 +132,10 @@ def difference(a: Live, b: Live) -> Difference:
     peak = max(float(a.psf.values.max()), float(b.psf.values.max())) or 1.0
     pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
     least = min((a.pupil, b.pupil), key=lambda side: side.clear)
-    common = pupil_map(pupil, np.isfinite(pupil), DIFFERENCE)
+    common = pupil_map(pupil, disc(len(pupil))[2], DIFFERENCE)  # without the pixel that maps go on beyond the rim
     minus = replace(
         common,
+        waves=pupil,
         outline=least.outline,
         clear=least.clear,
         iris=least.iris,

@@ -67,7 +67,7 @@ def terms(a: ZernikeView, b: ZernikeView) -> ZernikeView:
     """Return A − B of the Zernike coefficients and of their shares; RMS and residual likewise."""
 
     def less(mine: ZernikeFit, other: ZernikeFit) -> ZernikeFit:
-        names = ("waves", "rms_waves", "share", "rms", "rms_without_tilt", "residual")
+        names = ("waves", "rms_waves", "share", "rms", "rms_with_tilt", "residual")
         return replace(mine, **{name: getattr(mine, name) - getattr(other, name) for name in names})
 
     return replace(a, fits={order: less(fit, b.fits[order]) for order, fit in a.fits.items()})

@@ -2,39 +2,34 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import prod
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.paraxial.wavefront import steepest_chords, steepest_polar
-from p2sf.psf.disc_rows import takes_rows
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
-from p2sf.psf.huygens import all_reach, huygens_psf
-from p2sf.psf.plane_waves import counts_for
+from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.plane_waves import counts_for, window_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.psf.seidel_stack import LARGEST_NODES, corner_reach
-from p2sf.psf.separable_sum import MOST_NODES as MOST_IN_ROWS
-from p2sf.psf.separable_sum import row_counts
-from p2sf.psf.traced import in_rows, traced_psf
-from p2sf.pupil.mask import EDGE_HARMONICS, PupilMask, mask_slopes
-from p2sf.pupil.mask_nodes import vane_nodes
-from p2sf.pupil.quadrature import chords_for, nodes_for
+from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
+from p2sf.psf.smooth_pupil import all_reach
+from p2sf.psf.traced import MOST_NODES as MOST_TRACED
+from p2sf.psf.traced import traced_psf
+from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.state import State
 
-# As many nodes as are summed in some 40 ms, and on a busy machine in a few times that, over so many samples a side.
-MOST_NODES = {"seidel": 100_000, "fitted": 60_000, "traced": 30_000, "huygens": 12_000}
+# Of one core, the peak included: tables of polynomials, rays through a dozen surfaces, a Fourier transform.
+NODE_SECONDS = {"seidel": 4e-7, "fitted": 4e-7, "traced": 4e-7, "huygens": 4e-6}
+SAMPLE_SECONDS = 1.5e-7
+AT_ONCE_SECONDS = 0.04  # on a busy machine a few times that
+SOME_SECONDS = 3.0
 FEW_SAMPLES = 128
-MOST_IN_PRODUCTS = 2**31  # nodes × samples a side of a sum in rows: some seconds
-MOST_ONE_BY_ONE = 2**32  # nodes × samples of a sum ray by ray: some ten seconds
-ONE_BY_ONE = 0.012  # of a product in rows: what a product of a sum node by node takes, which is of large matrices
-BOTH_SIDES = 3  # what a pupil costs whose halves differ, in pupils that are even
-FEW_NODES = 16, 48  # radii and directions over the disc at which the nodes over vanes are counted
 KEPT = 8
 KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64
 
@@ -117,83 +112,46 @@ def by_coefficients(request: SumRequest, six: Coefficients, quality: str) -> Psf
     return replace(psf, predicted_error=seidel_error(request.lens, request.source, six))
 
 
-@dataclass(frozen=True)
-class Size:
-    """How many ``nodes`` a sum has, the mirror half not counted; 0 where that is not known beforehand.
+def node_count(request: SumRequest, fitted: FittedPencil | None) -> float:
+    """Return how many nodes a settled sum has, the mirror half not counted; 0 where that is not known beforehand.
 
-    ``in_rows``: it separates into products; ``most``: the largest number of nodes that is summed at all; ``edges``:
-    nodes over what vanes cover, which a sum in rows takes away one by one.
+    ``fitted``: a coarse fit to exact rays; None where rays are lost.
     """
-
-    nodes: float
-    in_rows: bool
-    most: float
-    edges: float = 0.0
-
-    def products(self, samples: int) -> float:
-        """Return the cost of a picture of so many samples a side."""
-        return self.nodes * (samples if self.in_rows else samples**2) + self.edges * samples**2 * ONE_BY_ONE
-
-
-def size(request: SumRequest, fitted: FittedPencil | None) -> Size:
-    """Return the size of a settled sum. ``fitted``: a coarse fit to exact rays; None where rays are lost."""
-    mask = mask_seen(request.lens, request.source)
     if request.six is not None:
-        return coefficient_size(request.six, request.window, mask)
-    if fitted is None:
-        return Size(0.0, request.method == "fitted", MOST_RAYS)
-    one_by_one = request.clip or (request.method == "traced" and not in_rows(request.lens, request.source))
-    if request.method == "huygens" or (request.method == "traced" and one_by_one):
-        radii, directions = counts_for(fitted.steepness, *request.window)
-        return Size(radii * directions / 2, False, MOST_RAYS)
-    counts = counts_for(fitted.steepness, *request.window)
-    if not takes_rows(mask) or (request.lens.misaligned and not mask.clear):
-        return Size(counts[0] * counts[1] / (1 + mask.even), False, MOST_FITTED)
-    nodes = row_nodes(fitted, request.window) * (1 + mask.obscuration) * (1 if mask.even else BOTH_SIDES)
-    return Size(nodes, True, MOST_IN_ROWS / 2, covered_nodes(mask, counts))
+        return coefficient_nodes(request.six, request.window, mask_seen(request.lens, request.source))
+    return 0.0 if fitted is None else fit_nodes(fitted, request.window)
 
 
-def coefficient_size(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> Size:
-    """Return the size of a settled sum of six coefficients behind a mask: larger where its quarters differ."""
-    if mask.clear:
-        return Size(coefficient_nodes(six, window), True, LARGEST_NODES)
-    counts = coefficient_counts(six, window, mask)
-    if not takes_rows(mask):
-        return Size(counts[0] * counts[1] / (1 + mask.even), False, MOST_FITTED)
-    if not mask.in_quarters:
-        return Size(counts[0] * counts[1] / BOTH_SIDES, True, MOST_IN_ROWS / 2, covered_nodes(mask, counts))
-    return Size(
-        coefficient_nodes(six, window) * (1 + mask.obscuration), True, LARGEST_NODES, covered_nodes(mask, counts)
-    )
+def fit_nodes(fitted: FittedPencil, window: tuple[int, float]) -> float:
+    """Return how many nodes carry the phase of a fit over a window, the mirror half not counted."""
+    return prod(counts_for(fitted.steepness, window_reach_um(*window))) / (1 + fitted.mask.even)
 
 
-def coefficient_counts(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> tuple[int, int]:
-    """Return the radii and directions that carry the phase of six coefficients behind a mask over a window."""
-    slopes, wavelength = mask_slopes(mask), float(six.wavelength_um)
-    slope, twist = (float(steep) + EDGE_HARMONICS * slopes.amplitude for steep in steepest_polar(six))
-    reach = corner_reach(float(six.na) / wavelength, *window)
-    return nodes_for(slope + slopes.path_radial_um / wavelength, reach, twist + slopes.path_angular_um / wavelength)
+def coefficient_nodes(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> float:
+    """Return how many nodes carry the phase of six coefficients behind a mask over a window."""
+    return fit_nodes(as_fit(six, mask), window)
 
 
-def covered_nodes(mask: PupilMask, counts: tuple[int, int]) -> float:
-    """Return about how many nodes cover the vanes of a mask, as dense as ``counts`` are over the disc."""
-    few = vane_nodes(mask, *FEW_NODES)
-    return 0.0 if few is None else few.xi.size * max(1.0, counts[0] * counts[1] / (FEW_NODES[0] * FEW_NODES[1]))
+def seconds(method: str, nodes: float, samples: int) -> float:
+    """Return about how long a sum takes: that of its nodes, and a Fourier transform of its samples."""
+    return NODE_SECONDS[method] * nodes + SAMPLE_SECONDS * samples**2
 
 
 def impossible(request: SumRequest, fitted: FittedPencil | None) -> float:
     """Return how many pupil samples a sum would need that has too many; 0 for one that can be made."""
-    found = size(request, fitted)
-    return found.nodes if found.nodes > found.most else 0.0
+    nodes = node_count(request, fitted)
+    most = {"traced": MOST_TRACED, "huygens": MOST_RAYS}.get(request.method, MOST_FITTED / 2)
+    if request.six is not None and mask_seen(request.lens, request.source).clear:
+        most = 2 * LARGEST_NODES  # in rows, a quarter of the pupil
+    return nodes if nodes > most else 0.0
 
 
 def most_samples(request: SumRequest, fitted: FittedPencil | None) -> int:
     """Return the most samples a side that are summed within some seconds, at least those of a small picture."""
-    found, samples = size(request, fitted), request.window[0]
-    if not found.nodes:
+    nodes, samples = node_count(request, fitted), request.window[0]
+    if not nodes:
         return FEW_SAMPLES
-    most = MOST_IN_PRODUCTS if found.in_rows else MOST_ONE_BY_ONE
-    while samples > FEW_SAMPLES and found.products(samples) > most:
+    while samples > FEW_SAMPLES and seconds(request.method, nodes, samples) > SOME_SECONDS:
         samples //= 2
     return samples
 
@@ -203,38 +161,9 @@ def slow(request: SumRequest, fitted: FittedPencil | None) -> bool:
 
     The cost of rims and lost rays is not known beforehand: following an outline takes a thousand pencils.
     """
-    found = size(request, fitted)
-    if not found.nodes or (request.clip and request.method != "fitted"):
+    nodes = node_count(request, fitted)
+    if not nodes or (request.clip and request.method != "fitted"):
         return request.method != "fitted"
-    if found.products(max(FEW_SAMPLES, request.window[0])) > MOST_NODES[request.method] * (
-        FEW_SAMPLES if found.in_rows else FEW_SAMPLES**2
-    ):
+    if seconds(request.method, nodes, max(FEW_SAMPLES, request.window[0])) > AT_ONCE_SECONDS:
         return True
-    if request.method == "huygens":
-        return not all_reach(request.lens, request.source)
-    return request.method == "traced" and not found.in_rows
-
-
-def coefficient_nodes(six: Coefficients, window: tuple[int, float]) -> float:
-    """Return how many nodes of a quarter pupil carry the phase of six coefficients over a window."""
-    reach = corner_reach(float(six.na) / float(six.wavelength_um), *window)
-    rows, columns = chords_for(*steepest_chords(six), reach, reach / 2**0.5)
-    return rows * columns / 4
-
-
-def moving_nodes(fitted: FittedPencil, window: tuple[int, float]) -> float:
-    """Return the cost of a preview behind the fit's mask, in nodes of rows."""
-    if fitted.mask.clear:
-        return row_nodes(fitted, window, "preview")
-    counts, worth = counts_for(fitted.steepness, *window), window[0] * ONE_BY_ONE
-    if not takes_rows(fitted.mask):
-        return worth * counts[0] * counts[1] / (1 + fitted.mask.even)
-    sides = 1 if fitted.mask.even else BOTH_SIDES
-    rows = row_nodes(fitted, window, "preview") * (1 + fitted.mask.obscuration) * sides
-    return rows + worth * covered_nodes(fitted.mask, counts)
-
-
-def row_nodes(fitted: FittedPencil, window: tuple[int, float], quality: str = "settled") -> float:
-    """Return how many nodes in rows sample the phase of a fit over a window, the mirror half not counted."""
-    rows, columns = row_counts(fitted, *window, quality)
-    return rows * columns / 2
+    return request.method in ("traced", "huygens") and not all_reach(request.lens, request.source)

@@ -282,9 +282,9 @@ def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
     From y² = 2Rz − (1 + K)z² of a conic, R = (y² + (1 + K)z²)/2z. A sag beyond that of a hemisphere is held there.
     """
     square = height_mm**2
-    sag = sag_mm - sum(term * square**power for power, term in enumerate(surface.aspheric, 2))
-    if surface.shape is not None:  # that of Qbfs follows the radius a little, which a second drag makes up for
-        sag -= float(surface.shape.sag_and_slope(square, surface.curvature, surface.conic)[0])
+    _, *others = surface.parts  # a Qbfs follows the radius a little, which a second drag makes up for
+    c, k = surface.curvature, surface.conic
+    sag = sag_mm - sum(float(part.sag_and_gradient(0.0, height_mm, c, k)[0]) for part in others)
     bulge = 1 + surface.conic
     if bulge > 0:
         steepest = STEEPEST * abs(height_mm) / sqrt(bulge)

@@ -267,15 +267,13 @@ def profile(surface: Surface, vertex: float, rim: float) -> Profile:
     return vertex + sag(surface, y), y
 
 
-def sag(surface: Surface, y: np.ndarray) -> np.ndarray:
-    """Return the sag of a conic with even polynomial terms (ISO 10110-12) and what its shape adds, mm."""
-    square = np.square(y)
-    c = surface.curvature
-    root = np.sqrt(np.maximum(0.0, 1 - (1 + surface.conic) * c * c * square))
-    depth = c * square / (1 + root)
-    for power, term in enumerate(surface.aspheric, 2):
-        depth = depth + term * square**power
-    return depth if surface.shape is None else depth + surface.shape.sag_and_slope(square, c, surface.conic)[0]
+def sag(surface: Surface, y: np.ndarray, x: np.ndarray | float = 0.0) -> np.ndarray:
+    """Return the sag of a surface, mm; beyond the edge of its conic, where there is none, that of the edge."""
+    inside = _inside_surface(surface, np.inf)
+    if np.isfinite(inside):
+        held = np.minimum(1.0, inside / np.maximum(np.hypot(x, y), inside))
+        x, y = x * held, y * held
+    return np.asarray(surface.sag(x, y))
 
 
 def element_outline(front: Profile, back: Profile, index: float, surfaces: tuple[int, int]) -> Outline:

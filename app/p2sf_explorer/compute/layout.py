@@ -15,8 +15,9 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
-from p2sf.raytrace.surface import AT_RIM, Status, sag_and_slope
+from p2sf.raytrace.surface import AT_RIM, Status
 from p2sf.raytrace.trace import trace
+from p2sf.tolerance.errors_of_build import source_of_build
 from p2sf_explorer.compute.glass_outlines import (
     UPRIGHT,
     Glass,
@@ -271,6 +272,7 @@ def fan_paths(
         slope = float(slope_from_degrees(fan.field_deg))
         azimuth = setup.source.azimuth_deg
         source = Source(setup.source.depth_mm, slope, fan.wavelength_nm / NM_PER_UM, azimuth_deg=azimuth)
+        source = source_of_build(setup.designed, setup.lens, source)
         for ray in _paths(setup, drawn, source, etas, clip):
             yield replace(ray, group=number)
 
@@ -396,7 +398,7 @@ def pencil_rims(lens: Lens) -> tuple[float, ...]:
 
 def end_at_rim(places: np.ndarray, lens: Lens, surface: int, rim: float) -> None:
     """Move the end of a clipped ray, (2, points) z and y, into the plane of the rim that stops it."""
-    sag = float(sag_and_slope(lens.surfaces[surface - 1], rim * rim)[0])
+    sag = float(lens.surfaces[surface - 1].sag(0.0, rim))
     (z, y), (end_z, end_y) = places[:, -2], places[:, -1]
     at = vertices(lens)[surface - 1] + sag
     if isfinite(sag) and (at - z) * (end_z - z) > 0:

@@ -91,7 +91,7 @@ def live(
         psf=psf,
         quality=quality,
         airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
-        dominant=dominant(pupil),
+        dominant=dominant(pupil, setup.coefficients),
         warnings=warnings(setup, pupil if picture.exact else None, drawing.rays, shows_density(picture, quality)),
         why=picture.why,
         method=picture.method,

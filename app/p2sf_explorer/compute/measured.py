@@ -8,16 +8,16 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.metrics.energy import samples_across
+from p2sf.metrics.energy import blur_waves
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
-from p2sf.metrics.measures import Energy, PupilPart
+from p2sf.metrics.measures import Energy, PupilPart, pupil_of_six
 from p2sf.metrics.transfer import otf_samples
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
-LIVE_ACROSS = 384  # samples across the pupil whose energy is live: some 15 ms, a blur of 40 waves
+LIVE_WAVES = 40.0  # per pupil radius, of a blur whose energy is live: some 15 ms
 BY_RAYS, BY_COEFFICIENTS = Message("exact rays"), Message("six coefficients")
 
 
@@ -25,7 +25,8 @@ BY_RAYS, BY_COEFFICIENTS = Message("exact rays"), Message("six coefficients")
 class MeasureRequest:
     """Everything a measure depends on. ``six``: the coefficients' values where they make the picture, else empty.
 
-    ``beside_rays``: the picture is the density of rays, and no sum of waves.
+    ``beside_rays``: the picture is the density of rays, and no sum of waves. ``by_hand``: waves were added to the six,
+    and exact rays do not judge them.
     """
 
     lens: Lens
@@ -33,6 +34,7 @@ class MeasureRequest:
     clip: bool
     six: tuple[float, ...] = ()
     beside_rays: bool = False
+    by_hand: bool = False
 
     @property
     def method(self) -> Message:
@@ -48,15 +50,19 @@ def measure_request(live: Live) -> MeasureRequest:
     by_six = live.method == "seidel" or live.setup.altered
     six = tuple(float(value) for value in vars(live.setup.coefficients).values()) if by_six else ()
     beside_rays = live.psf.method == "geometric" and live.quality == "settled" and live.pending is None
-    return MeasureRequest(live.setup.lens, live.setup.source, live.state.optics.clip and not by_six, six, beside_rays)
+    return MeasureRequest(
+        live.setup.lens, live.setup.source, live.state.optics.clip and not by_six, six, beside_rays, live.setup.altered
+    )
 
 
 @lru_cache(maxsize=4)
 def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
     """Return the pupil of a request; P2SFError where there is none."""
     if request.six:
-        six, mask = Coefficients(*map(np.asarray, request.six)), mask_seen(request.lens, request.source)
-        return (PupilPart(pupil_of_coefficients(six, mask)),)
+        six = Coefficients(*map(np.asarray, request.six))
+        if request.by_hand:
+            return (PupilPart(pupil_of_coefficients(six, mask_seen(request.lens, request.source))),)
+        return (PupilPart(pupil_of_six(request.lens, request.source, six)),)
     return (PupilPart(pupil_of_rays(request.lens, request.source, request.clip)),)
 
 
@@ -68,7 +74,7 @@ def mtf_is_live(request: MeasureRequest) -> bool:
 def energy_is_live(request: MeasureRequest) -> bool:
     """Return whether the encircled energy is computed within a frame."""
     pupil = measured_parts(request)[0].pupil
-    return pupil.mask.clear and samples_across(pupil, pupil.centroid_um) <= LIVE_ACROSS
+    return pupil.mask.clear and blur_waves(pupil, pupil.centroid_um) <= LIVE_WAVES
 
 
 def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:

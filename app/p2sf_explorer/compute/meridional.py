@@ -8,7 +8,6 @@ from math import copysign, hypot, nan, sqrt
 
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.shapes import WAVES_MM
-from p2sf.raytrace.surface import sag_and_slope
 
 NEWTON_STEPS = 20
 CLOSE_MM = 1e-12
@@ -90,7 +89,7 @@ def meet(surface: Surface, z: float, y: float, cz: float, cy: float) -> Meeting 
     root = g * g - f * c * (1 + k * cz * cz)
     step = f / (g + copysign(sqrt(root), cz)) if root >= 0 else nan  # nor where the ray has no way to the stop
     on_conic = c * (1 + k) * step * cz < 1
-    if surface.shape is not None or any(surface.aspheric):
+    if len(surface.parts) > 1:
         # A ray may miss the conic under an asphere and meet the asphere; it then starts from the vertex plane.
         return (
             _on_asphere(surface, step * cz, y + step * cy, cz, cy) if on_conic else _on_asphere(surface, 0.0, y, cz, cy)
@@ -106,7 +105,7 @@ def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> M
     for _ in range(NEWTON_STEPS):
         if not (1 + surface.conic) * (surface.curvature * y) ** 2 < 1:
             return None
-        sag, by_square = sag_and_slope(surface, y * y)
+        sag, by_square = surface.sag_and_slope(y * y)
         slope, miss = 2 * y * float(by_square), float(sag) - z
         if abs(miss) < CLOSE_MM * (1 + abs(y) + abs(z)):
             return z, y, slope

@@ -10,25 +10,25 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
-from p2sf.paraxial.seidel import check_seidel
+from p2sf.paraxial.seidel import Coefficients, check_seidel
 from p2sf.paraxial.wavefront import steepest_slope
+from p2sf.psf.geometric import geometric_psf, main_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS, check_focus, check_image
-from p2sf.psf.traced import in_rows
+from p2sf.psf.smooth_pupil import all_reach
 from p2sf.pupil.mask import PupilMask, mask_slopes
 from p2sf.raytrace.fit import FittedPencil
-from p2sf.raytrace.pencil import Pencil, pencil
-from p2sf.raytrace.ray_field import ray_data
+from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.deferred_sums import (
-    ONE_BY_ONE,
     SumCache,
     SumRequest,
     by_rays,
-    coefficient_size,
+    coefficient_nodes,
+    fit_nodes,
     impossible,
     most_samples,
-    moving_nodes,
+    seconds,
     slow,
     sum_request,
 )
@@ -47,7 +47,6 @@ from p2sf_explorer.compute.preview import (
     preview_pupil,
 )
 from p2sf_explorer.compute.pupil import PupilMap
-from p2sf_explorer.compute.ray_density import geometric_psf, main_reach_um
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.scales import nice
@@ -70,7 +69,7 @@ COARSEST = 4.0  # Airy radii between the samples of a window that is as wide as 
 ALL_LIGHT = 0.995
 NO_REASON = Message("")
 ALONE: Least = (0, 0.0)
-QUICK_NODES = 60_000  # of a picture that moves: some 20 ms, and on a busy machine a few times that
+QUICK_SECONDS = 0.02  # of a picture that moves, and on a busy machine a few times that
 ROOM = 5  # Airy radii around the rays, for what diffraction adds
 
 
@@ -113,6 +112,11 @@ class Task:
     def exact(self) -> bool:
         """Return whether exact rays make the picture."""
         return self.method != "seidel"
+
+    @property
+    def six(self) -> Coefficients | None:
+        """Return the coefficients that make the picture; None where exact rays do."""
+        return None if self.exact else self.setup.coefficients
 
     @cached_property
     def traced(self) -> Preview | None:
@@ -292,8 +296,7 @@ def steep_coefficients(task: Task, window: Window, mask: PupilMask) -> bool:
     c = task.setup.coefficients
     if float(steepest_slope(c)) + corner_waves(task, window) > STEEPEST_IN_ALL:
         return True
-    found = coefficient_size(c, window, mask)
-    return not found.in_rows and found.nodes * window[0] * ONE_BY_ONE > QUICK_NODES
+    return not mask.clear and seconds("seidel", coefficient_nodes(c, window, mask), window[0]) > QUICK_SECONDS
 
 
 def too_coarse(task: Task, window: Window) -> bool:
@@ -317,12 +320,11 @@ def quickly(task: Task, window: Window) -> bool:
     """
     if task.first_fit is None:
         return False
-    larger = max(1.0, window[0] / PIXELS["settled"])
-    if moving_nodes(task.first_fit, window) * larger >= QUICK_NODES or task.fitted is None:
+    if seconds("fitted", fit_nodes(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
         return False
     if task.fitted.error_waves > FAR:
-        few = moving_nodes(task.fitted, window) * larger < QUICK_NODES / 3
-        return few and in_rows(task.setup.lens, task.setup.source)
+        few = seconds("traced", fit_nodes(task.fitted, window), window[0]) < QUICK_SECONDS
+        return few and all_reach(task.setup.lens, task.setup.source)
     return True
 
 
@@ -337,7 +339,7 @@ def rimmed(task: Task, window: Window, quality: str) -> Rendered:
 
 def blurred(task: Task, window: Window, quality: str = "settled") -> Rendered:
     """Return the density of rays over a window."""
-    psf = geometric_psf(task.setup, task.exact, window, quality, task.state.optics.clip)
+    psf = geometric_psf(task.setup.lens, task.setup.source, window, quality, task.state.optics.clip, task.six)
     return Rendered(psf, density_reason(psf), task.exact, task.method)
 
 
@@ -347,7 +349,7 @@ def density_reason(psf: Psf) -> Message:
     if percent > 100 * ALL_LIGHT:
         return Message("geometric: ray density, no diffraction")
     return Message(
-        "geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view", percent=percent
+        "geometric: ray density, no diffraction; {percent:.0f} % of the light in the window", percent=percent
     )
 
 
@@ -360,10 +362,9 @@ def extent(setup: ParaxialSetup, method: str) -> Extent:
     return Extent(slope / cycles, AIRY_RADIUS / cycles)
 
 
-def extent_of(setup: ParaxialSetup, rays: Pencil) -> Extent:
+def extent_of(setup: ParaxialSetup, rays: Rays) -> Extent:
     """Return how far light reaches by a pencil whose last rays are those at the rim; none if all are lost."""
-    data = ray_data(rays)
-    cycles = np.hypot(data.fx, data.fy)[-edge_count(rays) :]
+    cycles = np.hypot(rays.fx, rays.fy)[-edge_count(rays) :]
     paraxial = float(setup.coefficients.na) / setup.source.wavelength_um
     widest = float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial
     return Extent(landing_um(rays) + mask_slope(setup) / widest, AIRY_RADIUS / widest)
@@ -385,7 +386,8 @@ def width_um(setup: ParaxialSetup, exact: bool, found: Extent, clip: bool) -> fl
     whole = round_width_um(found.landing_um, found.airy_um)
     if found.slope <= STEEP:
         return whole
-    return min(whole, round_width_um(main_reach_um(setup, exact, clip), found.airy_um))
+    six = None if exact else setup.coefficients
+    return min(whole, round_width_um(main_reach_um(setup.lens, setup.source, clip, six), found.airy_um))
 
 
 def round_width_um(reach_um: float, airy_um: float) -> float:
@@ -398,7 +400,7 @@ def window_um(setup: ParaxialSetup, method: str, clip: bool = False) -> float:
     return width_um(setup, method != "seidel", extent(setup, method), clip)
 
 
-def edge_pencil(setup: ParaxialSetup) -> Pencil:
+def edge_pencil(setup: ParaxialSetup) -> Rays:
     """Return the few rays at the rim that show how far light reaches."""
     return pencil(setup.lens, setup.source, *edge_points(setup.lens.misaligned))
 

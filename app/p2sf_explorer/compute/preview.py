@@ -8,16 +8,15 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.psf.fitted import psf_of_fit
-from p2sf.psf.plane_waves import Origin, psf_from_intensity
+from p2sf.psf.fitted import counts_of, fit_nodes, fitted_waves, psf_of_fit
+from p2sf.psf.picture import Origin, psf_of_waves
+from p2sf.psf.plane_waves import disc_words, window_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.psf.separable_sum import rows_for
 from p2sf.raytrace.fit import LEVELS, SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for
-from p2sf.raytrace.pencil import Pencil, exit_radius, opd_on_sphere, pencil
-from p2sf.raytrace.ray_field import RayData, ray_data
+from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.vignetting import CLIPPED
 from p2sf_explorer.compute.pupil import PupilMap, map_behind, pupil_terms
@@ -33,7 +32,7 @@ EDGE = 9  # rays along the rim and along 0.7 of it, which show how far light rea
 class Preview:
     """Rays that all reached the sensor, at the level's points then at the edge; ``begun`` is a `perf_counter` time."""
 
-    rays: Pencil
+    rays: Rays
     setup: ParaxialSetup
     begun: float
 
@@ -67,12 +66,12 @@ def edge_points(around: bool = False) -> np.ndarray:
     return np.concatenate([edge, 0.7 * edge], axis=1)
 
 
-def edge_count(rays: Pencil) -> int:
+def edge_count(rays: Rays) -> int:
     """Return how many of a pencil's last rays are `edge_points`: of a misaligned lens those of the left half too."""
     return 4 * (EDGE - 1) if rays.xi.min() < 0 else 2 * EDGE
 
 
-def landing_um(rays: Pencil) -> float:
+def landing_um(rays: Rays) -> float:
     """Return how far from the chief ray the farthest of the last, the edge's, rays lands, in x or y, µm."""
     reach = np.abs(np.stack([rays.dx, rays.dy])[:, -edge_count(rays) :])
     return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
@@ -108,8 +107,8 @@ def best_fit(traced: Preview, first: FittedPencil | None = None) -> FittedPencil
 def first_fit(traced: Preview) -> FittedPencil:
     """Return the fit to the rays that are traced: of 26 numbers, or where these miss much of 46."""
     first, second = levels_for(traced.setup.lens)[:TRIED]
-    data, count = ray_data(traced.rays), level_rays(first)[0].size
-    own = RayData(*(getattr(data, name)[:count] for name in RayData.__dataclass_fields__))
+    count = level_rays(first)[0].size
+    own = traced.rays.part(slice(count))
     fitted = fit_rays(own, first, count)
     if fitted.error_waves > CLOSE:
         fitted = fit_rays(own, second, count, fitted.steepness)
@@ -121,28 +120,23 @@ def first_fit(traced: Preview) -> FittedPencil:
     return replace(fitted, mask=mask, wavelength_um=wavelength, steepness=steep)
 
 
-def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf | None:
-    """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims; None without rows.
+def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
+    """Return the PSF of the fit to all rays, summed over the nodes whose own rays pass the rims.
 
     A yes or no at each node makes a ragged edge, good enough while it moves. Raises GeometryError where none passes.
     """
-    fitted, setup = best_fit(traced), traced.setup
-    check_unmasked(setup.lens, Message("a pupil that ends at rims or where rays are lost"))
-    if setup.lens.misaligned:
-        return None
-    nodes = rows_for(fitted, pixels, pixel_um, "preview", every=True)
-    if nodes is None:
-        return None
-    rays = pencil(setup.lens, setup.source, nodes.xi.ravel(), nodes.eta.ravel(), clip=True)
-    weight = np.where(rays.passed.reshape(nodes.xi.shape), nodes.weight, 0.0)
-    if not weight.any():
+    fitted, setup, reach = best_fit(traced), traced.setup, window_reach_um(pixels, pixel_um)
+    counts = counts_of(fitted, reach, "preview")
+    nodes = fit_nodes(fitted, counts)
+    passed = pencil(setup.lens, setup.source, nodes.xi, nodes.eta, clip=True).passed
+    if not passed.any():
         raise GeometryError(CLIPPED)
-    clear = replace(nodes, weight=weight / weight.sum())
-    phase, fx = fitted.at_points(nodes.xi, nodes.eta)
-    intensity = clear.intensity(phase, fx, pixels, pixel_um, np.float32)
-    sampling = Message("{nodes}, those that the rims let pass", nodes=nodes.words)
-    label = Origin("fitted", fitted.numbers, fitted.rays + nodes.xi.size, sampling, traced.begun)
-    return psf_from_intensity(intensity, pixel_um, setup.source.wavelength_um, None, label)
+    sampling = Message("{nodes}, those that the rims let pass", nodes=disc_words(counts))
+    made = Origin("fitted", fitted.numbers, fitted.rays + passed.size, sampling, traced.begun)
+    waves = fitted_waves(fitted, counts, reach, passed)
+    return psf_of_waves(
+        waves, (pixels, pixel_um), setup.source.wavelength_um, None, made, lambda reach: None, "preview"
+    )
 
 
 def preview_pupil(traced: Preview) -> PupilMap:

@@ -21,6 +21,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.mask_outline import obstructions, opening
 from p2sf.pupil.quadrature import DiscNodes, disc_nodes, whole_disc
+from p2sf.pupil.tilt import rms
 from p2sf.pupil.zernike import basis, powers, terms
 from p2sf.pupil.zernike_terms import ZernikeTerm, family, zernike_terms, zernike_values
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST
@@ -39,18 +40,20 @@ RADII = {"preview": 7, "settled": 12}  # of the nodes over a clipped pupil
 TURN = np.linspace(0, 2 * np.pi, 241)
 CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
 EDGE_STEP = 1e-9
-UNSHARP = 1 / 14**2 / 10  # waves²: a tenth of Maréchal's limit
+ALIKE = 4.0  # of the variance: the focus of third order then is that of the rays up to a factor of two
+LEAST_CAUSE = 0.2  # of the focus that a coefficient makes if it is named
+MARECHAL = 1 / 14**2  # waves²: a Strehl ratio of 0.8 (Born & Wolf 1999, §9.3)
 
 
 @dataclass(frozen=True, eq=False)
 class PupilMap:
     """W in waves over the square about the pupil, (y, x), NaN where the pupil's part that passes light is a pixel away.
 
-    ``rms`` without piston and ``peak_to_valley``, in waves; ``outline``: ξ and η of the part that passes light, closed,
-    (2, points); ``clear``: that part of the pupil's area; ``parts``: aberration → its part of the variance, waves²,
-    piston and tilt left out; ``rest``: what these parts leave. Of a mask in the stop ``iris`` is its opening,
-    ``obstructions`` what stands in that, closed lines too, and ``shade`` the amplitude that passes, at the samples;
-    its phase is part of W, and what it covers counts nowhere.
+    ``rms`` without piston and tilt and ``peak_to_valley``, in waves; ``outline``: ξ and η of the part that
+    passes light, closed, (2, points); ``clear``: that part of the pupil's area; ``parts``: aberration → its part of the
+    variance, waves², piston and tilt left out; ``rest``: what these parts leave. Of a mask in the stop ``iris`` is its
+    opening, ``obstructions`` what stands in that, closed lines too, and ``shade`` the amplitude that passes, at the
+    samples; its phase is part of W, and what it covers counts nowhere.
     """
 
     waves: np.ndarray
@@ -81,16 +84,20 @@ def centres(count: int) -> np.ndarray:
 
 def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
     """Return a map of samples with RMS and peak-to-valley over those inside that have a value."""
+    inside = inside & np.isfinite(waves)
     kept = waves[inside]
-    kept = kept[np.isfinite(kept)]
     if kept.size == 0:
         return PupilMap(np.full(waves.shape, np.nan), np.nan, np.nan, kind)
-    shown = np.where(inside, waves, np.nan)
-    return PupilMap(shown, float(kept.std()), float(kept.max() - kept.min()), kind)
+    xi, eta, _ = disc(len(waves))
+    blur = rms(kept, np.full(kept.size, 1 / kept.size), np.stack([eta[inside], xi[inside]]))
+    return PupilMap(np.where(inside, waves, np.nan), blur, float(np.ptp(kept)), kind)
 
 
 Samples = tuple[ClearNodes, np.ndarray, ClearRim | None]
-"""Nodes over the part of the half disc that passes light, W there in waves, and the rim of a part of the pupil."""
+"""Nodes over the part of the pupil that passes light, W there in waves, and the rim of that part where it is one.
+
+Nodes of the half disc ξ ≥ 0; of exact rays through a misaligned lens, whose wavefront no half tells, of the whole.
+"""
 
 
 def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False) -> PupilMap:
@@ -115,8 +122,9 @@ def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -
     if not exact:
         return whole, np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta)), None
     lens, source = setup.lens, setup.source
-    waves = displayed_opd(lens, source, nodes.xi, nodes.eta)
-    if np.isfinite(waves).all() and not (clip and clipped(lens, source, nodes)):
+    whole = whole.unfolded() if lens.misaligned else whole
+    waves = displayed_opd(lens, source, whole.xi, whole.eta)
+    if np.isfinite(waves).all() and not (clip and clipped(lens, source, whole)):
         return whole, waves, None
     rim = clear_rim(lens, source, clip, *RIMS[quality])
     clear = rim.nodes(RADII[quality])
@@ -156,10 +164,10 @@ def _gridded(setup: ParaxialSetup, quality: str, clip: bool) -> PupilMap:
     return replace(shown, clear=share, parts=parts, rest=fit.residual**2)
 
 
-def clipped(lens: Lens, source: Source, nodes: DiscNodes) -> bool:
+def clipped(lens: Lens, source: Source, nodes: ClearNodes) -> bool:
     """Return whether a rim stops a ray through the nodes or through the pupil's own rim."""
-    right = CIRCLE[:, : TURN.size // 2 + 1 : 5]
-    xi, eta = np.append(nodes.xi, right[0]), np.append(nodes.eta, right[1])
+    rim = (_half(CIRCLE) if nodes.even else CIRCLE)[:, ::5]
+    xi, eta = np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1])
     return not pencil(lens, source, xi, eta, clip=True).passed.all()
 
 
@@ -191,12 +199,11 @@ def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> Pupi
 
     That of a misaligned lens goes on with the odd terms, as `pupil_terms` has them.
     """
-    squares = found**2
     order = ORDERS[quality]
     known = terms(order) if _is_even(found, quality) else (*terms(order), *terms(order, True))
-    parts = families((n, m, part) for (n, m), part in zip(known, squares.tolist(), strict=True))
+    parts = families((n, m, part) for (n, m), part in zip(known, (found**2).tolist(), strict=True))
     shown, peak = _picture(found, quality, None)
-    return PupilMap(shown, float(np.sqrt(squares[1:].sum())), peak, kind, parts=parts)
+    return PupilMap(shown, float(np.sqrt(sum(parts.values()))), peak, kind, parts=parts)
 
 
 def pupil_terms(quality: str, skew: bool, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -254,12 +261,11 @@ def map_behind(setup: ParaxialSetup, found: np.ndarray, quality: str, kind: str 
     at_edges, waves = known.at_edges.waves(found, per_um), known.at_nodes.waves(found, per_um)
     highest = np.max(shown, initial=at_edges.max(initial=-np.inf), where=known.open)
     lowest = np.min(shown, initial=at_edges.min(initial=np.inf), where=known.open)
-    variance = float(known.nodes.weight @ (waves - float(known.nodes.weight @ waves)) ** 2)
     parts, rest = masked_parts(known, found, per_um)
     shown[known.beyond] = np.nan
     return PupilMap(
         shown,
-        float(np.sqrt(max(variance, 0.0))),
+        rms(waves, known.nodes.weight, known.nodes.axes),
         float(highest - lowest),
         kind,
         clear=known.nodes.share,
@@ -297,7 +303,7 @@ def masked_pupil(mask: PupilMask, quality: str, skew: bool = False) -> MaskedPup
     nodes, parts = (mask_nodes(some, *RAYS[quality]) for some in (mask, replace(mask, vanes=0)))
     if skew:
         nodes, parts = nodes.unfolded(), parts.unfolded()
-    terms = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.even or not nodes.even)
+    terms = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.even or not parts.even)
     root = np.sqrt(parts.weight)
     xi, eta, inside = disc(SAMPLES[quality])
     covered = ~mask.opens(xi, eta)
@@ -452,13 +458,34 @@ def strongest(coefficients: Coefficients) -> str:
     return max(parts, key=parts.__getitem__)
 
 
-def dominant(pupil: PupilMap) -> Message:
-    """Return what blurs most: an aberration and its share of the variance without piston and tilt (handbook 3.4)."""
+def dominant(pupil: PupilMap, coefficients: Coefficients) -> Message:
+    """Return what blurs most: an aberration and its share of the variance without piston and tilt (handbook 3.4).
+
+    What refocusing would remove need not be a defocus: where the six coefficients account for it, those that make it
+    are named.
+    """
+    if pupil.rms**2 < MARECHAL:
+        return Message("Diffraction-limited: RMS {rms:.3f} λ", rms=pupil.rms)
     total = sum(pupil.parts.values()) + pupil.rest
-    if total < UNSHARP:
-        return Message("Diffraction-limited: RMS {rms:.3f} λ", rms=np.sqrt(total))
     name = max(pupil.parts, key=pupil.parts.__getitem__)
     percent, term = 100 * pupil.parts[name] / total, Message(name)
+    if name == "defocus":
+        causes = focus_causes(coefficients, pupil.parts[name])
+        if causes:
+            sentence = "Refocusing would remove {percent:.0f} % of the wavefront variance, made by {causes}"
+            return Message(sentence, percent=percent, causes=causes)
+        return Message("Refocusing would remove {percent:.0f} % of the wavefront variance", percent=percent)
     if percent > 50:
         return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
     return Message("Mainly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
+
+
+def focus_causes(coefficients: Coefficients, variance: float) -> tuple[str, ...]:
+    """Return the coefficients that make this variance of focus, the largest first; none where they make another."""
+    c = coefficients
+    focus = float(c.w40 + c.w20 + c.wd + c.w22 / 2)
+    if not 1 / ALIKE < focus**2 / 12 / variance < ALIKE:
+        return ()
+    pulls = {"W40": float(c.w40), "W20": float(c.w20), "Wd": float(c.wd), "W22": float(c.w22 / 2)}
+    found = [name for name, pull in pulls.items() if pull / focus > LEAST_CAUSE]
+    return tuple(sorted(found, key=lambda name: -pulls[name] / focus))

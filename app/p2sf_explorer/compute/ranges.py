@@ -7,9 +7,11 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.glass.media import Medium
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, indices
 from p2sf.paraxial.first_order import cardinal_points
+from p2sf.paraxial.lens_checks import AIR_LIKE
 from p2sf.paraxial.positions import focused_vergence
+from p2sf.paraxial.pupils import f_number, paraxial_rays
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf_explorer.state.scales import nice
@@ -18,6 +20,7 @@ VISIBLE_NM = (400.0, 700.0)
 SHARES = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
 FOCAL_LENGTHS = 10.0  # from the lens to the middle of a slider of distance
 ABOVE_CLOSEST = 1.2  # times the closest distance: the middle is farther than the end
+OPENED, OPENINGS = 1.4, 401  # times as fast as its file says, at most, and how many of these are tried
 TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays that shows no diffraction
 AS_GOOD_AS_INFINITE_MM = 1e6  # six digits in a file do not distinguish a focus at a kilometre from infinity
 
@@ -72,6 +75,30 @@ def wavelength_range(lens: Lens) -> tuple[float, float]:
         if limits:
             low, high = max(low, NM_PER_UM * limits[0]), min(high, NM_PER_UM * limits[1])
     return (low, high) if low < high else VISIBLE_NM
+
+
+@lru_cache(maxsize=32)
+def fastest_f_number(lens: Lens) -> float:
+    """Return the smallest f-number up to which a slider goes: OPENED times as fast, while all glass has an edge.
+
+    The edge is judged at the heights of the axial beam. A lens whose glass has none in its file opens no farther.
+    """
+    usual = float(f_number(lens, lens.reference_wavelength_um))
+    if not isfinite(usual):
+        return 1.0
+    heights = np.abs(paraxial_rays(lens, inf, lens.reference_wavelength_um).y)
+    index = np.abs(indices(lens, lens.reference_wavelength_um))
+    glass = np.flatnonzero(index[1:-1] > AIR_LIKE)
+    opened = np.linspace(1.0, OPENED, OPENINGS)
+    kept = np.ones(OPENINGS, bool)
+    for k in glass.tolist():
+        front, back = lens.surfaces[k : k + 2]
+        rim = np.maximum(heights[k], heights[k + 1]) * opened
+        with np.errstate(invalid="ignore"):
+            behind, before = (surface.sag(0.0, rim) for surface in (back, front))
+        edge = (front.thickness + behind - before) * lens.directions[k + 1]
+        kept &= ~(edge <= 0)  # beyond its own edge a surface has no sag, and `lens_checks` warns
+    return usual / float(opened[np.logical_and.accumulate(kept)].max(initial=1.0))
 
 
 def _table_range(medium: Medium) -> tuple[float, float] | None:

@@ -8,6 +8,7 @@ from threading import Event
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import first_counts, huygens_psf
+from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
@@ -73,7 +74,9 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
 
 def reference_nodes(live: Live, window: tuple[int, float]) -> int:
     """Return how many nodes the first pass of the reference has. Raises as `first_counts` does."""
-    radii, directions = first_counts(live.setup.lens, live.setup.source, window, live.state.optics.clip)
+    radii, directions = first_counts(
+        live.setup.lens, live.setup.source, window_reach_um(*window), live.state.optics.clip
+    )
     return radii * directions // 2
 
 

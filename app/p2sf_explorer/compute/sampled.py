@@ -1,11 +1,11 @@
 """Small PSFs of the present setup with something changed, for panels that show many of them."""
 
+from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import ALONE, NO_REASON, Task, too_coarse
 from p2sf_explorer.compute.preview import preview, preview_of_coefficients, preview_psf
-from p2sf_explorer.compute.ray_density import geometric_psf
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State
 
@@ -42,7 +42,7 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     setup = paraxial_setup(state)
     task = Task(state, setup, "seidel" if six or setup.altered else "fitted", NO_REASON, ALONE, None)
     if too_coarse(task, window):
-        return geometric_psf(setup, task.exact, window, "preview", state.optics.clip)
+        return geometric_psf(setup.lens, setup.source, window, "preview", state.optics.clip, task.six)
     if not task.exact:
         return preview_of_coefficients(setup, window)
     traced = preview(setup, True) if state.optics.clip else task.traced

@@ -20,9 +20,10 @@ from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, find_stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.request import Request, Setup, set_up, with_field
-from p2sf.tolerance.errors_of_build import MOVES
+from p2sf.tolerance.errors_of_build import MOVES, source_of_build
 from p2sf_explorer.compute.ranges import (
     closest_distance,
+    fastest_f_number,
     file_focus,
     focused_distance,
     middle_distance,
@@ -41,12 +42,14 @@ from p2sf_explorer.state.what_if import altered
 class ParaxialSetup:
     """One lens, opened and focused as the state says, and everything paraxial about it at this source.
 
-    ``prescription`` is the lens before it was opened and focused, built as the state has it.
+    ``prescription`` is the lens before it was opened and focused, built as the state has it; ``designed`` is ``lens``
+    without the errors of its build, which sources stand before.
     ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
     ``object_y_mm``: y of the source, None at infinity.
     """
 
     prescription: Lens
+    designed: Lens
     lens: Lens
     source: Source
     stop: Stop
@@ -190,12 +193,13 @@ def shipped() -> tuple[str, ...]:
 def paraxial_setup(state: State) -> ParaxialSetup:
     """Return everything paraxial about the state; P2SFError where there is no answer."""
     axial = _axial(prescription(state), _request(state, None), state.optics.errors)
-    setup = with_fields(axial.setup, state)
+    setup = _with_fields(axial, state)
     lens, source, stop = masked(setup.lens, state), setup.source, setup.stop
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(
         prescription=axial.setup.prescription,
+        designed=axial.designed,
         lens=lens,
         source=source,
         stop=stop,
@@ -212,17 +216,18 @@ def paraxial_setup(state: State) -> ParaxialSetup:
 def request_setup(state: State) -> Setup:
     """Return the state as the library's own setup, which is also what a file says about where it comes from."""
     axial = _axial(prescription(state), _request(state, None), state.optics.errors)
-    setup = with_fields(axial.setup, state)
+    setup = _with_fields(axial, state)
     return replace(setup, lens=masked(setup.lens, state))
 
 
-def with_fields(setup: Setup, state: State) -> Setup:
-    """Return a setup with its source at the fields of the state, along y and along x."""
-    found = with_field(setup, _request(state, state.optics.field_deg))
-    if not state.optics.field_x_deg:
-        return found
-    fields = state.optics.field_x_deg, state.optics.field_deg
-    return replace(found, source=Source(found.source.depth_mm, None, found.source.wavelength_um, field_deg=fields))
+def _with_fields(axial: "_Axial", state: State) -> Setup:
+    """Return a setup with its source at the fields of the state, along y and along x, of the lens as designed."""
+    found = with_field(axial.setup, _request(state, state.optics.field_deg))
+    source = found.source
+    if state.optics.field_x_deg:
+        fields = state.optics.field_x_deg, state.optics.field_deg
+        source = Source(source.depth_mm, None, source.wavelength_um, field_deg=fields)
+    return replace(found, source=source_of_build(axial.designed, found.lens, source))
 
 
 def masked(lens: Lens, state: State) -> Lens:
@@ -237,9 +242,10 @@ def _masked(lens: Lens, mask: tuple[tuple[str, float], ...]) -> Lens:
 
 @dataclass(frozen=True)
 class _Axial:
-    """What does not depend on the field, so that dragging the field computes little."""
+    """What does not depend on the field, so that dragging the field computes little; ``designed``: without errors."""
 
     setup: Setup
+    designed: Lens
     pupils: Pupils
     cardinal: CardinalPoints
     rays: ParaxialRays
@@ -248,11 +254,13 @@ class _Axial:
 @lru_cache(maxsize=16)
 def _axial(prescription: Lens, request: Request, errors: BuildErrors) -> _Axial:
     setup = set_up(prescription, request)
+    designed = setup.lens
     if errors:
         setup = _built(setup, errors)
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     return _Axial(
         setup=setup,
+        designed=designed,
         pupils=pupils(lens, wavelength, stop),
         cardinal=cardinal_points(lens, wavelength),
         rays=paraxial_rays(lens, setup.source.depth_mm, wavelength, stop),
@@ -293,7 +301,7 @@ def ranges(lens: Lens) -> Ranges:
         middle_mm=middle_distance(lens),
         field_deg=_field_end(widest),
         wavelength_nm=wavelength_range(lens),
-        f_number=(f_stop / 1.4, max(32.0, 4 * f_stop)) if finite else (1.0, 32.0),
+        f_number=(fastest_f_number(lens), max(32.0, 4 * f_stop) if finite else 32.0),
         file_f_number=f_stop if finite else inf,
         focused_mm=file_focus(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,

@@ -23,7 +23,7 @@ from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import chooser, paint_chevron
+from p2sf_explorer.widgets.card import chooser, paint_chevron, select
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.workers.worker import LatestWins
 
@@ -36,20 +36,22 @@ TOKENS = {"seidel": "marginal", "fitted": "chief", "traced": "text", "huygens": 
 
 
 class ExactnessButton(QPushButton):
-    """Says what is asked of ``auto``; clicked, it opens the slider under it."""
+    """Says what is asked of ``auto``, or its own name where a method was chosen; clicked, it opens the slider."""
 
     def __init__(self, store: Store, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._store = store
+        self._store, self._asked = store, ""
         self.setStyleSheet("QPushButton { text-align: left; padding-right: 1.7em; }")
         self.panel = ExactnessPanel(store, self)
         self.clicked.connect(self._open)
 
     def show_state(self, state: State) -> None:
-        """Follow a state: the error that auto may make, or the method that a person chose."""
-        asked = local(f"R² ≥ {state.optics.tolerance:g}" if state.optics.method == "auto" else state.optics.method)
-        if asked != self.text():
-            self.setText(asked)
+        """Follow a state: the error that auto may make; of a method that a person chose the help tells."""
+        auto = state.optics.method == "auto"
+        asked = local(f"R² ≥ {state.optics.tolerance:g}" if auto else state.optics.method)
+        if asked != self._asked:
+            self._asked = asked
+            self.setText(asked if auto else tr("Accuracy"))  # the method's name stands beside it already
             self.setToolTip(tr(TIP, asked=asked))
             self.setAccessibleName(tr(TIP, asked=asked))
         self.panel.show_state(state)
@@ -96,7 +98,7 @@ class ExactnessPanel(QFrame):
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_costs)
         self._lay_out()
-        self.measure.activated.connect(self._place)
+        self.measure.activated.connect(lambda: store.update(exactness_measure=self.measure.currentData()))
         self.slider.valueChanged.connect(lambda _: self._tell())
         self.slider.sliderReleased.connect(self.commit)
         self.slider.reset.connect(lambda: self._store.update(method="auto", tolerance=State().optics.tolerance))
@@ -133,6 +135,7 @@ class ExactnessPanel(QFrame):
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
+        select(self.measure, state.choices.exactness_measure)
         if self.isVisible() and not self.slider.isSliderDown():
             self._place()
 
@@ -142,9 +145,12 @@ class ExactnessPanel(QFrame):
         if self.isVisible():
             self._tell_given()
 
+    def _measure(self) -> str:
+        return self._store.state.choices.exactness_measure
+
     def _place(self) -> None:
         """Put the handle where the state is."""
-        if self.measure.currentData() == "time":
+        if self._measure() == "time":
             milliseconds = 1e3 * self._live.psf.seconds if self._live else SLOWEST_MS
             travel = log(max(milliseconds, QUICKEST_MS) / QUICKEST_MS) / log(SLOWEST_MS / QUICKEST_MS)
         else:
@@ -172,19 +178,19 @@ class ExactnessPanel(QFrame):
         known = self._costs or typical_costs(self._curves)
         if not known:
             return None
-        if self.measure.currentData() == "time":
+        if self._measure() == "time":
             return within(known, self.milliseconds())
         return next((cost for cost in known if cost.error <= self.one_less_r2()), known[-1])
 
     def commit(self) -> None:
         """Take what the slider asks for."""
-        if self.measure.currentData() != "time":
+        if self._measure() != "time":
             self._store.update(method="auto", tolerance=round(1 - self.one_less_r2(), 9))
         elif choice := self.choice():
             self._store.update(method=choice.method)
 
     def _tell(self) -> None:
-        self.asked.setText(local(tr(ASKED[self.measure.currentData()], **self._values())))
+        self.asked.setText(local(tr(ASKED[self._measure()], **self._values())))
         choice = self.choice()
         self._tell_typical(choice)
         if choice is None or not self._costs:
@@ -199,7 +205,7 @@ class ExactnessPanel(QFrame):
         """Show the curves of the complete trade in the slider's measure, and the figures of the method in question."""
         self.chart.setVisible(bool(self._curves))
         self.typical.setVisible(bool(self._curves))
-        measure = self.measure.currentData()
+        measure = self._measure()
         self.chart.name_axes("time of one PSF, ms", TRADED[measure])
         self.chart.show_dots(tuple(dot_of(curve, measure) for curve in self._curves))
         by_time, by_r2 = measure == "time", measure == "r2"
@@ -213,7 +219,7 @@ class ExactnessPanel(QFrame):
 
     def _values(self) -> dict[str, str]:
         error = self.one_less_r2()
-        measure = self.measure.currentData()
+        measure = self._measure()
         if measure == "time":
             return {"ms": f"{self.milliseconds():g}"}
         if measure == "mtf":

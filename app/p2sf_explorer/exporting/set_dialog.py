@@ -1,6 +1,7 @@
 """The dialog that exports a set of PSFs: what it holds, its pixels, how far it is, and a button that stops it."""
 
 from dataclasses import asdict
+from math import prod
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
@@ -19,10 +20,11 @@ from PySide6.QtWidgets import (
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.exporting.set_request import SetRequest, SetTexts, count_of, first_texts, read_request, work
+from p2sf_explorer.exporting.set_request import SetRequest, SetTexts, first_texts, read_request, work
 from p2sf_explorer.files.snapshot import side_car
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.value_edit import ShortField
 from p2sf_explorer.workers.worker import LatestWins
@@ -33,12 +35,16 @@ FILES = (
 ABOUT = (
     "Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file "
     "also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by "
-    "hand are ignored."
+    "hand are ignored. Put semicolons between the values of a list; first : last : count is a range, evenly spaced, in "
+    "1/distance for depths."
 )
 LABELS = {  # of the fields, in their order, and their tips
-    "depths": ("Depths", "Distances with units, ∞ included, separated by semicolons: 2 m; 500 mm; ∞"),
-    "fields": ("Fields", "Field angles in degrees, separated by semicolons: 0; 7; 14"),
-    "wavelengths": ("Wavelengths", "Wavelengths in nm, separated by semicolons: 486.1; 587.6; 656.3"),
+    "depths": (
+        "Depths",
+        "Distances with units, ∞ included: 500 mm; 2 m; ∞. A range, evenly spaced in 1/distance: 1 m:∞:4",
+    ),
+    "fields": ("Fields", "Field angles along y, in degrees: 0; 7; 14. A range: 0:14:5"),
+    "wavelengths": ("Wavelengths", "Wavelengths in nm: 486.1; 587.6; 656.3. A range: 400:700:7"),
     "pixel": ("Pixel pitch", "The distance between pixels, µm"),
     "fill": ("Fill factor", "Share of a pixel's area that is sensitive: a square in its middle"),
     "pixels": ("Pixels a side", "Pixels along each side of every PSF; auto fits the widest one"),
@@ -63,9 +69,11 @@ class SetDialog(QDialog):
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
         self.worker.failed.connect(self._on_failed)
-        self.worker.progressed.connect(lambda _, part: self.bar.setValue(round(100 * part)))
-        self._running = False
+        self.worker.progressed.connect(self._on_progress)
+        self._running: SetRequest | None = None
+        self._offered: dict[str, str] = {}
         self._lay_out()
+        store.changed.connect(self._offer)
         self.export.clicked.connect(self._ask_path)
         self.stop_button.clicked.connect(self._stop)
 
@@ -100,28 +108,57 @@ class SetDialog(QDialog):
 
     def open_for(self) -> None:
         """Show the dialog; the fields keep what was typed for the same lens."""
-        if not self._running and self.property("lens") != self._store.state.optics.lens:
-            self.setProperty("lens", self._store.state.optics.lens)
-            for key, text in asdict(first_texts(self._store.state)).items():
-                self.edits[key].setText(local(text))
         self.note.clear()
         self.show()
+        self._offer(self._store.state)
         self.raise_()
         self.activateWindow()
+
+    def _offer(self, state: State) -> None:
+        """Fill the fields with what suits the state: all of them for another lens, else those that nobody typed in."""
+        if self._running or not self.isVisible():
+            return
+        try:
+            offered = {key: local(text) for key, text in asdict(first_texts(state)).items()}
+        except P2SFError as error:  # a lens file that is gone or broken
+            self._say(said(error))
+            return
+        another = self.property("lens") != state.optics.lens
+        self.setProperty("lens", state.optics.lens)
+        for key, text in offered.items():
+            if another or self.edits[key].text() == self._offered[key]:
+                self.edits[key].setText(text)
+        self._offered = offered
+
+    def _say(self, text: str) -> None:
+        """Show a note, in a dialog as high as all of its words need."""
+        self.note.setText(text)
+        layout = self.layout()
+        if layout is not None:
+            self.resize(self.width(), max(self.height(), layout.totalHeightForWidth(self.width())))
 
     def texts(self) -> SetTexts:
         """Return what stands in the fields."""
         return SetTexts(**{key: edit.text() for key, edit in self.edits.items()})
 
     def _recount(self) -> None:
-        self.count.setText(tr("{count} PSFs", count=count_of(self.texts())))
+        """Show how many PSFs the lists ask for; nothing while a field is wrong."""
+        self.note.clear()
+        try:
+            shape = read_request(self._store.state, self.texts(), "set.npz").axes.shape
+        except P2SFError:  # said when the field is left, since nobody has typed a whole number at once
+            self.count.clear()
+            return
+        depths, fields, colours = shape
+        known = {"depths": depths, "fields": fields, "wavelengths": colours, "count": prod(shape)}
+        self.count.setText(tr("PSFs: {count} = depths {depths} × fields {fields} × wavelengths {wavelengths}", **known))
 
     def _check(self) -> bool:
         """Say what is wrong with a field; return whether nothing is."""
         try:
             read_request(self._store.state, self.texts(), "set.npz")
         except P2SFError as error:
-            self.note.setText(said(error))
+            self._say(said(error))
             return False
         self.note.clear()
         return True
@@ -139,15 +176,15 @@ class SetDialog(QDialog):
         try:
             request = read_request(self._store.state, self.texts(), path)
         except P2SFError as error:
-            self.note.setText(said(error))
+            self._say(said(error))
             return False
-        self._show_running(True)
+        self._show_running(request)
         self.note.clear()
         self.worker.submit(request, work(request))
         return True
 
-    def _show_running(self, on: bool) -> None:
-        self._running = on
+    def _show_running(self, request: SetRequest | None) -> None:
+        self._running, on = request, request is not None
         self.bar.setValue(0)
         self.bar.setVisible(on)
         self.export.setEnabled(not on)
@@ -160,18 +197,25 @@ class SetDialog(QDialog):
             self.close()
             return
         self.worker.cancel()
-        self._show_running(False)
-        self.note.setText(tr("Cancelled; nothing was written"))
+        self._show_running(None)
+        self._say(tr("Cancelled; nothing was written"))
 
-    def _on_finished(self, request: SetRequest, path: Path) -> None:
-        self._show_running(False)
+    def _on_progress(self, request: SetRequest, part: float) -> None:
+        if request is self._running:
+            self.bar.setValue(round(100 * part))
+
+    def _on_finished(self, request: SetRequest, found: tuple[Path, Message | None]) -> None:
+        path, warning = found
         done = Message("Saved {name}, and its state as {beside}", name=path.name, beside=side_car(path).name)
-        self.note.setText(said(done))
+        if request is self._running or self._running is None:  # one that was cancelled too late is written as well
+            self._show_running(None)
+            self._say("\n".join(said(each) for each in (done, warning) if each))
         self.ended.emit(done)
 
     def _on_failed(self, request: SetRequest, why: Message) -> None:
-        self._show_running(False)
-        self.note.setText(said(why))
+        if request is self._running:
+            self._show_running(None)
+            self._say(said(why))
 
     def stop(self) -> None:
         """End the worker's thread."""

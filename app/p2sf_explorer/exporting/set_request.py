@@ -1,14 +1,16 @@
 """What a set of PSFs is to hold: from the texts that a person typed to the file. No Qt in here."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from math import inf, isfinite, prod
+from dataclasses import astuple, dataclass
+from math import inf, isfinite
 from pathlib import Path
 from threading import Event
 
 from p2sf.image import Progress
-from p2sf.interchange.psf_set import PixelGrid, SetAxes, axes_of, psf_set
+from p2sf.interchange.psf_set import PIXELS, PixelGrid, SetAxes, axes_of, left_out, psf_set
 from p2sf.interchange.psf_set_files import check_set_ending, write_psf_set
+from p2sf.messages import Message
+from p2sf.spans import depths, numbers
 from p2sf_explorer.compute.setup import Ranges, prescription, ranges, request_setup
 from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.tr import tr
@@ -19,7 +21,6 @@ SEPARATOR = ";"  # a comma may belong to a number
 NEAREST = 2.0  # times the middle of the slider of distance: the nearest of the distances that are offered first
 AROUND = (0.9, 0.95, 1.0, 1.05, 1.1)  # of a near object's distance
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of the widest field, and of the way from the nearest distance to infinity
-PIXELS = "65"
 DEGREES, NANOMETRES, MICRONS = {"": 1.0, "°": 1.0}, {"": 1.0, "nm": 1.0, "µm": 1e3}, {"": 1.0, "µm": 1.0, "um": 1.0}
 SHARE = {"": 1.0, "%": 0.01}  # a fill factor is typed as 0.8 or 80 %
 
@@ -56,7 +57,7 @@ def first_texts(state: State) -> SetTexts:
         wavelengths=listed(f"{wave:.6g} nm" for wave in lens.wavelengths_nm),
         pixel=f"{significant(state.display.pixel_um, 3)} µm",
         fill="100 %",
-        pixels=PIXELS,
+        pixels=str(PIXELS),
     )
 
 
@@ -77,13 +78,10 @@ def listed(texts: Iterable[str]) -> str:
 def read_request(state: State, texts: SetTexts, path: str) -> SetRequest:
     """Return what a person asked for; P2SFError names what cannot be."""
     check_set_ending(path)
-    axes = axes_of(
-        [read_distance(text) for text in items(texts.depths)],
-        [read_number(text, "field angle", DEGREES) for text in items(texts.fields)],
-        [read_number(text, "wavelength", NANOMETRES) for text in items(texts.wavelengths)],
-    )
-    for depth, field, wave in ((d, f, w) for d in axes.depths_mm for f in axes.fields_deg for w in axes.wavelengths_nm):
-        changed(state, depth_mm=depth, field_deg=field, wavelength_nm=wave)  # refuses what no slider can be set to
+    axes = read_axes(texts)
+    for name, values in zip(("depth_mm", "field_deg", "wavelength_nm"), astuple(axes), strict=True):
+        for value in values:
+            changed(state, **{name: value})  # refuses what no slider can be set to
     pixels = texts.pixels.strip().lower()
     grid = PixelGrid(
         read_number(texts.pixel, "pixel", MICRONS),
@@ -93,26 +91,30 @@ def read_request(state: State, texts: SetTexts, path: str) -> SetRequest:
     return SetRequest(state, axes, grid, path)
 
 
-def items(text: str) -> list[str]:
-    """Return the values of a list that a person typed."""
-    return [part.strip() for part in text.split(SEPARATOR) if part.strip()]
+def read_axes(texts: SetTexts) -> SetAxes:
+    """Return the depths, fields and wavelengths that the lists ask for; P2SFError names what cannot be."""
+    return axes_of(
+        depths(texts.depths, "depths_mm", SEPARATOR, read_distance),
+        numbers(texts.fields, "fields_deg", SEPARATOR, lambda text: read_number(text, "field angle", DEGREES)),
+        numbers(
+            texts.wavelengths, "wavelengths_nm", SEPARATOR, lambda text: read_number(text, "wavelength", NANOMETRES)
+        ),
+    )
 
 
-def count_of(texts: SetTexts) -> int:
-    """Return how many PSFs the lists ask for."""
-    return prod(len(items(text)) for text in (texts.depths, texts.fields, texts.wavelengths))
+def write_set(request: SetRequest, watch: Progress) -> tuple[Path, Message | None]:
+    """Make a set and write it, and the state beside it; return the path and a warning, if one is due.
 
-
-def write_set(request: SetRequest, watch: Progress) -> Path:
-    """Make a set and write it, and the state beside it; return the path. P2SFError, Cancelled among them."""
+    Raises P2SFError, Cancelled among them.
+    """
     state = request.state
     lens = request_setup(state).lens
     found = psf_set(lens, request.axes, request.grid, state.optics.clip, watch)
     made = write_psf_set(found, request.path)
     write_state(state, side_car(request.path), exported=made.name)
-    return made
+    return made, left_out(found)
 
 
-def work(request: SetRequest) -> Callable[[Event, Callable[[float], None]], Path]:
+def work(request: SetRequest) -> Callable[[Event, Callable[[float], None]], tuple[Path, Message | None]]:
     """Return a worker's job that makes and writes a set."""
     return lambda cancelled, progress: write_set(request, Progress(progress, cancelled.is_set))

@@ -226,11 +226,6 @@ def can_bend(lens: Lens, selected: Span) -> bool:
     return element_of(lens, selected[0]) == selected
 
 
-def selected_of(lens: Lens, runs: tuple[Span, ...], surface: int) -> Span | None:
-    """Return the drawn element that a surface (from 1) belongs to, None for a stop."""
-    return next((run for run in runs if run[0] <= surface <= run[1]), None)
-
-
 def shape_of(lens: Lens, selected: Span) -> float:
     """Return the shape factor of an element."""
     return shape_factor(lens, *selected)

@@ -4,7 +4,7 @@ from math import isfinite
 
 from p2sf.lens.lens import Lens
 from p2sf_explorer.compute.quantities import F_NUMBER, FIELD, SHIFT
-from p2sf_explorer.compute.setup import ranges
+from p2sf_explorer.compute.setup import prescription, ranges
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.layout_view.grips import DECENTRE_DIGITS, Grip, can_bend, shape_of
 from p2sf_explorer.layout_view.source_point import DrawnSetup
@@ -31,7 +31,7 @@ def _sensor(grip: Grip, shown: DrawnSetup) -> str:
 
 
 def _rim(grip: Grip, shown: DrawnSetup) -> str:
-    number = F_NUMBER.write(F_NUMBER.shown(shown.state, ranges(shown.setup.prescription)))
+    number = F_NUMBER.write(F_NUMBER.shown(shown.state, ranges(prescription(shown.state))))
     return tr("{f_number}, stop ⌀ {diameter} mm", f_number=number, diameter=_mm(2 * shown.layout.drawing.stop_rim))
 
 

@@ -43,6 +43,7 @@ class LessonPanel(QFrame):
         self.back.setToolTip(tr("The step before (Alt+Left)"))
         self.next.setToolTip(tr("The next step (Alt+Right)"))
         self._shown: tuple[Lesson, int, bool] | None = None
+        self._to_answer = False
         self._lay_out()
         self._connect()
         self.hide()
@@ -98,6 +99,7 @@ class LessonPanel(QFrame):
         self.reveal.clicked.connect(self.asked)
         self.back.clicked.connect(lambda: self.moved.emit(-1))
         self.next.clicked.connect(lambda: self.moved.emit(1))
+        self.area.verticalScrollBar().rangeChanged.connect(self._on_range)
 
     def show_step(self, lesson: Lesson, number: int, told: bool) -> None:
         """Show a step of a lesson, with its answer when it was ``told``."""
@@ -124,8 +126,16 @@ class LessonPanel(QFrame):
         self.progress.show_step(number, last + 1)
         self.back.setEnabled(number > 0)
         self.next.setText(tr("Next") if number < last else tr("Next lesson"))
+        self._to_answer = told and not new
         if new:
             self.area.verticalScrollBar().setValue(0)
+
+    def _on_range(self) -> None:
+        """Bring an answer into view that has just been shown, its question above it where there is room for both."""
+        if self._to_answer:
+            self._to_answer = False
+            bar, foot = self.area.verticalScrollBar(), self.answer.geometry().bottom() + 1
+            bar.setValue(max(bar.value(), min(self.question.y(), foot - self.area.viewport().height())))
 
 
 class StepBar(QWidget):

@@ -13,9 +13,13 @@ from p2sf.lens.source import Source
 from p2sf.metrics.measures import Energy, energy_in, mtf_of
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
+from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared as fidelity
 from p2sf.psf.methods import render
 from p2sf.psf.result import Psf
+from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.tilt import rms
+from p2sf.raytrace.pencil import displayed_opd
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
@@ -31,6 +35,7 @@ FINE = 4000  # points from the middle of the PSF to its window's edge
 DIRECTIONS = 720
 SPIKES = np.linspace(3, 5, 21)  # Airy radii between which spikes are looked for
 CORNERS = np.linspace(0.92, 0.96, 5)  # of the blur's radius, where a disc is bright and a polygon between corners dark
+LEFT_OUT = 16, 40  # radii and directions of the rays
 BLUE_RED_NM = 486.1327, 656.2725  # Fraunhofer's F and C
 
 Measure = Callable[[State], float]
@@ -80,6 +85,13 @@ def ray_focus_um(which: str) -> Measure:
         return UM_PER_MM * float(getattr(real_foci(made.lens, made.source, made.source.field_slope, made.stop), which))
 
     return shift
+
+
+def left_out_waves(state: State) -> float:
+    """Return the RMS of what the exact wavefront has beyond that of the six coefficients, waves."""
+    made, nodes = paraxial_setup(state), disc_nodes(*LEFT_OUT)
+    exact = displayed_opd(made.lens, made.source, nodes.xi, nodes.eta, stop=made.stop)
+    return rms(exact - wavefront(made.coefficients, nodes.xi, nodes.eta), nodes.weight, nodes.eta[None])
 
 
 def distortion_percent(state: State) -> float:
@@ -224,6 +236,7 @@ MEASURES: dict[str, Measure] = {
     "stop_surface": of_setup(lambda made: find_stop(made.lens).surface),
     **{f"{term}_waves": coefficient(term) for term in ("w40", "w31", "w22", "w20", "wd", "w11")},
     "rms_waves": of_live(lambda live: live.pupil.rms),
+    "left_out_waves": left_out_waves,
     "strehl": of_live(lambda live: np.asarray(live.psf.strehl, float)),
     "centre_over_peak": of_live(lambda live: live.psf.values[tuple(n // 2 for n in live.psf.values.shape)]
                                 / live.psf.values.max()),

@@ -14,10 +14,13 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.metrics.window import radius_of_energy
+from p2sf.paraxial.seidel import check_seidel
+from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.pencil import Fan, Pencil, Spot, pencil
+from p2sf.raytrace.pencil import Fan, Rays, pencil
+from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import by_rays, impossible, sum_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest
@@ -39,12 +42,11 @@ from p2sf_explorer.compute.preview import (
     preview_pupil,
 )
 from p2sf_explorer.compute.pupil import pupil_of
-from p2sf_explorer.compute.ray_density import geometric_psf
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.matrix.points import MatrixRequest, matrix_request
 from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, refused
 from p2sf_explorer.results.mtf import contrast_of
-from p2sf_explorer.results.rays import FAN_RAYS, RINGS, landed, opd_fan_behind, ray_fan_behind, spot_behind
+from p2sf_explorer.results.rays import FAN_RAYS, landed, opd_fan_behind, ray_fan_behind, spot_of
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
 
@@ -70,7 +72,7 @@ class Matrix:
     settled: bool
 
 
-Traced = Pencil | Spot | Fan
+Traced = Rays | Spot | Fan
 SourceLike = Source | Sources
 
 
@@ -96,15 +98,16 @@ class Place:
     def preview(self) -> Preview | None:
         """Return the rays of a preview of PSF and pupil; None where they are not known, or one is lost."""
         rays = self.traced
-        return Preview(rays, self.setup, perf_counter()) if isinstance(rays, Pencil) and rays.passed.all() else None
+        return Preview(rays, self.setup, perf_counter()) if isinstance(rays, Rays) and rays.passed.all() else None
 
 
 def matrix(live: Live) -> Matrix:
     """Return the matrix of the present setup, with the pictures that fit a frame."""
     request = matrix_request(live)
-    quality = live.quality if request.what in AT_ONCE else "preview"
+    at_once = request.what in AT_ONCE and not (request.what == "spot" and live.state.optics.clip)
+    quality = live.quality if at_once else "preview"
     tiles = previews(request, quality) if request.what in IN_A_FRAME else None
-    return Matrix(request, tiles, request.what in AT_ONCE and quality == "settled")
+    return Matrix(request, tiles, quality == "settled")
 
 
 @lru_cache(maxsize=4)
@@ -214,12 +217,12 @@ def _part(rays: Traced, number: int, count: int) -> Traced:
     return type(rays)(**own)
 
 
-def _few_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Pencil:
+def _few_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Rays:
     return pencil(lens, source, *points(first_level(lens)), clip=clip)
 
 
 def _many_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Spot:
-    return spot_behind(lens, source, RINGS[quality], clip)
+    return spot_of(lens, source, clip, quality)
 
 
 def _landing(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Fan:
@@ -254,6 +257,8 @@ def _widths(tasks: list[Task | None], shared: bool) -> list[float]:
     found = []
     for task in tasks:
         try:
+            if task and not task.exact:
+                check_seidel(task.setup.lens)
             found.append(task.own_width_um if task else 0.0)
         except P2SFError:
             found.append(0.0)
@@ -289,29 +294,32 @@ def _resting_psf(place: Place, width_um: float, stopped: Callable[[], bool]) -> 
 
 
 def _density(task: Task, window: Window, quality: str) -> Psf:
-    return geometric_psf(task.setup, task.exact, window, quality, task.state.optics.clip)
+    return geometric_psf(task.setup.lens, task.setup.source, window, quality, task.state.optics.clip, task.six)
 
 
 def _light(place: Place, psf: Psf, settled: bool) -> Tile:
-    """Return a PSF as a picture of light per µm², with its Strehl ratio, or the radius of 80 % where that says more."""
+    """Return a PSF as a picture of light per µm², with the radius of 80 %, and its Strehl ratio where that tells."""
     c = place.setup.coefficients
     width = psf.values.shape[-1] * psf.pixel_um
     airy = float(airy_radius_um(place.setup.source.wavelength_um, c.na))
     share = 1.0 if psf.energy is None else float(psf.energy)
     content = Light(psf.values * (share / psf.pixel_um**2), width, airy)
-    return Tile(content, psf_figure(psf, float(c.na), settled), psf.method, psf.predicted_error, settled)
+    sharpness = strehl_figure(psf, float(c.na))
+    return Tile(content, radius_figure(psf, settled), psf.method, psf.predicted_error, settled, strehl=sharpness)
 
 
-def psf_figure(psf: Psf, na: float, settled: bool) -> Message:
-    """Return the Strehl ratio of a sharp picture whose samples resolve the peak, else R80 of the window's light.
-
-    Where the window holds less than all light, its share is stated.
-    """
+def strehl_figure(psf: Psf, na: float) -> Message | None:
+    """Return the Strehl ratio of a sharp picture whose samples resolve the peak, None for another picture."""
     resolved = psf.pixel_um * SHARP_ENOUGH * na <= psf.wavelength_um
-    if psf.strehl is not None and psf.strehl >= SHARP and resolved:
-        return Message("Strehl {value}", value=Number(significant(float(psf.strehl), 2)))
+    if psf.strehl is None or psf.strehl < SHARP or not resolved:
+        return None
+    return Message("Strehl {value}", value=Number(significant(float(psf.strehl), 2)))
+
+
+def radius_figure(psf: Psf, settled: bool) -> Message:
+    """Return R80 of the window's light; where that is less than all light, its share is stated."""
     found = float(radius_of_energy(psf, HELD)) if settled else quick_radius_um(psf)
-    radius = Number(significant(found, 2))
+    radius = Number(significant(found, 3))
     if psf.energy is not None and psf.energy < MOST_LIGHT:
         return Message("R80 {radius} µm (of {percent:.0f} %)", radius=radius, percent=100 * float(psf.energy))
     return Message("R80 {radius} µm", radius=radius)
@@ -341,10 +349,13 @@ def _waves(place: Place, quality: str) -> Tile:
 def _spot(place: Place, quality: str) -> Tile:
     """Return where exact rays land, with the RMS radius."""
     setup, rays = place.setup, place.traced
-    found = rays if isinstance(rays, Spot) else _many_rays(setup.lens, setup.source, place.state.optics.clip, quality)
+    if isinstance(rays, Spot) and (quality == "preview" or np.isfinite(rays.x_um).all()):
+        found = rays
+    else:
+        found = _many_rays(setup.lens, setup.source, place.state.optics.clip, quality)
     airy = float(airy_radius_um(setup.source.wavelength_um, setup.own.na))
     figure = Message("RMS {value} µm", value=Number(significant(float(found.rms_um), 3)))
-    return Tile(Points(landed(found), airy), figure, BY_RAYS)
+    return Tile(Points(landed(found), airy), figure, BY_RAYS, None, quality == "settled" or not place.state.optics.clip)
 
 
 def _ray_errors(place: Place, quality: str) -> Tile:

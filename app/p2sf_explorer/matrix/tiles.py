@@ -11,7 +11,6 @@ from p2sf_explorer.state.scales import nice
 STEPS = (1, 1.5, 2, 3, 4, 5, 6, 8)
 SIGNED_STEPS = (1, 1.5, 2, 3, 5, 7)
 LEAST = {"spot": 0.1, "ray_fan": 1e-3, "opd_fan": 1e-3, "pupil": 0.05}  # of a scale, µm or waves
-HEADROOM = 1.04
 NO_WORDS = Message("")
 
 
@@ -52,8 +51,9 @@ class Lines:
 class Tile:
     """One picture: what it shows, or ``why`` there is nothing to show.
 
-    ``figure`` is its main figure; ``method`` made it, ``settled`` or as a preview, and is predicted to miss ``error``
-    (1 − R²), None where nothing is predicted.
+    ``figure`` is its main figure, ``strehl`` the ratio of a sharp PSF (`figures` chooses for all pictures alike);
+    ``method`` made it, ``settled`` or as a preview, and is predicted to miss ``error`` (1 − R²), None where nothing is
+    predicted.
     """
 
     content: Light | Waves | Points | Lines | None
@@ -62,6 +62,7 @@ class Tile:
     error: float | None = None
     settled: bool = True
     why: Message | None = None
+    strehl: Message | None = None
 
 
 Tiles = tuple[tuple[Tile, ...], ...]
@@ -109,6 +110,12 @@ def peaks(tiles: Tiles, shared: bool) -> tuple[tuple[float, ...], ...]:
     )
     largest = max((peak for row in own for peak in row), default=0.0)
     return tuple(tuple(largest for _ in row) for row in own) if shared else own
+
+
+def figures(tiles: Tiles) -> tuple[tuple[Message, ...], ...]:
+    """Return a figure of every picture, of one quantity: the Strehl ratio where all are sharp, else the main figure."""
+    known = all(tile.strehl is not None for row in tiles for tile in row if tile.content is not None)
+    return tuple(tuple((known and tile.strehl) or tile.figure for tile in row) for row in tiles)
 
 
 def worst(tiles: Tiles) -> float | None:

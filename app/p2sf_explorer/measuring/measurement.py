@@ -15,13 +15,14 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.measure.as_built import CERTAIN
 from p2sf.measure.frame_fit import FrameFit
-from p2sf.measure.frame_terms import lens_optics
+from p2sf.measure.frame_terms import F_NUMBER, lens_optics
 from p2sf.measure.measurement import Measurement, measured
 from p2sf.measure.point_fit import PointFit
 from p2sf.measure.point_model import Optics
 from p2sf.measure.points import window_of
 from p2sf.measure.reading import read_frame
 from p2sf.messages import Message, Number
+from p2sf.paraxial.pupils import f_number
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.files.opening import stamp
@@ -41,8 +42,10 @@ NAMES = {
     "w31": "W31 of the frame",
     "w22": "W22 of the frame",
     "w20": "W20 of the frame",
+    "f_number": "f-number",
 }
 DEFINITIONS = {
+    "f_number": "By how much the f-number exceeds the stated one, which is taken to be right to 3 %.",
     "sensor_shift_um": "How much farther from the lens the sensor was than in the window.",
     "tilt_x_deg": "Tilt by which the sensor recedes from the lens towards +x.",
     "tilt_y_deg": "Tilt by which the sensor recedes from the lens towards +y.",
@@ -52,6 +55,8 @@ DEFINITIONS = {
     "w20": "Of the whole field: at the farthest point, growing with the square of the distance from the axis.",
 }
 
+AUTOMATIC = "automatic"
+ENCODED = {"srgb": "numbers read as sRGB and made linear", "linear": "numbers read as linear counts"}
 
 PointLine: TypeAlias = tuple[tuple[str, str, str, str], Message | None]
 """The figures of a point, and why it was not used, if it was not."""
@@ -64,6 +69,7 @@ class MeasurementRequest:
     picture: str
     pixel_um: float
     beside: bool
+    encoding: str
     lens: Lens
     depth_mm: float
     wavelength_um: float
@@ -89,7 +95,7 @@ class PointPictures:
 def question(live: Live) -> MeasurementRequest:
     """Return the measurement of the state's picture; where the window's source lies in the field does not matter."""
     view, source = live.state.measured, live.setup.source
-    known = view.picture, view.pixel_um, view.beside
+    known = view.picture, view.pixel_um, view.beside, view.encoding
     return MeasurementRequest(*known, designed(live), source.depth_mm, source.wavelength_um, live.state.optics.clip)
 
 
@@ -121,11 +127,17 @@ def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: C
             name=Path(asked.picture).name,
             folder=str(Path(asked.picture).parent),
         )
-    frame = read_frame(asked.picture, asked.pixel_um)
+    frame = read_frame(asked.picture, asked.pixel_um, encoding=None if asked.encoding == AUTOMATIC else asked.encoding)
+    frame = replace(frame, notes=())  # `encoding_words` says it
     optics = scale(asked, frame.geometry.pixel_um)
     lens = asked.lens if asked.beside else None
     depth = asked.depth_mm if asked.beside else inf
     return measured([frame], optics, lens=lens, depth_mm=depth, clip=asked.clip, progress=progress, cancelled=cancelled)
+
+
+def encoding_words(found: Measurement) -> str:
+    """Return what was done with the numbers of the picture; "" where they are neither counts nor encoded."""
+    return ENCODED.get(found.frames[0].encoding, "")
 
 
 def scale(asked: MeasurementRequest, pixel_um: float) -> Optics:
@@ -162,12 +174,16 @@ def _plain(value: float) -> str:
 def point_rows(found: Measurement, number: int, own: tuple[float, ...] | None) -> tuple[Row, ...]:
     """Return the coefficients of a point with their errors, the lens's ``own`` beside, and what else was fitted."""
     fit = found.fits[number]
-    if fit is None:
+    if fit is None or not fit.reliable:
         return ()
     beside = own if own is not None else (None,) * len(fit.numbers)
     columns = zip(fit.names, fit.numbers.tolist(), fit.errors.tolist(), beside, strict=False)
     return tuple(
-        (name, _value(value, error, lens), "Peak waves ± one standard deviation; in brackets the values of the lens.")
+        (
+            name,
+            _value(value, error, lens),
+            "Peak waves ± one standard deviation; in brackets those of the lens at the f-number found.",
+        )
         for name, value, error, lens in columns
     )
 
@@ -186,9 +202,9 @@ def _with_error(value: float, error: float) -> dict[str, Number]:
 
 
 def whole_rows(found: Measurement) -> tuple[Row, ...]:
-    """Return what explains the whole frame, with errors; empty where too few points were found."""
+    """Return what explains the whole frame, with errors; empty where too few points were found, or nothing does."""
     whole = found.whole
-    if whole is None:
+    if whole is None or not whole.reliable:
         return ()
     columns = zip(whole.model.unknowns, whole.values.tolist(), whole.errors.tolist(), strict=True)
     return tuple(
@@ -211,12 +227,12 @@ def own_six(found: Measurement, number: int) -> tuple[float, ...] | None:
     whole, point = found.whole, found.points[number]
     if whole is None or whole.model.lens is None:
         return None
-    return tuple(whole.model.six_of_lens(float(np.hypot(point.x_mm, point.y_mm))).tolist())
+    return tuple(whole.known_stop.six_of_lens(float(np.hypot(point.x_mm, point.y_mm))).tolist())
 
 
 def has_lens_as_built(found: Measurement) -> bool:
     """Return whether the picture tells of a lens as built: it was measured beside the lens, with enough points."""
-    return found.whole is not None and found.whole.model.lens is not None
+    return found.whole is not None and found.whole.model.lens is not None and found.whole.reliable
 
 
 def as_free_pupil(fit: PointFit) -> dict[str, Any]:
@@ -229,7 +245,8 @@ def as_free_pupil(fit: PointFit) -> dict[str, Any]:
 def into_image(found: FrameFit, pixel_um: float, state: State) -> dict[str, Any]:
     """Return the entries of the State that sharpen photos by the lens as measured, in the Image panel.
 
-    The sensor is moved, and tilted where its tilt is certain; field polynomials are no part of a lens.
+    The sensor is moved, and tilted where its tilt is certain, and so is the stop set; field polynomials are no part of
+    a lens.
     """
     assert found.model.lens is not None
     told = dict(zip(found.model.unknowns, found.values.tolist(), strict=True))
@@ -240,5 +257,10 @@ def into_image(found: FrameFit, pixel_um: float, state: State) -> dict[str, Any]
     errors = with_error(with_error(errors, "tilt_x", sensor, tilt_x), "tilt_y", sensor, -tilt_y)
     shift = round(state.optics.sensor_shift_um + told["sensor_shift_um"], 2)
     view = on_stage(state.display, "image") | {"tab": "measured"}
+    aperture = {}
+    if certain.get(F_NUMBER, False):
+        stopped = found.known_stop.lens
+        assert stopped is not None
+        aperture = {"f_number": round(float(f_number(stopped, stopped.reference_wavelength_um)), 3)}
     photo = {"photo_show": "taken", "photo_pixel_um": pixel_um, "photo_full": False}
-    return UNTOUCHED | view | photo | {"sensor_shift_um": shift, "errors": errors}
+    return UNTOUCHED | view | photo | aperture | {"sensor_shift_um": shift, "errors": errors}

@@ -138,7 +138,9 @@ REGISTRY = (
 
 def build(entry: PanelEntry, store: Store) -> Panel:
     """Return a new panel of a registry entry, whose store does not put values of B into A."""
-    made: Panel = _named(entry.panel)(PanelStore(store))
+    own = PanelStore(store)
+    made: Panel = _named(entry.panel)(own)
+    own.setParent(made.widget)
     return made
 
 

@@ -24,7 +24,6 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.psf import PSF_MAP
 from p2sf_explorer.state.scales import nice, significant, written_r_squared
-from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.chart_card import TurningRow
@@ -76,9 +75,9 @@ class AccuracyPanel:
         self.trade.setVisible(False)
         self.shown = chooser(tuple(SHOWN.items()), SHOWN_TIP, self.widget)
         self.widget.add_tool(self.shown)
-        self.shown.activated.connect(self._choose)
+        self.widget.bind(store, accuracy_plot=self.shown)
         self._traded: tuple[str, str] | None = None
-        self._state: State | None = None
+        self._state = store.state
         self._legend = ""
         self.message = Readout(self.widget, pill=True, colour="text")
         charts = self.reference, self.difference, self.methods, self.trade
@@ -99,14 +98,14 @@ class AccuracyPanel:
     def show(self, live: Live) -> None:
         """Mark what is shown as belonging to an earlier picture until the worker answers."""
         self._state = live.state
-        self._choose()
+        self._show_plot()
         if self._figure:
             self._show_figure(stale=True)
 
-    def _choose(self) -> None:
+    def _show_plot(self) -> None:
         """Show the methods at this point, or what the complete trade has measured of this lens."""
-        cost = self.shown.currentData()
-        trade = trade_of(self._state) if self._state and cost in COSTS else None
+        cost = self._state.choices.accuracy_plot
+        trade = trade_of(self._state) if cost in COSTS else None
         for part in (self.reference, self.difference, self.methods):
             part.setVisible(trade is None)
         self.trade.setVisible(trade is not None)
@@ -172,7 +171,7 @@ class AccuracyPanel:
         colours = {group: getattr(theme, token, token) for group, token in GROUP_COLOURS.items()}
         marks = (f'<span style="color:{colour}">●</span> {tr(group)}' for group, colour in colours.items())
         self._legend = " &nbsp; ".join(marks)
-        self._choose()
+        self._show_plot()
 
 
 def dot_of(row: Row, cost: float) -> TradeDot:

@@ -1,6 +1,8 @@
 """The depth-and-field space of the lens: a coefficient's map, the error of interpolation, an atlas of PSFs."""
 
 import numpy as np
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
@@ -27,6 +29,8 @@ TIP = (
 )
 VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
 RULES = {"table1": "table 1 of the paper", "linear": "linear"}
+# Pixels at scale 1: what a map needs to be read, from where the note has room below and its height, the least size.
+PART_WIDE, PART_HIGH, NOTED, NOTE_HIGH, LEAST = 230, 130, 260, 55, (120, 90)
 ERRORS = {"table1": "error of table 1 of the paper", "linear": "error of linear interpolation"}
 
 
@@ -38,14 +42,13 @@ class DatabasePanel:
         self.widget = Card("Database", TIP)
         names = tuple((k, "Wd defocus" if k == "wd" else f"W{k[1:]} {WORDS[k]}") for k in KINDS)
         self.term = chooser(names, "Which coefficient", self.widget)
-        self.term.setCurrentIndex(KINDS.index("w22"))
         self.rule = chooser(tuple((r, RULES[r]) for r in LOSSY), "The interpolation whose error is shown", self.widget)
         self.bars = ColourBar(), ColourBar()
         self.map, self.error, self.atlas = DepthFieldMap(self.bars[0]), DepthFieldMap(self.bars[1]), AtlasView()
         self.note = QLabel()
         self._lay_out()
-        for box in (self.term, self.rule):
-            box.activated.connect(self._paint)
+        self._choices = store.state.choices
+        self.widget.bind(store, database_coefficient=self.term, database_rule=self.rule)
         for chart in (self.map, self.error, self.atlas):
             chart.taken.connect(store.begin)
             chart.released.connect(store.end)
@@ -64,13 +67,17 @@ class DatabasePanel:
         self.heads = [QLabel() for _ in range(3)]
         parts = ((self.map, self.bars[0]), (self.error, self.bars[1]), (self.atlas,))
         headings = tuple(headed(head, part) for head, part in zip(self.heads, parts, strict=True))
-        self.widget.set_body(TurningRow(headings, (5, 5, 6), self.widget))
-        self.widget.add_footer(self.note)
+        self.body = DatabaseBody(headings, self.note)
+        self.body.counted.connect(lambda count: self.rule.setVisible(count > 1))
+        self.widget.set_body(self.body)
 
     def show(self, live: Live) -> None:
         """Mark the present point, and ask the worker when more than the point has changed."""
         asked: DatabaseRequest = live.views["database"]
         state = live.state
+        if state.choices != self._choices:
+            self._choices = state.choices
+            self._paint()
         for chart in (self.map, self.error, self.atlas):
             chart.show_point(state.optics.depth_mm, state.optics.field_deg)
         if asked != self._asked:
@@ -97,13 +104,13 @@ class DatabasePanel:
     def _paint(self) -> None:
         if not self._answer:
             return
-        found, term, rule = self._answer, self.term.currentData(), self.rule.currentData()
+        found, term, rule = self._answer, self._choices.database_coefficient, self._choices.database_rule
         self._paint_map(found, term)
         self._paint_error(found, term, rule)
         self.atlas.show_atlas(found.atlas)
         for head, text in zip(self.heads, (name(term), tr(ERRORS[rule]), atlas_head(found.atlas)), strict=True):
             head.setText(text)
-        reasons = (said(found.why_no_atlas),) if found.why_no_atlas else ()
+        reasons = tuple(said(reason) for reason in (found.accuracy, found.why_no_atlas) if reason)
         self.note.setText(" · ".join((*error_words(found, term), *reasons)))
         self.note.setToolTip(self.note.text())
 
@@ -125,13 +132,57 @@ class DatabasePanel:
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
-        for part in (self.map, self.error, self.atlas, *self.bars):
+        for part in (self.map, self.error, self.atlas, *self.bars, self.body):
             part.restyle(theme)
         self._paint()
 
     def stop(self) -> None:
         """End the worker's thread."""
         self.worker.stop()
+
+
+class DatabaseBody(QWidget):
+    """Map, error map and atlas, as many of them as can be read, and the note where there is height for it.
+
+    They stand side by side or one above the other; ``counted`` tells how many are shown. The least size does not depend
+    on that, or they would come and go.
+    """
+
+    counted = Signal(int)
+
+    def __init__(self, parts: tuple[QWidget, ...], note: QLabel):
+        super().__init__()
+        self._parts, self._note, self._scale = parts, note, 1.0
+        self._row = TurningRow(parts, (5, 5, 6), self)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSizeConstraint(QVBoxLayout.SizeConstraint.SetNoConstraint)
+        column.addWidget(self._row, 1)
+        column.addWidget(note)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least size."""
+        return QSize(*(round(side * self._scale) for side in LEAST))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the scale of a theme."""
+        self._scale = theme.scale
+        self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show what there is room for."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        wide, high = self.width() / self._scale, self.height() / self._scale
+        self._note.setVisible(high >= NOTED)
+        tall = high - (NOTE_HIGH if high >= NOTED else 0)
+        room = tall / PART_HIGH if tall > wide else wide / PART_WIDE
+        count = max(1, min(len(self._parts), int(room)))
+        for number, part in enumerate(self._parts):
+            part.setVisible(number < count)
+        self.counted.emit(count)
 
 
 def headed(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:

@@ -105,9 +105,8 @@ class ImagePanel:
     def _connect(self) -> None:
         store = self._store
         self.photo.activated.connect(lambda: store.update(photo_source=self.photo.currentData()))
-        self.show_box.activated.connect(lambda: store.update(photo_show=self.show_box.currentData()))
         self.pixel.activated.connect(self._choose_pixel)
-        self.look.activated.connect(lambda: store.update(photo_look=self.look.currentData()))
+        self.widget.bind(store, photo_show=self.show_box, photo_look=self.look)
         self.plan_line.turned.connect(self._turn)
         self.split_view.taken.connect(store.begin)
         self.split_view.released.connect(store.end)
@@ -141,10 +140,8 @@ class ImagePanel:
         size = FULL if all_of_it else "" if pitch is None else str(float(pitch))
         if self.pixel.findData(size) < 0:
             self.pixel.addItem(tr("{pitch} µm pixels", pitch=f"{pitch:g}"), size)
-        photo = state.photo
-        boxes = (self.photo, photo.source), (self.pixel, size), (self.show_box, photo.show), (self.look, photo.look)
-        for box, value in boxes:
-            select(box, value)
+        select(self.photo, state.photo.source)
+        select(self.pixel, size)
 
     def _quickest(self, asked: ImageRequest) -> Callable[[ImageRequest, Progress], ImageResult]:
         """Return what makes a picture at once: the known plan, where only the photo or what is shown has changed."""

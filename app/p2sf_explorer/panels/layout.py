@@ -32,7 +32,7 @@ from p2sf_explorer.layout_view.source_point import DrawnSetup, SourceHandle, spa
 from p2sf_explorer.layout_view.surface_highlight import SurfaceHighlight
 from p2sf_explorer.state.scales import nice, signed
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card, chooser, select, select_or_add
+from p2sf_explorer.widgets.card import Card, chooser, select_or_add
 from p2sf_explorer.widgets.thumbnail import glass
 
 TIP = (
@@ -88,7 +88,7 @@ class LayoutPanel:
         self.rays = self.chart.rays
         self.coloured = chooser(COLOURED, COLOURED_TIP, self.widget)
         self.count = chooser(tuple((str(n), tr("{count} rays", count=n)) for n in COUNTS), COUNT_TIP, self.widget)
-        self.coloured.activated.connect(lambda: store.update(rays_coloured=self.coloured.currentData()))
+        self.widget.bind(store, rays_coloured=self.coloured)
         self.count.activated.connect(lambda: store.update(rays_count=int(self.count.currentData())))
         factors = tuple((str(n), tr("tilts ×{factor}", factor=n)) for n in LARGER)
         self.larger = chooser((("1", "tilts as they are"), *factors), LARGER_TIP, self.widget)
@@ -101,7 +101,6 @@ class LayoutPanel:
     def show(self, live: DrawnSetup) -> None:
         """Paint the lens if it has changed, rays and marks always."""
         display = live.state.display
-        select(self.coloured, display.rays_coloured)
         factor, count = display.exaggerated, display.rays_count
         select_or_add(self.larger, str(factor), tr("tilts ×{factor}", factor=factor))
         self.larger.setVisible(bool(live.state.optics.errors))
@@ -127,7 +126,7 @@ class LayoutPanel:
         self.widget.set_readout(legend(self._theme, live.layout if live else None, field))
 
 
-class Rays(Curve):
+class RayCurve(Curve):
     """Rays of one colour, which are drawn up to the break of the axis; marks would look like handles here."""
 
     marked = False
@@ -146,8 +145,8 @@ class LayoutChart(Chart):
 
     def __init__(self, store: Store):
         super().__init__(aspect=True, framed=False)
-        self.rays: dict[str, Curve] = {kind: Rays(*look) for kind, look in KINDS.items()}
-        self.fans: list[Rays] = []
+        self.rays: dict[str, Curve] = {kind: RayCurve(*look) for kind, look in KINDS.items()}
+        self.fans: list[RayCurve] = []
         self.curves = list(self.rays.values())
         self.columns = "z, mm", "y, mm"
         for kind, curve in self.rays.items():
@@ -178,7 +177,7 @@ class LayoutChart(Chart):
         """Show each fan as a curve of its colour."""
         self.fans = []
         for number, colour in enumerate(fan_colours(layout.groups, field_deg)):
-            fan, paths = Rays(colour, 1), [ray for ray in layout.rays if ray.group == number]
+            fan, paths = RayCurve(colour, 1), [ray for ray in layout.rays if ray.group == number]
             fan.name = fan_name(layout.groups, number)
             fan.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
             self.fans.append(fan)

@@ -32,7 +32,7 @@ from p2sf_explorer.state.build_errors import renumbered
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card, chooser, select
+from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel, SurfaceView
 
 TIP = "Lens: one row per surface, in the order in which light meets them. Type into a cell; Ctrl+Z undoes it."
@@ -79,7 +79,7 @@ class LensTablePanel:
         self.model.typed.connect(self._typed)
         self.view.clicked.connect(self._choose_stop)
         self.view.activated.connect(self._choose_stop)
-        self.focus.activated.connect(lambda: store.update(keep_focus=self.focus.currentData()))
+        self.widget.bind(store, keep_focus=self.focus)
         self._connect(store)
         for keys, action in (("Ins", self._insert), ("Del", self._delete)):
             QShortcut(QKeySequence(keys), self.view, context=Qt.ShortcutContext.WidgetShortcut).activated.connect(
@@ -159,7 +159,6 @@ class LensTablePanel:
         self.model.show_rows(rows)
         self.buttons["_revert"].setEnabled(rows.edited)
         self._lens = rows.lens
-        select(self.focus, live.state.display.keep_focus)
         show_stop(self.stop_place, rows.lens)
         self._mark()
         count = len(rows.texts)

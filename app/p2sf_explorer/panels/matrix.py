@@ -14,11 +14,11 @@ from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.matrix.pictures import Matrix, settled
 from p2sf_explorer.matrix.points import LISTS, SIDE, MatrixRequest, nearest, point_entries, told
-from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, methods, peaks, scales, worst
+from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, figures, methods, peaks, scales, worst
 from p2sf_explorer.state.state import changed
-from p2sf_explorer.state.terms import PLACES
+from p2sf_explorer.state.terms import PLACES, PUPIL_AXES
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import TurningCard, chooser, select
+from p2sf_explorer.widgets.card import TurningCard, chooser
 from p2sf_explorer.widgets.chart_card import legend
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.widgets.tile_charts import (
@@ -100,10 +100,8 @@ class MatrixPanel:
 
     def _connect(self) -> None:
         store = self._store
-        self.what.activated.connect(lambda: store.update(matrix_what=self.what.currentData()))
-        self.across.activated.connect(lambda: store.update(matrix_across=self.across.currentData()))
-        self.scale.activated.connect(lambda: store.update(psf_scale=self.scale.currentData()))
-        self.units.activated.connect(lambda: store.update(psf_units=self.units.currentData()))
+        choosers = {"matrix_what": self.what, "matrix_across": self.across}
+        self.widget.bind(store, psf_scale=self.scale, psf_units=self.units, **choosers)
         self.shared.clicked.connect(lambda on: store.update(matrix_shared=on))
         self.fields.counted.connect(lambda count: store.update(matrix_rows=count, matrix_fields_deg=()))
         self.fields.listed.connect(lambda values: store.update(matrix_fields_deg=values))
@@ -136,12 +134,9 @@ class MatrixPanel:
 
     def _show_choices(self, live: Live, request: MatrixRequest) -> None:
         view = live.state.matrix
-        select(self.what, view.what)
-        select(self.across, view.across)
         self.shared.setChecked(view.shared)
-        for box, value in ((self.scale, live.state.display.psf_scale), (self.units, live.state.display.psf_units)):
+        for box in (self.scale, self.units):
             box.setVisible(view.what == "psf")
-            select(box, value)
         rows, columns = told(request)
         self.fields.name(tr(NAMES["field_deg"]), READERS["field_deg"])
         self.fields.show_values(listed(rows))
@@ -172,13 +167,14 @@ class MatrixPanel:
         rows, columns = told(request)
         one_brightness = request.shared and self._live.state.display.psf_units != "peak"
         sizes, brightest = scales(request.what, tiles, request.shared), peaks(tiles, one_brightness)
+        numbers = figures(tiles)
         row, column, exact = nearest(request, self._live.state, self._live.side)
         for r, line in enumerate(tiles):
             for c, tile in enumerate(line):
                 chart = self.grid.chart(r, c)
                 here = ("exact" if exact else "near") if (r, c) == (row, column) else ""
                 why = said(tile.why) if tile.why else ""
-                extent, figure = extent_words(request.what, sizes[r][c]), tile.figure.text(WINDOW)
+                extent, figure = extent_words(request.what, sizes[r][c]), numbers[r][c].text(WINDOW)
                 self._fill(chart, request.what, tile, sizes[r][c], brightest[r][c])
                 chart.tell(Words((rows[r], columns[c]), made_words(tile), figure, extent, why, here))
         self._show_badge(request, tiles)
@@ -191,16 +187,17 @@ class MatrixPanel:
 
     def _fill(self, chart: TileChart, what: str, tile: Tile, size: float, peak: float) -> None:
         content = tile.content
+        aim = self._live.setup.lens.aim if self._live else "stop"
         if isinstance(chart, LightChart) and isinstance(content, Light):
             chart.show_airy(content.airy_um)
             scale = self._live.state.display.psf_scale if self._live else "sqrt"
             chart.show_light(content.values, content.width_um, size, peak, scale)
         elif isinstance(chart, WavesChart) and isinstance(content, Waves):
+            chart.name_axes(*PUPIL_AXES[aim])
             chart.show_waves(content.values, content.outline, size)
         elif isinstance(chart, PointsChart) and isinstance(content, Points):
             chart.show_points(content.points, content.airy_um, size)
         elif isinstance(chart, LinesChart) and isinstance(content, Lines):
-            aim = self._live.setup.lens.aim if self._live else "stop"
             ranges = ((0.0, size), (0.0, 1.04)) if what == "mtf" else ((-1.02, 1.02), (-size, size))
             chart.above = what == "mtf"
             chart.name_axes(FREQUENCY if what == "mtf" else PLACES[aim], LEFT_AXES[what])

@@ -2,15 +2,15 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
-from PySide6.QtCore import QLocale, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QBoxLayout,
     QCheckBox,
-    QDoubleSpinBox,
     QFileDialog,
     QHBoxLayout,
     QHeaderView,
@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf.errors import P2SFError
+from p2sf.image.progress import seconds_left
 from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.measurement import Measurement, write_measurement
 from p2sf.messages import Message
@@ -29,7 +30,7 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import decimal_separator, local, tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.measuring.measurement import (
     MeasurementRequest,
     PointLine,
@@ -37,6 +38,7 @@ from p2sf_explorer.measuring.measurement import (
     answer,
     as_free_pupil,
     dated,
+    encoding_words,
     has_lens_as_built,
     into_image,
     own_six,
@@ -46,11 +48,12 @@ from p2sf_explorer.measuring.measurement import (
     whole_rows,
 )
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.drop import MeasuredDrop
 from p2sf_explorer.widgets.plan_note import small_button
 from p2sf_explorer.widgets.readout import FactTable, scrolled
 from p2sf_explorer.widgets.tiles import TilesChart, tile
+from p2sf_explorer.widgets.value_edit import NumberBox
 from p2sf_explorer.workers.worker import LatestWins
 
 TIP = (
@@ -63,6 +66,7 @@ BUILT = "P2SF lens (*.toml);;PSF database (*.npz)"
 EMPTY = "Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF."
 HEADS = ("x, mm", "y, mm", "R²", "χ²", "not used because")
 STOPPED = "stopped; choose the picture again to measure it"
+ENCODINGS = (("automatic", "automatic"), ("srgb", "sRGB"), ("linear", "linear"))
 PARTS = ("measured", "model", "difference")
 LOW = 300  # pixels of the body's height below which there is no room for a list
 
@@ -90,8 +94,9 @@ class MeasuredPanel:
             "Take the lens as measured into the window and sharpen photos that it took; undo brings the lens back",
             self._sharpen,
         )
-        self.pixel = QDoubleSpinBox()
+        self.pixel = NumberBox()
         self.beside = QCheckBox(tr("this lens"))
+        self.encoding = chooser(ENCODINGS, "What whole numbers of the picture mean; automatic takes 8 bits for sRGB")
         self.note = QLabel()
         self.chart, self.list = TilesChart(framed=False), PointList()
         self.table = FactTable()
@@ -100,17 +105,15 @@ class MeasuredPanel:
         self._asked: MeasurementRequest | None = None
         self._request: MeasurementRequest | None = None
         self._found: Measurement | None = None
-        self._refusal, self._stopped = "", False
+        self._refusal, self._stopped, self._begun = "", False, 0.0
         self.worker = LatestWins(self.widget)
         self._connect()
         self._show_readout()
 
     def _lay_out(self) -> None:
-        self.pixel.setLocale(QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C))
         self.pixel.setRange(0.05, 1000.0)
         self.pixel.setDecimals(3)
         self.pixel.setSuffix(" µm")
-        self.pixel.setKeyboardTracking(False)
         self.pixel.setToolTip(tr("Pixel pitch of the picture; listings and PSFs of this program state theirs"))
         self.pixel.setAccessibleName(tr("Pixel pitch"))
         self.beside.setToolTip(tr("Fit departures from the lens on screen; otherwise the lens only sets the scale"))
@@ -122,7 +125,7 @@ class MeasuredPanel:
         # In one row they are wider than the panel of a small window.
         for parts in (
             (self.open, self.stop_button, self.save, self.built, self.take),
-            (self.pixel, self.beside, self.sharpen),
+            (self.pixel, self.encoding, self.beside, self.sharpen),
         ):
             column.addLayout(_row(parts))
         column.addWidget(self.body, 1)
@@ -138,6 +141,7 @@ class MeasuredPanel:
         self.list.itemSelectionChanged.connect(self._paint_point)
         self.pixel.valueChanged.connect(lambda pitch: self._store.update(measured_pixel_um=pitch))
         self.beside.clicked.connect(lambda on: self._store.update(measured_beside=bool(on)))
+        self.widget.bind(self._store, measured_encoding=self.encoding)
         self.take.clicked.connect(self._take)
         self.drop = MeasuredDrop(self.widget)
         self.drop.photo.connect(self.open_picture)
@@ -167,6 +171,7 @@ class MeasuredPanel:
             self._found = None
         self._request, self._refusal, self._stopped = asked, "", False
         self.worker.cancel()
+        self._begun = perf_counter()
         if asked.picture:
             self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set, progress))
         self._show_readout()
@@ -177,8 +182,13 @@ class MeasuredPanel:
         self._show_readout()
 
     def _on_progress(self, key: MeasurementRequest, share: float) -> None:
-        if key == self._request:
-            self._show_readout(local(tr("measuring, {percent} %", percent=f"{100 * share:.0f}")))
+        if key != self._request:
+            return
+        percent, left = f"{100 * share:.0f}", seconds_left(share, perf_counter() - self._begun)
+        if left is None:
+            self._show_readout(local(tr("measuring, {percent} %", percent=percent)))
+        else:
+            self._show_readout(local(tr("measuring, {percent} %, {left} s left", percent=percent, left=left)))
 
     def _on_answer(self, key: MeasurementRequest, found: Measurement) -> None:
         if key != self._request:
@@ -208,6 +218,8 @@ class MeasuredPanel:
             name = progress or tr("measuring")
         elif found is not None:
             name = f"{name} · {tr('{used} of {all} points', used=found.used, all=len(found.points))}"
+            if words := encoding_words(found):
+                name = f"{name} · {tr(words)}"
         self.widget.set_readout(name)
 
     def _paint_point(self) -> None:
@@ -215,14 +227,16 @@ class MeasuredPanel:
         if found is None or number is None:
             return
         self.table.show_rows((*point_rows(found, number, own_six(found, number)), *whole_rows(found)))
-        self.take.setEnabled(found.fits[number] is not None)
+        fit = found.fits[number]
+        self.take.setEnabled(fit is not None and fit.reliable)
         parts = shown(found, number)
         if parts is None:
             self.chart.show_tiles((), 1.0)
             return
         self._paint_pictures(parts)
-        fit = found.fits[number]
-        warnings = dict.fromkeys((*(fit.warnings if fit else ()), *(found.whole.warnings if found.whole else ())))
+        warnings = dict.fromkeys(
+            (*found.warnings, *(fit.warnings if fit else ()), *(found.whole.warnings if found.whole else ()))
+        )
         self.note.setText("\n".join(said(warning) for warning in warnings))
 
     def _paint_pictures(self, parts: PointPictures) -> None:
@@ -241,7 +255,7 @@ class MeasuredPanel:
     def _take(self) -> None:
         number = self.list.chosen()
         fit = self._found.fits[number] if self._found is not None and number is not None else None
-        if fit is not None:
+        if fit is not None and fit.reliable:
             self._store.update(**as_free_pupil(fit))
 
     def _sharpen(self) -> None:

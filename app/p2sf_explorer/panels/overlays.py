@@ -14,7 +14,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.matrix.overlays import PLAIN, USUAL_PER_MM, Overlay, OverlayRequest, answer
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import SideCard, chooser, select
+from p2sf_explorer.widgets.card import SideCard, chooser
 from p2sf_explorer.widgets.chart_card import NotedChart, curve_sign, reach
 from p2sf_explorer.widgets.curves import ENDLESS
 from p2sf_explorer.widgets.readout import Readout
@@ -65,7 +65,7 @@ class OverlaysPanel:
         self.found: tuple[OverlayRequest | None, Overlay] | None = None
         self._live: Live | None = None
         self._theme = LIGHT
-        self.of.activated.connect(lambda: store.update(curves_of=self.of.currentData()))
+        self.widget.bind(store, curves_of=self.of)
         self.frequencies.listed.connect(self._listed)
         self.frequencies.refused.connect(store.refused.emit)
 
@@ -76,7 +76,6 @@ class OverlaysPanel:
         """Paint curves that fit a frame, or have them made in the background."""
         self._live = live
         view: Overlay | OverlayRequest = live.views["curves"]
-        select(self.of, live.state.curves.of)
         self.frequencies.setVisible(live.state.curves.of in ("field", "focus"))
         *texts, last = (f"{f:g}" for f in live.state.curves.frequencies_per_mm or USUAL_PER_MM)
         self.frequencies.show_values((*texts, f"{last}/mm"))

@@ -20,7 +20,7 @@ from p2sf_explorer.state.scales import significant, written_r_squared
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import Card, chooser, select
+from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.differences import show_signed
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.workers.panel_jobs import Asking
@@ -45,8 +45,7 @@ class PsfPanel:
         self.widget = Card("PSF", TIP)
         self.scale = chooser(SCALES, "Brightness scale", self.widget)
         self.units = chooser(UNITS, "Units of the colour bar", self.widget)
-        self.scale.activated.connect(lambda: store.update(psf_scale=self.scale.currentData()))
-        self.units.activated.connect(lambda: store.update(psf_units=self.units.currentData()))
+        self.widget.bind(store, psf_scale=self.scale, psf_units=self.units)
         self.widget.add_tool(self.scale)
         self.widget.add_tool(self.units)
         self.map = HeatMap("x, µm", Y_LABELS[1], self.widget)
@@ -67,8 +66,6 @@ class PsfPanel:
     def show(self, live: Live) -> None:
         """Paint the PSF, and have it summed with a sample for each pixel where it has fewer."""
         self._live = live
-        select(self.scale, live.state.display.psf_scale)
-        select(self.units, live.state.display.psf_units)
         self.show_badge(live, None)
         self._refine(live)
 
@@ -203,8 +200,8 @@ QUANTITIES = {"peak": "PSF, peak = 1", "sum": "PSF, sum = 1", "strehl": "PSF, pe
 def top_value(state: State, psf: Psf, peak: float) -> float:
     """Return the brightest sample in the chosen units."""
     units = unit_of(state, psf)
-    if units == "strehl" and psf.strehl is not None:
-        return float(psf.strehl)
+    if units == "strehl" and (samples := psf.over_unaberrated) is not None:
+        return float(samples.max())
     return peak if units == "sum" else 1.0
 
 

@@ -16,6 +16,7 @@ from p2sf_explorer.compute.pupil import CIRCLE
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import Camera
 from p2sf_explorer.state.scales import significant
+from p2sf_explorer.state.terms import PUPIL_AXES
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.readout import Readout
@@ -23,10 +24,6 @@ from p2sf_explorer.widgets.readout import Readout
 WAVES_MAP, WRAPPED_MAP = "CET-D1A", "CET-CBC1"
 MODES = (("waves", "W, waves"), ("contour", "contours"), ("surface", "surface"), ("wrapped", "wrapped"))
 SIGNED = ("waves", "contour", "surface")  # which can show a difference
-AXES = {
-    "paraxial": ("ξ, pupil radii", "η, pupil radii (towards the field)"),
-    "stop": ("ξ, stop radii", "η, stop radii (towards the field)"),
-}
 TIP = (
     "Wavefront W over the pupil: by how many waves the optical path of a ray is shorter than that of the chief ray. "
     "What the stop hides is left out, and a filter shades the picture."
@@ -90,7 +87,7 @@ class PupilPanel:
         self.mode = chooser(MODES, "How the phase is shown", self.widget)
         self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
         self.widget.add_tool(self.mode)
-        self.map = HeatMap(*AXES["paraxial"], self.widget)
+        self.map = HeatMap(*PUPIL_AXES["paraxial"], self.widget)
         self.shade, self.dark = Shade("card"), Obstructions("card")
         self.outside, self.beyond_iris = Outside("card"), Outside("card")
         self.map.chart.curves += [self.shade, self.dark, self.beyond_iris, self.outside]
@@ -115,7 +112,7 @@ class PupilPanel:
         self.rim.set_data(*pupil.outline)
         self.beyond_iris.set_data(*pupil.iris)
         self.dark.outlines, self.shade.amplitude = pupil.obstructions, pupil.shade
-        self.map.chart.name_axes(*AXES[live.setup.lens.aim])
+        self.map.chart.name_axes(*PUPIL_AXES[live.setup.lens.aim])
         mode = live.state.display.phase if live.state.display.phase in SIGNED or not live.difference else "waves"
         select(self.mode, mode)
         self.surface.setVisible(mode == "surface")

@@ -66,17 +66,15 @@ class SeidelPanel:
     def __init__(self, store: Store):
         self.widget = Card("Seidel per surface", TIP)
         self.term = chooser(CHOICES, "Which sum", self.widget)
-        self.term.activated.connect(self._again)
+        self.widget.bind(store, seidel_sum=self.term)
         self.widget.add_tool(self.term)
         self.chart = BarsChart(store)
         self.widget.set_body(self.chart)
-        self._live: Live | None = None
 
     def show(self, live: Live) -> None:
         """Paint the bars of the chosen sum."""
-        self._live = live
         view: PerSurface = live.views["seidel"]
-        chosen = self.term.currentData()
+        chosen = live.state.choices.seidel_sum
         bars = bars_of(view, TERMS if chosen == ALL else (chosen,))
         self.chart.show_bars(bars, view, chosen == ALL)
         if chosen == ALL:
@@ -89,10 +87,6 @@ class SeidelPanel:
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.chart.restyle(theme)
-
-    def _again(self) -> None:
-        if self._live:
-            self.show(self._live)
 
 
 class BarsChart(Chart):

@@ -3,7 +3,7 @@
 from functools import partial
 from math import inf
 
-from PySide6.QtCore import QLocale, QSignalBlocker
+from PySide6.QtCore import QSignalBlocker
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QDoubleSpinBox,
@@ -23,7 +23,7 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import decimal_separator, local, tr
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.build_errors import Compensator
 from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.store.store import Store
@@ -45,6 +45,7 @@ from p2sf_explorer.tolerancing.analysis import (
 from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.chart_card import NotedChart
 from p2sf_explorer.widgets.plan_note import small_button
+from p2sf_explorer.widgets.value_edit import NumberBox
 from p2sf_explorer.workers.worker import LatestWins
 
 SENSOR_TILTS: tuple[Kind, ...] = ("tilt_x", "tilt_y")
@@ -54,7 +55,10 @@ TIP = (
     "each is focused again."
 )
 GRADE_TIP = "The tolerances that workshops offer under this name; you can change the ± values below."
-CRITERION_TIP = "How a lens is judged, in the worst of three fields: axis, seven tenths and edge."
+CRITERION_TIP = (
+    "How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is |mean of "
+    "exp(2πiW)|² of the phase W at the focus, without piston and tilt."
+)
 LIMIT_TIP = "The limit that a good lens meets in every field; at first, the one that four lenses of five meet."
 WORDS_SHARE = 0.3  # of a chart's width, that a line's name takes
 FILM_TIP = "Save a film of the first forty of these builds: layout, PSF, and where each stands in the yield"
@@ -93,7 +97,7 @@ class TolerancesPanel:
         self.widget = Card("Tolerances", TIP)
         self.grade = chooser(GRADE_WORDS, GRADE_TIP, self.widget)
         self.criterion = chooser(CRITERION_WORDS, CRITERION_TIP, self.widget)
-        self.stop_button = small_button("Stop", "Stop the computation", self._stop)
+        self.stop_button = small_button("Cancel", "Stop the computation", self._stop)
         self.again = small_button("Draw again", "Build ten thousand other lenses", self._draw_again)
         self.film = small_button("Film…", FILM_TIP)
         self.back = small_button("As designed", "Close the build, and show the lens as designed", self._close_build)
@@ -142,7 +146,7 @@ class TolerancesPanel:
 
     def _connect(self) -> None:
         store = self._store
-        self.grade.activated.connect(lambda: store.update(tolerances_grade=self.grade.currentData()))
+        self.widget.bind(store, tolerances_grade=self.grade)
         self.criterion.activated.connect(
             lambda: store.update(tolerances_criterion=self.criterion.currentData(), tolerances_limit=None)
         )
@@ -153,6 +157,7 @@ class TolerancesPanel:
         for (_, kinds), box in zip(OF_KINDS, self.kinds.values(), strict=True):
             box.valueChanged.connect(partial(self._set_own, kinds, 0, 0))
         self.errors.typed.connect(lambda one, value: self._set_own((one.kind,), one.piece[0], one.piece[1], value))
+        self.errors.refused.connect(store.refused)
         self.worst.opened.connect(self._open_build)
         self.worker.finished.connect(self._on_answer)
         self.worker.failed.connect(self._on_failure)
@@ -172,7 +177,6 @@ class TolerancesPanel:
         self._paint()
 
     def _show_settings(self, view: ToleranceView, lens: Lens) -> None:
-        select(self.grade, view.grade)
         select(self.criterion, view.criterion)
         self.frequency.setVisible(view.criterion == "mtf")
         self.as_grade.setEnabled(bool(view.own))
@@ -273,7 +277,7 @@ class TolerancesPanel:
         self.worst.show_builds(view, opened)
         self._paint_charts(view, opened)
         _put(self.limit, view.limit, view.places)
-        self.widget.set_readout(_sentence(view))
+        self.widget.set_readout(_sentence(view, bool(self._asked.view.compensators)))
 
     def _paint_charts(self, view: Figures, opened: int) -> None:
         limits, share, error = view.yields
@@ -309,13 +313,11 @@ class TolerancesPanel:
         self.worker.stop()
 
 
-def _number_box(tip: str, places: int, most: float) -> QDoubleSpinBox:
-    box = QDoubleSpinBox()
+def _number_box(tip: str, places: int, most: float) -> NumberBox:
+    box = NumberBox()
     box.setRange(0.0, most)
     box.setDecimals(places)
-    box.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
-    box.setKeyboardTracking(False)
-    box.setLocale(QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C))
+    box.setStepType(NumberBox.StepType.AdaptiveDecimalStepType)
     box.setToolTip(tr(tip))
     box.setAccessibleName(tr(tip))
     return box
@@ -344,8 +346,10 @@ def _compensator_words(row: Compensator) -> str:
     return error_words(Tolerance(kind, first, 0.0)) if first else tr(SET_WORDS[kind])
 
 
-def _sentence(view: Figures) -> str:
+def _sentence(view: Figures, compensated: bool) -> str:
+    """Return the yield, and what the lens as designed has, which without compensators is what *Pupil* shows."""
     limit = tr(SIGNS[view.criterion], limit=local(f"{view.limit:.{view.places}f}"))
     share, error = (local(f"{100 * value:.1f}") for value in (view.share, view.error))
-    nominal = tr("as designed {value}", value=local(f"{view.nominal:.{view.places}f}"))
+    designed = "as designed, compensated, worst field: {value}" if compensated else "as designed, worst field: {value}"
+    nominal = tr(designed, value=local(f"{view.nominal:.{view.places}f}"))
     return f"{tr('{share} % ± {error} % keep {limit}', share=share, error=error, limit=limit)} · {nominal}"

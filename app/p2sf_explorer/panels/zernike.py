@@ -39,15 +39,13 @@ class ZernikePanel:
         area = scrolled(self.table, at_foot=False)
         self.widget = ChartsCard("Zernike", TIP, (self.chart, area), (3, 2))
         self.order = chooser(CHOICES, "Which order of the terms", self.widget)
-        self.order.activated.connect(self._again)
+        self.widget.bind(store, zernike_order=self.order)
         self.widget.add_tool(self.order)
-        self._live: Live | None = None
 
     def show(self, live: Live) -> None:
         """Paint the terms in the chosen order."""
-        self._live = live
         view: ZernikeView = live.views["zernike"]
-        fit = view.fits[self.order.currentData()]
+        fit = view.fits[live.state.choices.zernike_order]
         self.chart.show_fit(fit)
         self.table.show_rows(rows(fit))
         self.widget.set_readout(" · ".join(figures(fit, view.kind)))
@@ -57,18 +55,14 @@ class ZernikePanel:
         self.chart.restyle(theme)
         self.table.restyle(theme)
 
-    def _again(self) -> None:
-        if self._live:
-            self.show(self._live)
-
 
 def figures(fit: ZernikeFit, kind: str) -> tuple[str, ...]:
-    """Return RMS with and without tilt, what is left, over which pupil, and of which wavefront."""
-    whole, still, left = (Number(significant(value, 3)) for value in (fit.rms, fit.rms_without_tilt, fit.residual))
+    """Return RMS without and with tilt, what is left, over which pupil, and of which wavefront."""
+    blur, tilted, left = (Number(significant(value, 3)) for value in (fit.rms, fit.rms_with_tilt, fit.residual))
     over = Message("whole pupil")
     if fit.clear < 1:
         over = Message("Gram–Schmidt over {percent:.0f} % of the pupil", percent=100 * fit.clear)
-    parts = Message("RMS {r} λ", r=whole), Message("{r} λ without tilt", r=still), Message("{r} λ left", r=left)
+    parts = Message("RMS {r} λ", r=blur), Message("{r} λ with tilt", r=tilted), Message("{r} λ left", r=left)
     return tuple(part.text(WINDOW) for part in (*parts, over, Message(kind)))
 
 

@@ -107,6 +107,7 @@ class PlayBar(QFrame):
     def _connect(self) -> None:
         store = self._store
         self.key.activated.connect(lambda: store.update(playback_slider=self.key.currentData(), playback_range=None))
+        self.subject.activated.connect(lambda: store.update(playback_subject=self.subject.currentData()))
         self.first.committed.connect(lambda text: self._set_range(first=text))
         self.last.committed.connect(lambda text: self._set_range(last=text))
         for edit in (self.first, self.last):
@@ -143,6 +144,7 @@ class PlayBar(QFrame):
         if not swept:
             return
         select(self.key, state.playback.slider)
+        select(self.subject, state.playback.subject)
         found = sweep(state)
         for edit, value in ((self.first, found.first), (self.last, found.last)):
             edit.set_text(found.write(value))
@@ -192,7 +194,7 @@ class PlayBar(QFrame):
     def film(self, path: str) -> bool:
         """Film the sweep to a file; return whether it began."""
         moments = self._moments(lambda: moments_of_sweep(self._store.state))
-        return bool(moments) and self._film(path, self.subject.currentData(), moments, FRAMES_PER_S)
+        return bool(moments) and self._film(path, self._store.state.playback.subject, moments, FRAMES_PER_S)
 
     def film_builds(self, path: str, moments: tuple[Moment, ...]) -> bool:
         """Film builds, all panels of the window, to a file; return whether it began."""

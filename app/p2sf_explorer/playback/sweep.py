@@ -2,9 +2,10 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import inf, log
+from math import log
 from typing import Any
 
+from p2sf.conventions import depth_of
 from p2sf.messages import Message
 from p2sf_explorer.compare.contrasts import LINK_WORDS
 from p2sf_explorer.compute.quantities import QUANTITIES
@@ -43,7 +44,7 @@ class Sweep:
         """Return the value at a part (0 to 1) of the way, linear in 1/distance, in log f-number, or in the value."""
         if self.key in VERGENCES:
             vergence = (1 - part) / self.first + part / self.last
-            return 1 / vergence if vergence else inf
+            return depth_of(vergence)
         if self.key in RATIOS:
             return self.first * (self.last / self.first) ** part
         return self.first + part * (self.last - self.first)

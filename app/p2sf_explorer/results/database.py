@@ -11,6 +11,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import ExactDatabase, GridDatabase, Space, build_database, depth_nodes
+from p2sf.database.accuracy import accuracy
 from p2sf.database.build import build_exact
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, rendered
@@ -62,7 +63,8 @@ class DatabaseResult:
     """Maps over (field, 1/depth) by coefficient, and errors by interpolant and coefficient, in waves.
 
     ``near``: the map's columns as 1/depth in 1/mm, ``fields_deg`` its rows; errors are NaN where a rule has none.
-    ``largest`` are the databases' own figures. Where ``atlas`` is None, ``why_no_atlas`` is the reason.
+    ``largest`` are the databases' own figures; ``accuracy`` tells what is predicted of PSFs against exact rays. Where
+    ``atlas`` is None, ``why_no_atlas`` is the reason.
     """
 
     question: DatabaseRequest
@@ -74,6 +76,7 @@ class DatabaseResult:
     largest: dict[str, dict[str, float]]
     atlas: Atlas | None
     why_no_atlas: Message | None = None
+    accuracy: Message | None = None
 
 
 def question(live: Live) -> DatabaseRequest:
@@ -110,11 +113,19 @@ def answer(request: DatabaseRequest, stopped: Callable[[], bool] = lambda: False
         found = mapped(lossy, near, fields, request.wavelength_um)
         errors[rule] = {kind: np.abs(found[kind] - maps[kind]) for kind in KINDS}
         largest[rule] = lossy.errors
-    known = DatabaseResult(request, near, fields, space, maps, errors, largest, None)
+    known = DatabaseResult(request, near, fields, space, maps, errors, largest, None, accuracy=told(exact, request))
     try:
         return replace(known, atlas=atlas(exact, request))
     except P2SFError as error:
         return replace(known, why_no_atlas=error.message)
+
+
+def told(exact: ExactDatabase, request: DatabaseRequest) -> Message:
+    """Return what is predicted of the database's PSFs, or why nothing is."""
+    try:
+        return accuracy(exact, request.lens).summary
+    except P2SFError as error:
+        return error.message
 
 
 def nodes(request: DatabaseRequest) -> Space:

@@ -9,7 +9,8 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import seen_from
 from p2sf.paraxial.pupils import paraxial_rays
-from p2sf.raytrace.pencil import Sources, hexapolar, pencil
+from p2sf.raytrace.pencil import Sources
+from p2sf.raytrace.spot import RINGS, landing
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.ranges import closest_distance
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription
@@ -17,8 +18,7 @@ from p2sf_explorer.state.scales import nice
 
 ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
 DEPTHS = {"preview": 17, "settled": 49}
-RINGS = {"preview": 3, "settled": 6}
-PROBE_RINGS = 3
+FEWER_RINGS = 5  # while a slider moves, and to find the range
 FEWEST = 3  # rays: fewer are no spot
 FOCUS_UM = 1e-3  # a blur this small counts as none
 SEEN = 3  # times what is tolerated: the sharp range, with as much again on either side
@@ -55,7 +55,7 @@ def depth_of_field(live: Live) -> DepthOfField:
     return DepthOfField(
         near,
         2 * UM_PER_MM * np.abs(heights),
-        real_blur(live, depths, RINGS[live.quality]),
+        real_blur(live, depths, RINGS if live.quality == "settled" else FEWER_RINGS),
         tolerated,
         clear,
         hyperfocal(s, tolerated),
@@ -106,7 +106,7 @@ def least_axial(live: Live, closest: float) -> float:
 def probed(live: Live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Return three 1/depth over a range and the exact rays' blur there, µm."""
     near = np.linspace(*ends, 3)
-    return near, real_blur(live, np.divide(1.0, near, out=np.full(3, inf), where=near > 0), PROBE_RINGS)
+    return near, real_blur(live, np.divide(1.0, near, out=np.full(3, inf), where=near > 0), FEWER_RINGS)
 
 
 def vertex_of(near: np.ndarray, blur: np.ndarray) -> float:
@@ -131,17 +131,12 @@ def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     s = live.setup
     source = Sources(np.asarray(depths), s.source.field_slope, s.source.wavelength_um)
     try:
-        xi, eta = hexapolar(rings)
-        rays = pencil(seen_from(s.lens, s.source.azimuth_deg), source, xi, eta, clip=live.state.optics.clip)
+        found = landing(seen_from(s.lens, s.source.azimuth_deg), source, live.state.optics.clip, rings=rings)
     except P2SFError:  # a chief ray is lost at some depth: only the paraxial curve remains
         return np.full(len(depths), np.nan)
-    lost = rays.passed.sum(-1) < FEWEST
-    x, y = (np.where(np.isfinite(v), v, 0.0) for v in (rays.dx, rays.dy))
-    light = np.where(rays.passed, rays.weight, 0.0)
-    total = np.where(lost, 1.0, light.sum(-1))
-    mean_x, mean_y = ((light * v).sum(-1) / total for v in (x, y))
-    square = (light * (x * x + y * y)).sum(-1) / total - mean_x**2 - mean_y**2
-    return np.where(lost, np.nan, 2 * UM_PER_MM * np.sqrt(np.maximum(square, 0.0)))
+    blur = np.where(np.count_nonzero(found.light, -1) < FEWEST, np.nan, 2 * np.hypot(*found.rms_um))
+    # One depth alone, of a lens whose rays are lost at the others, is no curve.
+    return blur if np.count_nonzero(np.isfinite(blur)) > 1 else np.full(len(depths), np.nan)
 
 
 def sharp(setup: ParaxialSetup, tolerated_um: float) -> tuple[float, float] | None:

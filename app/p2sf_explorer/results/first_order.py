@@ -36,11 +36,19 @@ EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the 
 
 
 def rows(live: Live) -> tuple[Row, ...]:
-    """Return what a person asks first."""
+    """Return what a person asks first, the picture's own figures before the lens's: short screens cut the end."""
     s = live.setup
     c, p = s.coefficients, s.pupils
     na = float(c.na)
     return (
+        (
+            "Strehl ratio",
+            NONE
+            if live.psf.strehl is None
+            else Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
+            "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
+        ),
+        ("Peak of the PSF", _peak(live), "Where it is on the sensor: x and y from the chief ray."),
         ("Focal length f′", length(s.focal_length_mm), "Effective focal length f′ = −1/C of the system matrix."),
         (
             "Working f-number",
@@ -58,14 +66,15 @@ def rows(live: Live) -> tuple[Row, ...]:
         ),
         ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
         ("Stop", stop(s.stop), STOP_TIP),
-        (
-            "Strehl ratio",
-            NONE
-            if live.psf.strehl is None
-            else Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
-            "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
-        ),
     )
+
+
+def _peak(live: Live) -> Message:
+    """Return where the PSF is brightest."""
+    if live.psf.peak_um is None:
+        return NONE
+    x, y = (float(place) for place in live.psf.peak_um)
+    return Message("x {x:z.2f}, y {y:z.2f} µm", x=x, y=y)
 
 
 def ring_note(live: Live, kind: Kind) -> Message:

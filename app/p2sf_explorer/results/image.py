@@ -13,7 +13,7 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, slope_from_degrees
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import GeometryError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
@@ -26,6 +26,7 @@ from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.paraxial.pupils import field_from_image_height
 from p2sf.pixel_kernels import RAYS, Kernels, Recipe
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
@@ -140,6 +141,7 @@ TOO_MANY = "the photo has {count:.3g} megapixels, of which {most:g} at most are 
 CELL_PX = 24  # of the map of PSFs, at least
 ROWS_AT_ONCE = 256
 CORNER = 0.97  # of the way to the outermost chief ray
+BEYOND = 1.02  # of the widest field: image heights of colours, and of near objects, differ by that
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
 PLANNING = 0.9  # of the time of a planned picture; the rest are its kernels and the blur
 KERNELS = 0.25  # of what follows the plan; the rest is the blur
@@ -225,7 +227,10 @@ def _taken(live: Live) -> ImageRequest:
         return replace(asked, shape=own)
     shape = min(ROWS, own[0]), min(COLUMNS, own[1])
     room = (own[0] - shape[0]) / 2  # pixels above and below
-    top = room - float(setup.coefficients.image_height) * UM_PER_MM / photo.pixel_um
+    height = float(setup.coefficients.image_height)
+    if room and abs(height) * UM_PER_MM > own[0] / 2 * photo.pixel_um:
+        return replace(asked, shape=shape, centre_mm=height)  # beyond the photo, as `_taken_values` says
+    top = room - height * UM_PER_MM / photo.pixel_um
     middle = room - round(min(max(top, 0.0), 2 * room))
     return replace(asked, shape=shape, centre_mm=middle * photo.pixel_um / UM_PER_MM)
 
@@ -307,6 +312,14 @@ def _taken_values(request: ImageRequest) -> np.ndarray:
     if rows * columns > MOST_PIXELS:
         raise RequestError(TOO_MANY, count=rows * columns / 1e6, most=MOST_PIXELS / 1e6)
     own = own_shape(request.photo)
+    half_mm = own[0] / 2 * request.pixel_um / UM_PER_MM
+    if abs(request.centre_mm) > half_mm:
+        raise RequestError(
+            "the field point lands {height:.4g} mm from the axis, and the photo ends at {half:.4g} mm; choose a "
+            "smaller field, or every pixel of the photo",
+            height=abs(request.centre_mm),
+            half=half_mm,
+        )
     whole = scene_values(request.photo, own)
     top = round((own[0] - rows) / 2 - request.centre_mm * UM_PER_MM / request.pixel_um)
     left = (own[1] - columns) // 2
@@ -395,7 +408,7 @@ def _answer(
         lattice=lattice,
         seconds=perf_counter() - begun,
         headline=count,
-        notes=(*sharpening, *frame, (Message("PSFs"), product), *notes),
+        notes=(*sharpening, *frame, *moved_in(request, plan), (Message("PSFs"), product), *notes),
         cut=cut[0] if cut else None,
         alike=tuple(alike),
     )
@@ -517,9 +530,11 @@ def axis_kernel(plan: Plan, lattice: Lattice) -> np.ndarray:
 def scene_of(request: ImageRequest) -> Scene:
     """Return the scene: one depth, the lens's colours, and a sensor at the field point or over the whole field.
 
-    A sensor that would stand out over the lens's field is moved in.
+    A sensor that would stand out over the lens's field is moved in. Raises GeometryError for a field point beyond it.
     """
     channels = channels_of(request.lens)
+    if request.pixel_um is not None:
+        _check_within(request)
     reach = CORNER * rim_mm(request.lens, request.depth_mm, float(channels[1].wavelengths_um[1]))
     half_um = hypot(*request.shape) / 2
     if request.pixel_um is None:
@@ -528,6 +543,30 @@ def scene_of(request: ImageRequest) -> Scene:
         room = max(0.0, reach - half_um * request.pixel_um / UM_PER_MM)
         sensor = Sensor(*request.shape, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
     return Scene(sensor, channels, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
+
+
+def moved_in(request: ImageRequest, plan: Plan) -> Notes:
+    """Return a note where the sensor, moved in, no longer holds the field point."""
+    sensor = plan.scene.sensor
+    off = abs(request.centre_mm - sensor.centre_mm[1])
+    if request.pixel_um is None or off <= sensor.rows / 2 * sensor.pixel_mm:
+        return ()
+    words = "{off:.3g} mm from the middle of this picture, which was moved in to stay within the field of the lens"
+    return ((Message("Field point"), Message(words, off=off)),)
+
+
+def _check_within(request: ImageRequest) -> None:
+    """Raise GeometryError where the field point lies beyond the lens's field: the sensor would show another place."""
+    lens = request.lens
+    asked = float(degrees_from_slope(field_from_image_height(lens, lens.reference_wavelength_um, request.centre_mm)))
+    widest = max(abs(angle) for angle in lens.fields_deg)
+    if widest and abs(asked) > widest * BEYOND:
+        raise GeometryError(
+            "the field of {field:.4g}° lies beyond the {widest:g}° of this lens, where there is no picture of it; "
+            "choose a smaller field, or the whole field",
+            field=abs(asked),
+            widest=widest,
+        )
 
 
 def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:

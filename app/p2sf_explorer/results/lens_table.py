@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass
 from math import isfinite
+from typing import NamedTuple
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.lens.lens import Lens, Surface
-from p2sf.lens.shape_words import kind_of, shape_words
+from p2sf.lens.lens import Lens
+from p2sf.lens.properties import short_words_of, words_of
 from p2sf.messages import Message
 from p2sf_explorer.compute.editing import written
 from p2sf_explorer.compute.glass_outlines import clear_rims, still
@@ -15,39 +16,40 @@ from p2sf_explorer.state.build_errors import BuildErrors
 from p2sf_explorer.state.built import Adjustment, Piece, adjustments, pieces
 from p2sf_explorer.state.state import State
 
-DIFFRACTIVE, IDEAL = Message("diffractive"), Message("ideal lens")
 FRINGE_UM = 0.54607 / 2  # between fringes of a test plate in the green line of mercury
 COLUMNS = ("radius", "thickness", "medium", "semi_diameter", "conic", "aspheric")
+
+
+class Beside(NamedTuple):
+    """What a surface has that no number of a column shows, such as a shape: in a word or two, and with numbers."""
+
+    short: tuple[Message, ...]
+    words: tuple[Message, ...]
 
 
 @dataclass(frozen=True)
 class Rows:
     """The lens, its entries as text, one row per surface in the order of ``COLUMNS``, and its stop, 0 if none.
 
-    ``shapes``: of every surface what it is besides a conic with even terms: in a word or two, and with numbers.
+    ``beside``: of every surface what a column says beside its number.
     """
 
     lens: Lens
     texts: tuple[tuple[str, ...], ...]
     stop: int
     edited: bool
-    shapes: tuple[tuple[tuple[Message, ...], tuple[Message, ...]], ...] = ()
+    beside: tuple[dict[str, Beside], ...] = ()
 
 
 def rows(live: Live) -> Rows:
     """Return what the table shows: the lens before the focus and f-number controls change it."""
     lens = prescription(live.state)
     texts = tuple(tuple(written(surface, column) for column in COLUMNS) for surface in lens.surfaces)
-    shapes = tuple((names(surface), shape_words(surface)) for surface in lens.surfaces)
-    return Rows(lens, texts, lens.stop_surface or 0, live.state.optics.lens_text is not None, shapes)
-
-
-def names(surface: Surface) -> tuple[Message, ...]:
-    """Return the names of a surface's shape and of diffraction, where it has them, and of an ideal lens."""
-    if surface.ideal:
-        return (IDEAL,)
-    found = (kind_of(surface.shape),) if surface.shape else ()
-    return (*found, DIFFRACTIVE) if surface.diffraction else found
+    beside = tuple(
+        {column: Beside(short_words_of(surface, column), words_of(surface, column)) for column in COLUMNS}
+        for surface in lens.surfaces
+    )
+    return Rows(lens, texts, lens.stop_surface or 0, live.state.optics.lens_text is not None, beside)
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ class Contrast:
     """Cycles per mm on the sensor; contrast of patterns along y and along x, and of the same pupil without aberration.
 
     ``clear``: that of the pupil without aberration and without what stands in it; ``masked``: whether something does.
-    ``method``: what described the pupil.
+    ``method``: what described the pupil, and what error that is predicted to leave.
     """
 
     frequency_per_mm: np.ndarray
@@ -45,7 +45,8 @@ def contrast_of(request: MeasureRequest, stopped: Callable[[], bool] = never) ->
     perfect = np.maximum(found.perfect_tangential, found.perfect_sagittal)
     clear = np.maximum(found.clear_tangential, found.clear_sagittal)
     masked = not request.lens.mask.clear
-    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect, clear, masked, request.method)
+    said = Message("{method}; {note}", method=request.method, note=found.note) if found.note else request.method
+    return Contrast(found.frequency_per_mm, found.tangential, found.sagittal, perfect, clear, masked, said)
 
 
 def answer(request: MeasureRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Contrast:

@@ -9,17 +9,11 @@ import numpy as np
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.measures import energy_in
-from p2sf.paraxial.wavefront import steepest_polar, wavefront
-from p2sf.psf.fitted import fit
-from p2sf.psf.plane_waves import counts_for, pupil_amplitude
+from p2sf.psf.fitted import fit, fitted_waves
+from p2sf.psf.plane_waves import counts_for
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import corner_reach
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
-from p2sf.pupil.quadrature import disc_nodes, nodes_for, whole_disc
-from p2sf.pupil.transform import sum_on_line
-from p2sf.raytrace.fit import LEVELS
+from p2sf.psf.seidel_stack import as_fit
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf_explorer.compute.deferred_sums import coefficient_counts
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import (
     MeasureRequest,
@@ -34,10 +28,6 @@ POINTS = {"preview": 257, "settled": 513}
 FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # two evaluations of Bessel functions meet at FAR, each exact to 1e-12
 NOTHING, LATER = Message(""), Message("the energy follows when the slider rests")
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
-
-
-Nodes = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Complex amplitude and spatial frequencies along x and y, cycles per µm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,9 +93,10 @@ def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[f
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
     rows, columns = psf.values.shape
-    scale = (1.0 if psf.strehl is None else float(psf.strehl)) / (float(psf.values.max()) or 1.0)
-    row, column = psf.values[rows // 2], psf.values[:, columns // 2]
-    return scale * np.interp(position, psf.x_um, row), scale * np.interp(position, psf.x_um, column)
+    units = psf.over_unaberrated
+    units = psf.values / (float(psf.values.max()) or 1.0) if units is None else units
+    row, column = units[rows // 2], units[:, columns // 2]
+    return np.interp(position, psf.x_um, row), np.interp(position, psf.x_um, column)
 
 
 def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
@@ -115,69 +106,18 @@ def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray
     """
     if live.psf.method == "geometric" or live.state.optics.clip:
         return None
+    setup = live.setup
     try:
         six = by_coefficients(live)
-        nodes = seidel_nodes(live) if six else fitted_nodes(live)
+        mask = mask_seen(setup.lens, setup.source)
+        found = as_fit(setup.coefficients, mask) if six else fit(setup.lens, setup.source)
+        waves = fitted_waves(found, counts_for(found.steepness, abs(float(position[0]))))
     except P2SFError:  # rays are lost: only the picture's own samples remain
         return None
-    if nodes is None:
+    if waves.fx.size > MOST_NODES:
         return None
-    amplitude, kx, ky = nodes
-    window = position.size, float(position[1] - position[0])
-    across, along_y = sum_on_line(amplitude, kx, *window), sum_on_line(amplitude, ky, *window)
-    if mask_seen(live.setup.lens, live.setup.source).even and (six or not live.setup.lens.misaligned):
-        across = (across + across[::-1]) / 2  # the nodes are one half of a pupil that is even in ξ
-    along_x = across
-    return along_x.real**2 + along_x.imag**2, along_y.real**2 + along_y.imag**2
-
-
-def seidel_nodes(live: Live) -> Nodes | None:
-    """Return the nodes of the six coefficients' pupil; None if a sum over them takes too long."""
-    c, psf = live.setup.coefficients, live.psf
-    slope, twist = (float(x) for x in steepest_polar(c))
-    scale = -float(c.reduced_slope) / float(c.wavelength_um)
-    mask = mask_seen(live.setup.lens, live.setup.source)
-    if not mask.clear:
-        counts = coefficient_counts(c, (on_axes(psf), psf.pixel_um), mask)
-        if counts[0] * counts[1] > MOST_NODES:
-            return None
-        open_ = mask_nodes(mask, *counts)
-        phase = wavefront(c, open_.xi, open_.eta) - open_.path_um / float(c.wavelength_um)
-        return pupil_amplitude(light_of(open_), phase), scale * open_.xi, scale * open_.eta
-    counts = nodes_for(slope, corner_reach(abs(scale), on_axes(psf), psf.pixel_um), twist)
-    if counts[0] * counts[1] > MOST_NODES:
-        return None
-    nodes = disc_nodes(*counts)
-    return pupil_amplitude(nodes.weight, wavefront(c, nodes.xi, nodes.eta)), scale * nodes.xi, scale * nodes.eta
-
-
-def fitted_nodes(live: Live) -> Nodes | None:
-    """Return the nodes of a fit to exact rays; None if a sum takes too long, P2SFError where rays are lost."""
-    found, psf = fit(live.setup.lens, live.setup.source), live.psf
-    counts = counts_for(found.steepness, on_axes(psf), psf.pixel_um)
-    if counts[0] * counts[1] * found.numbers > MOST_NODES * LEVELS[0].numbers:
-        return None
-    skew = live.setup.lens.misaligned
-    if not found.mask.clear:
-        open_ = mask_nodes(found.mask, *counts)
-        open_ = open_.unfolded() if skew else open_
-        phase, fx, fy = found.at(open_.xi, open_.eta)
-        return pupil_amplitude(light_of(open_), phase + open_.path_um / found.wavelength_um), fx, fy
-    half = disc_nodes(*counts)
-    xi, eta, weight = whole_disc(*counts) if skew else (half.xi, half.eta, half.weight)
-    phase, fx, fy = found.at(xi, eta)
-    return pupil_amplitude(weight, phase), fx, fy
-
-
-def light_of(nodes: ClearNodes) -> np.ndarray:
-    """Return the weights of nodes behind a mask, with its amplitude, of unit sum: the peak is of the same pupil."""
-    light: np.ndarray = nodes.weight * nodes.amplitude
-    return light / light.sum()
-
-
-def on_axes(psf: Psf) -> int:
-    """Return the samples across a window whose corner lies where this one's axes end: lines have no corners."""
-    return round(psf.values.shape[-1] / np.sqrt(2))
+    middle = np.zeros(1)
+    return waves.intensity(position, middle)[0], waves.intensity(middle, position)[:, 0]
 
 
 @lru_cache(maxsize=8)

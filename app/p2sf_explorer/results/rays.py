@@ -1,24 +1,23 @@
 """Exact rays of the present source: spot diagram with its figures, ray fan, OPD fan."""
 
 from dataclasses import replace
-from math import inf
 from typing import SupportsFloat
 
 import numpy as np
 
 from p2sf.errors import P2SFError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
 from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.pencil import Fan, Sources, Spot, hexapolar, opd_fan, ray_fan, spot
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.pencil import Fan, Sources, opd_fan, ray_fan
+from p2sf.raytrace.spot import DRAWN_RINGS, Spot, mask_of_rays, spot
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.first_order import Row
 from p2sf_explorer.state.scales import significant
 
-RINGS = {"preview": 6, "settled": 10}
+RINGS = {"preview": 6, "settled": DRAWN_RINGS}
 FAN_RAYS = 41
 ARRIVE = "That arrive, of those traced."
 WITHIN_RIMS = "Share of the traced rays that pass every rim and arrive."
@@ -35,7 +34,7 @@ def lens_drawn(live: Live) -> Layout:
 
 def spots(live: Live) -> Spot:
     """Return where hexapolar rays meet the sensor, µm from the chief ray; fewer rays while a slider moves."""
-    return spot_behind(live.setup.lens, live.setup.source, RINGS[live.quality], live.state.optics.clip)
+    return spot_of(live.setup.lens, live.setup.source, live.state.optics.clip, live.quality)
 
 
 def ray_errors(live: Live) -> Fan:
@@ -48,30 +47,19 @@ def path_errors(live: Live) -> Fan:
     return opd_fan_behind(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
 
 
-def spot_behind(lens: Lens, source: Source | Sources, rings: int, clip: bool) -> Spot:
-    """Return where the hexapolar rays that the mask in the stop lets through meet the sensor, weighted by its light."""
-    mask = mask_of_rays(lens)
-    if mask.clear:
-        return spot(lens, source, rings, clip)
-    xi, eta = hexapolar(rings)
-    return spot(lens, source, rings, clip, mask.opens(xi, eta) * np.square(mask.amplitude(xi, eta)))
+def spot_of(lens: Lens, source: Source | Sources, clip: bool, quality: str) -> Spot:
+    """Return the spot; rims are followed, which takes several traces, once the sliders rest."""
+    return spot(lens, source, RINGS[quality], clip, follow_rims=quality == "settled")
 
 
 def ray_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
     """Return transverse ray errors of the rays that the mask in the stop lets through, µm, NaN for the others."""
-    return behind(mask_of_rays(lens), ray_fan(lens, source, count, clip))
+    return behind(mask_of_rays(lens, source), ray_fan(lens, source, count, clip))
 
 
 def opd_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
     """Return path differences of the rays that the mask in the stop lets through, waves, NaN for the others."""
-    return behind(mask_of_rays(lens), opd_fan(lens, source, count, clip))
-
-
-def mask_of_rays(lens: Lens) -> PupilMask:
-    """Return the mask that rays of a source in the plane of the fields meet; GeometryError for one that bends them."""
-    if lens.mask.phased:
-        check_unmasked(lens, Message("a picture of rays"))
-    return mask_seen(lens, Source(inf, 0.0, lens.reference_wavelength_um))
+    return behind(mask_of_rays(lens, source), opd_fan(lens, source, count, clip))
 
 
 def behind(mask: PupilMask, fan: Fan) -> Fan:
@@ -92,15 +80,11 @@ def landed(spot: Spot) -> np.ndarray:
 
 def figures(spot: Spot, airy_um: float, clip: bool = False) -> tuple[Row, ...]:
     """Return name, value and definition of a spot's figures; ``airy_um`` is the radius of the Airy disc."""
-    points = landed(spot)
-    apart = points - points.mean(axis=0)
-    across, up = apart.std(axis=0)
-    farthest, traced = np.hypot(*apart.T).max(), np.size(spot.x_um)
     return (
         ("RMS radius", micrometres(spot.rms_um), "Root mean square distance from the centroid."),
-        ("RMS in x", micrometres(across), "Root mean square of x about the centroid."),
-        ("RMS in y", micrometres(up), "Root mean square of y about the centroid."),
-        ("Farthest ray", micrometres(farthest), "Largest distance of a ray from the centroid."),
+        ("RMS in x", micrometres(spot.rms_x_um), "Root mean square of x about the centroid."),
+        ("RMS in y", micrometres(spot.rms_y_um), "Root mean square of y about the centroid."),
+        ("Farthest ray", micrometres(spot.farthest_um), "Largest distance of a ray from the centroid."),
         (
             "Centroid y",
             Message("{value:z.2f} µm", value=float(spot.centroid_y_um)),
@@ -109,7 +93,7 @@ def figures(spot: Spot, airy_um: float, clip: bool = False) -> tuple[Row, ...]:
         ("Airy radius, the circle", micrometres(airy_um), "First dark ring of a perfect lens, 0.61 λ/NA."),
         (
             "Rays within the rims" if clip else "Rays",
-            Message("{count} / {all}", count=len(points), all=traced),
+            Message("{count} / {all}", count=len(landed(spot)), all=np.size(spot.x_um)),
             WITHIN_RIMS if clip else ARRIVE,
         ),
     )

@@ -8,11 +8,12 @@ import numpy as np
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
+from p2sf.psf.geometric import over_unaberrated
 from p2sf.raytrace.field_curves import real_foci, seidel_foci
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
-from p2sf_explorer.compute.ray_density import over_unaberrated
 from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.scales import nice
@@ -101,12 +102,12 @@ def light(shift_um: float, request: Strip) -> np.ndarray:
     try:
         state = changed(request.state, sensor_shift_um=shift_um)
         psf = in_window(state, request.window, request.six)
-        if psf.strehl is None:
-            return over_unaberrated(psf, paraxial_setup(state))
+        setup, units = paraxial_setup(state), psf.over_unaberrated
+        if units is not None:
+            return units
+        return over_unaberrated(psf, float(setup.coefficients.na), mask_seen(setup.lens, setup.source))
     except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip
         return np.full((request.window[0],) * 2, np.nan)
-    peak = float(psf.values.max()) or 1.0
-    return psf.values * (float(psf.strehl) / peak)
 
 
 def outwards(count: int) -> list[int]:

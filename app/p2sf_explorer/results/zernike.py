@@ -44,7 +44,7 @@ def _over_the_ring(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:
 
 
 def rows(fit: ZernikeFit) -> tuple[Row, ...]:
-    """Return name, value and degree of the terms that are even in ξ; the others are zero for a field along η."""
+    """Return name, value and degree of the terms that are even in ξ, and of others that a misaligned lens has."""
     found = zip(fit.terms, fit.waves.tolist(), fit.share.tolist(), strict=True)
     return tuple(
         (
@@ -55,7 +55,7 @@ def rows(fit: ZernikeFit) -> tuple[Row, ...]:
             f"n = {term.n}, m = {term.m}".replace("-", "−"),
         )
         for term, waves, part in found
-        if term.even
+        if term.even or waves
     )
 
 

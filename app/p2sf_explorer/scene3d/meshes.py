@@ -106,15 +106,23 @@ def element(front: Side, back: Side) -> Mesh:
     """Return the solid between two sides; the narrower one is continued flat to the rim of the wider."""
     wide = max(front[2], back[2])
     radii = np.union1d(np.linspace(0, wide, RINGS), [min(front[2], back[2])])
-    z = np.stack([_heights(front, radii), _heights(back, radii)])
-    crossed = np.flatnonzero(z[0] >= z[1])  # a drawn rim may reach beyond the edge where the two sides meet
+    z = np.stack(np.broadcast_arrays(_heights(front, radii), _heights(back, radii)))
+    # A drawn rim may reach beyond the edge where the two sides meet.
+    crossed = np.flatnonzero(np.atleast_2d(z[0] >= z[1]).any(axis=0))
     kept = slice(0, max(2, crossed[0]) if crossed.size else None)
-    return revolved(radii[kept], *z[:, kept])
+    return revolved(radii[kept], *z[..., kept])
 
 
 def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
+    """Return z at radii, (r,), or along the whole sweep, (steps + 1, r), of a side that is not of revolution."""
     surface, vertex, rim = side
-    return np.full(radii.size, vertex) if surface is None else vertex + sag(surface, np.minimum(radii, rim))
+    if surface is None:
+        return np.full(radii.size, vertex)
+    held = np.minimum(radii, rim)
+    if not surface.uneven_parts:
+        return vertex + sag(surface, held)
+    turn = np.linspace(*CUT, STEPS + 1)[:, None]
+    return vertex + sag(surface, held * np.sin(turn), held * np.cos(turn))
 
 
 def revolved(
@@ -122,7 +130,7 @@ def revolved(
 ) -> Mesh:
     """Return the solid swept by the strip between two profiles z(r); ``radii`` rise from 0 or an inner rim.
 
-    They are (r,), or (steps + 1, r) where they change along the sweep.
+    All are (r,), or (steps + 1, r) where they change along the sweep.
     """
     count, turns = radii.shape[-1], steps + 1
     front_ids = np.arange(count * turns).reshape(turns, count)

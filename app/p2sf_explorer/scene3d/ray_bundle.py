@@ -11,7 +11,7 @@ from p2sf.lens.lens import seen_from
 from p2sf.lens.placement import Placement
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.result import Psf
-from p2sf.raytrace.pencil import Pencil, exit_radius, hexapolar, opd_on_sphere, pencil, pupil_rays, trace
+from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil, pupil_rays, to_the_rim, trace
 from p2sf_explorer.compute.layout import Drawing
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.scene3d.meshes import Mesh, grid_faces
@@ -49,8 +49,7 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> np.n
 
     A lost ray stays where it last was, with ``clip`` on the surface whose rim stops it. Raises GeometryError.
     """
-    xi, eta = hexapolar(RINGS)
-    xi, eta = xi / eta.max(), eta / eta.max()  # the outermost ring shows the pupil's rim
+    xi, eta = to_the_rim(RINGS)
     azimuth = setup.source.azimuth_deg
     lens = seen_from(setup.lens, azimuth)
     rays = pupil_rays(lens, setup.source, xi, eta)
@@ -97,12 +96,12 @@ def _polar() -> tuple[np.ndarray, np.ndarray]:
     return (radius * np.sin(turn)).ravel(), (radius * np.cos(turn)).ravel()
 
 
-def _cosines(rays: Pencil) -> tuple[tuple[np.ndarray, float], ...]:
+def _cosines(rays: Rays) -> tuple[tuple[np.ndarray, float], ...]:
     """Return the direction cosines in the image of the rays and of the chief ray."""
     return (rays.kx, float(np.squeeze(rays.chief_kx))), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
 
 
-def _exit_radius(setup: ParaxialSetup, rays: Pencil) -> float:
+def _exit_radius(setup: ParaxialSetup, rays: Rays) -> float:
     if setup.lens.misaligned:
         return float(np.squeeze(exit_radius(setup.lens, setup.source, rays)))
     return float((setup.lens.sensor_mm - setup.pupils.exit_from_last) / rays.chief_kz[0])

@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, Q
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.charts.painting import width_of
+from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.docking.workspace_bar import WorkspaceBar
 from p2sf_explorer.exactness.slider import ExactnessButton
@@ -24,7 +25,7 @@ from p2sf_explorer.state.scales import signed
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import described, select
-from p2sf_explorer.widgets.readout import Readout
+from p2sf_explorer.widgets.readout import SIZE, Readout
 
 METHOD_WORDS = {
     "auto": "auto",
@@ -33,7 +34,9 @@ METHOD_WORDS = {
     "traced": "traced: exact wavefront",
     "huygens": "huygens: the reference sum",
 }
-FACTS_PX = 470  # width of the figures at the right of the status line, at scale 1
+GAP = 6  # pixels at scale 1 between two parts of the bar
+FACTS_PX, SHORT_FACTS_PX = 490, 230  # widths of the figures at the right of the status line, at scale 1
+MARGINS_PX = 16  # about both parts of the status line and between them
 METHOD_TIP = (
     "Method: what describes the PSF. auto takes the cheapest method whose predicted R² against Huygens is good enough."
 )
@@ -53,6 +56,7 @@ class TopBar(QFrame):
         self._store = store
         self.workspaces: WorkspaceBar | None = None
         self._shown: tuple[object, ...] = ()
+        self._gap = GAP
         self.lens = LensChooser(self)
         self.lens.chosen.connect(self.lens_chosen)
         self.open = self._tool("Open", "Open a lens file or a saved state (Ctrl+O), or a recent one", None)
@@ -87,7 +91,7 @@ class TopBar(QFrame):
     def rescale(self, scale: float) -> None:
         """Take a scale of type, which margins and gaps follow."""
         self._row.setContentsMargins(*(round(scale * margin) for margin in (10, 6, 10, 6)))
-        self._row.setSpacing(round(6 * scale))
+        self._gap = round(GAP * scale)
         self.method.setMinimumWidth(round(88 * scale))  # a narrow window cuts its words rather than grow
         self.fit()
 
@@ -96,32 +100,34 @@ class TopBar(QFrame):
         return QSize(0, super().minimumSizeHint().height())
 
     def fit(self) -> None:
-        """Leave out as much as it takes: the word before the methods, the buttons of workspaces, at last other tools.
+        """Leave out as much as it takes: air, the word before the methods, buttons of workspaces, at last other tools.
 
         What is left out stays in the menus, under its keys, and in the command palette.
         """
         margins = self._row.contentsMargins()
         room = self.width() - margins.left() - margins.right()
-        for less in range(4):
-            self.named.setVisible(less < 1)
+        for less in range(5):
+            self._row.setSpacing(self._gap if less < 1 else self._gap // 2)
+            self.named.setVisible(less < 2)
             if self.workspaces:
-                self.workspaces.make_narrow(less > 1)
+                self.workspaces.make_narrow(less > 2)
             for tool in (self.undo, self.redo, self.pin, self.snapshot, self.help):
-                tool.setVisible(less < 3)
+                tool.setVisible(less < 4)
             items = [item for k in range(self._row.count()) if (item := self._row.itemAt(k))]
             parts = [part for item in items if (part := item.widget())]
             # Not from the layout, which learns of other sizes later.
             least = [max(part.minimumWidth(), part.minimumSizeHint().width()) for part in parts if not part.isHidden()]
             needed = sum(least) + self._row.spacing() * len(least)
-            title = (self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()) // 9  # as much as can be read
-            if needed + (title if less < 2 else 0) <= room:
+            title = self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()
+            read = (title // 9, title // 16, title // 9, 0, 0)[less]  # as much as can be read
+            if needed + read <= room:
                 return
 
     def _lay_out(self) -> None:
         self._row = row = QHBoxLayout(self)
         row.setContentsMargins(10, 6, 10, 6)
         row.setSizeConstraint(QHBoxLayout.SizeConstraint.SetNoConstraint)  # see `fit`
-        row.setSpacing(6)
+        row.setSpacing(self._gap)
         row.addWidget(self.lens)
         row.addWidget(self.open)
         row.addWidget(self.edited)
@@ -184,7 +190,7 @@ class TopBar(QFrame):
 
 
 class StatusLine(QWidget):
-    """Warnings at the left, facts at the right."""
+    """Warnings at the left, facts at the right: without times where the warnings need that room."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -195,6 +201,19 @@ class StatusLine(QWidget):
         row.setContentsMargins(4, 0, 4, 0)
         row.addWidget(self.warning, 1)
         row.addWidget(self.facts)
+        self._theme, self._facts = LIGHT, ("", "")
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Divide the width anew."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Give the figures one of two widths: with every other one the window would be laid out again."""
+        needed = width_of(self.warning.text(), self._theme.px(SIZE)) + self._theme.px(FACTS_PX + MARGINS_PX)
+        short = needed > self.width() and bool(self._facts[1])
+        self.facts.setFixedWidth(self._theme.px(SHORT_FACTS_PX if short else FACTS_PX))
+        self.facts.set_text(self._facts[short])
 
     def show_live(self, live: Live, frame_ms: float | None) -> None:
         """Show the warnings and figures of an answer."""
@@ -203,24 +222,29 @@ class StatusLine(QWidget):
         if self.warning.text() != text:
             self.warning.set_text(text, short=shortened(sentences))
             self.warning.setToolTip("\n".join(sentences))
-        self.facts.set_text(facts(live, frame_ms))
+        figures = facts(live, frame_ms)
+        self._facts = " · ".join(figures), " · ".join(figures[:2])
+        self._fit()
 
     def show_none(self, why: Message | P2SFError) -> None:
         """Show why there is no answer, for longer than the banner does, and no figures."""
         words = said(why)
         self.warning.set_text(f"⚠ {words}")
         self.warning.setToolTip(words)
-        self.facts.set_text(UNKNOWN)
+        self._facts = UNKNOWN, UNKNOWN
+        self._fit()
 
     def say(self, message: Message | P2SFError) -> None:
         """Show a message until the next answer."""
         self.warning.set_text(said(message))
+        self._fit()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.warning.restyle(theme)
         self.facts.restyle(theme)
-        self.facts.setFixedWidth(theme.px(FACTS_PX))
+        self._theme = theme
+        self._fit()
 
 
 def shortened(sentences: Sequence[str]) -> tuple[str, ...]:
@@ -234,14 +258,14 @@ def shortened(sentences: Sequence[str]) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def facts(live: Live, frame_ms: float | None) -> str:
-    """Return the line of figures at the right."""
+def facts(live: Live, frame_ms: float | None) -> tuple[str, ...]:
+    """Return the figures at the right: image height, aperture, then times."""
     c = live.setup.coefficients
     parts = [tr("image height {h} mm", h=signed(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
     parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
     if frame_ms is not None:
         parts.append(tr("{ms} ms/frame", ms=f"{frame_ms:.1f}"))
-    return " · ".join(parts)
+    return tuple(parts)
 
 
 class Banner(QFrame):

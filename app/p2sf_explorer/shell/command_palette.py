@@ -10,6 +10,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.command import Command
 
 START, NEXT, GAP = 8.0, 6.0, 0.3  # scores of a letter at a word's start and right behind the last; cost of a gap
+LATE, LONG = 0.05, 0.01  # costs of every letter before the first that fits, and of every letter of the text
 
 
 def score(sought: str, text: str) -> float | None:
@@ -31,7 +32,7 @@ def _from(letters: str, words: str, at: int) -> Iterator[float]:
         worth += START if _begins(words, found) else NEXT if found == last + 1 else 0.0
         worth -= GAP * (found - last - 1)
         last = found
-    yield worth - 0.01 * len(words)
+    yield worth - LATE * at - LONG * len(words)
 
 
 def _start(words: str, letter: str, after: int) -> int:

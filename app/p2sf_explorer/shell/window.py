@@ -231,6 +231,7 @@ class MainWindow(QMainWindow):
         self.controls.show_none()
         self.status.show_none(why)
         for panel in self.panels.values():
+            panel.widget.show_state(state)
             panel.widget.show_overlay(said(NO_ANSWER))
         if lens := drawn(state):
             self.panels["layout"].show(lens)  # type: ignore[arg-type]  # which uses no more of an answer than this
@@ -541,6 +542,7 @@ def paint(panel: Panel, key: str, live: Live) -> None:
     if isinstance(found, Refused):
         panel.widget.show_overlay(said(found.message))
         return
+    panel.widget.show_state(live.state)
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None

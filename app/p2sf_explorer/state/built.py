@@ -102,12 +102,6 @@ def _span(group: list[tuple[int, int]]) -> Message:
     return Message("surfaces {first} to {last}", first=group[0][0], last=group[-1][1])
 
 
-def piece_of(lens: Lens, selection: tuple[int, int] | None) -> Piece:
-    """Return the piece that is selected, else the first."""
-    known = pieces(lens)
-    return next((piece for piece in known if piece.span == selection), known[0])
-
-
 @dataclass(frozen=True)
 class Adjustment:
     """One number of a piece that may be off: its kind, the surfaces that it is of, and how far a slider goes."""

@@ -5,6 +5,7 @@ from math import inf
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
 from p2sf.pupil.mask import LARGEST_OBSCURATION, MOST_BLADES, MOST_POWER, MOST_VANES, NARROWEST_APODISATION, WIDEST_VANE
+from p2sf.pupil.zernike_terms import ORDERS
 from p2sf.tolerance.criteria import CRITERIA
 from p2sf.tolerance.errors_of_build import GRADES
 from p2sf_explorer.state.terms import TERMS
@@ -22,12 +23,20 @@ CHOICES = {
     "keep_focus": ("off", "paraxial", "rms"),
     "photo_show": ("lens", "sharpened", "axis", "taken", "psfs"),
     "photo_look": ("split", "side", "blink"),
+    "measured_encoding": ("automatic", "srgb", "linear"),
     "rail_side": ("right", "bottom"),
     "colours": ("standard", "viridis", "cividis", "grey"),
     "matrix_what": ("psf", "spot", "ray_fan", "opd_fan", "mtf", "pupil"),
     "matrix_across": ("wavelength_nm", "depth_mm", "sensor_shift_um", "side"),
     "tolerances_grade": tuple(GRADES),
     "tolerances_criterion": CRITERIA,
+    "playback_subject": ("stack", "stage", "psf", "pupil", "layout", "coefficients", "tabs"),
+    "seidel_sum": ("all", "w40", "w31", "w22", "petzval", "w20", "w11", "c1", "c2"),
+    "zernike_order": ORDERS,
+    "database_coefficient": ("w40", "w31", "w22", "w20", "w11", "wd"),
+    "database_rule": ("table1", "linear"),
+    "accuracy_plot": ("here", "bytes", "time"),
+    "exactness_measure": ("r2", "mtf", "r80", "time"),
     "curves_of": ("fields", "colours", "field", "focus", "lateral", "distortion", "illumination"),
 }
 MOST_LISTED = 5  # values of a list

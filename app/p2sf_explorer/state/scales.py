@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil, exp, floor, inf, isfinite, isinf, log, log10
 
+from p2sf.conventions import FARTHEST_MM
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 
@@ -12,6 +13,8 @@ INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
 NO_UNIT = {"": 1.0}
 NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
+SHORTEST_TRAVEL = 1e-300  # to the end: the division overflows nowhere
+FAR_MM = 1e10  # as far as from pole to equator: more digits than anybody reads
 APERTURE = re.compile(r"^\s*([fF]\s*/?|1\s*:)\s*(?=[\d.,])")  # f/5.6, F5.6, f 5.6, 1:5.6
 
 
@@ -73,8 +76,9 @@ class Vergence:
         return 0.0 if self.half is None else self.half - 2 * self.low
 
     def value(self, travel: float) -> float:
-        """Return the distance at this travel; infinity at the end."""
-        return inf if travel >= 1 else (self.low + self.offset) / (1 - travel) - self.offset
+        """Return the distance at this travel; infinity at the end, and where rounding leaves of that FARTHEST_MM."""
+        distance = (self.low + self.offset) / max(1 - travel, SHORTEST_TRAVEL) - self.offset
+        return distance if distance < FARTHEST_MM else inf
 
     def travel(self, value: float) -> float:
         """Return the travel of this distance, held inside 0 to 1; 1 for one beyond infinity, which is negative."""
@@ -128,9 +132,11 @@ def nice(value: float, steps: tuple[float, ...] = (1, 2, 5)) -> float:
 
 
 def written_distance(mm: float) -> str:
-    """Return a distance as people write it: ∞, metres from 1 m on, else millimetres."""
+    """Return a distance as people write it: ∞, metres from 1 m on, else millimetres; with an exponent beyond FAR_MM."""
     if isinf(mm):
         return "∞"
+    if abs(mm) >= FAR_MM:
+        return f"{mm / 1000:.4g} m"
     if abs(mm) >= 1000:
         return f"{significant(mm / 1000, 4)} m"
     return f"{significant(mm, 4)} mm"

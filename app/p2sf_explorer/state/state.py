@@ -5,14 +5,18 @@ not tell (`ENTRIES`). `changed` and `new_state` take entries by these names; `st
 """
 
 from dataclasses import dataclass, field, fields, replace
+from difflib import get_close_matches
 from math import inf
 from typing import Any, ClassVar
 
 from p2sf.colour.spectrum import spectrum_of
-from p2sf.errors import P2SFError
+from p2sf.conventions import FARTHEST_MM
+from p2sf.errors import P2SFError, RequestError
 from p2sf.lens.lens import USUAL_AIM
-from p2sf.messages import Message
+from p2sf.messages import Alternatives, Message
+from p2sf.parameters import FARTHER
 from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.tolerance.criteria import Criterion
 from p2sf.tolerance.errors_of_build import UNITS, Grade
 from p2sf_explorer.state.build_errors import BuildErrors, Compensator, check_errors
@@ -83,6 +87,8 @@ def _check_number(value: object, name: str, limits: tuple[float, float], words: 
         return
     low, high = limits
     if isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high:  # false for NaN
+        if unit == "mm" and FARTHEST_MM < value < inf:
+            raise P2SFError(Message(FARTHER, parameter=words, value=value, unit=" mm", most=FARTHEST_MM))
         return
     raise P2SFError(
         "{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}",
@@ -280,13 +286,17 @@ class Compare:
 
 @dataclass(frozen=True)
 class Playback:
-    """The ``slider`` that is swept, "" for none, over ``range`` (None: all of its travel) in ``seconds``."""
+    """The ``slider`` that is swept, "" for none, over ``range`` (None: all of its travel) in ``seconds``.
+
+    ``subject`` is what a film of the sweep shows.
+    """
 
     PREFIX: ClassVar[str] = "playback_"
 
     slider: str = ""
     range: tuple[float, float] | None = None
     seconds: float = 4.0
+    subject: str = "stack"
 
     def __post_init__(self) -> None:
         _check_entries(self)
@@ -333,7 +343,8 @@ class PhotoView:
 class MeasuredView:
     """The ``picture`` of points that is measured, "" for none, and its pixel.
 
-    ``beside``: departures from the lens on screen are fitted; otherwise the lens gives the scale only.
+    ``beside``: departures from the lens on screen are fitted; otherwise the lens gives the scale only. ``encoding``:
+    what whole numbers of the picture mean, "srgb" or "linear"; "automatic" takes 8 bits for sRGB.
     """
 
     PREFIX: ClassVar[str] = "measured_"
@@ -341,6 +352,7 @@ class MeasuredView:
     picture: str = ""
     pixel_um: float = 3.45
     beside: bool = True
+    encoding: str = "automatic"
 
     def __post_init__(self) -> None:
         _check_entries(self)
@@ -447,6 +459,24 @@ def _check_rows(rows: object, name: str, kinds: tuple[type, ...]) -> None:
 
 
 @dataclass(frozen=True)
+class PanelChoices:
+    """What panels show where they have a chooser of their own; ``exactness_measure`` is that of the top bar's slider.
+
+    Their values are in `CHOICES`, as those of every chooser.
+    """
+
+    seidel_sum: str = "all"
+    zernike_order: ZernikeOrder = "noll"
+    database_coefficient: str = "w22"
+    database_rule: str = "table1"
+    accuracy_plot: str = "here"
+    exactness_measure: str = "r2"
+
+    def __post_init__(self) -> None:
+        _check_entries(self)
+
+
+@dataclass(frozen=True)
 class LessonPlace:
     """The lesson under way by ``name``, "" for none, its ``step``, and whether the step's answer is ``told``."""
 
@@ -492,6 +522,7 @@ class State:
     matrix: MatrixView = MatrixView()
     curves: CurvesView = CurvesView()
     tolerances: ToleranceView = ToleranceView()
+    choices: PanelChoices = PanelChoices()
 
 
 FIRST = State()
@@ -513,6 +544,13 @@ def changed(state: State, **entries: Any) -> State:
     """Return a state with some entries changed, by their names in `ENTRIES`; P2SFError for a value that cannot be."""
     groups: dict[str, dict[str, Any]] = {}
     for name, value in entries.items():
+        if name not in ENTRIES:
+            close = get_close_matches(name, ENTRIES, 3, 0.5)
+            raise RequestError(
+                'the state has no entry "{name}"; choose {names}',
+                name=name,
+                names=Alternatives(close or sorted(ENTRIES)),
+            )
         group, part = ENTRIES[name]
         groups.setdefault(group, {})[part] = value
     return replace(

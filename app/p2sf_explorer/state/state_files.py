@@ -13,7 +13,8 @@ from p2sf_explorer.state.state import ENTRIES, FIRST, State
 
 SCHEMA = "p2sf-explorer-state"
 THE_STATE = Message("the state")
-VERSION = 5  # 1 was one flat table, 2 had no aim, 3 no stage, 4 no mask in the stop, no rings, tolerances, errors
+VERSION = 6
+"""1 was one flat table, 2 had no aim, 3 no stage, 4 no mask, rings, tolerances, errors, 5 no choices of panels."""
 BEFORE_AIM = {"optics": {"aim": "paraxial"}}  # what a state means that does not say how rays fill the pupil
 # Entries whose name version 0.1 (VERSION 1, one flat table) had otherwise.
 RENAMED = {

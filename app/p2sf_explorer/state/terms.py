@@ -12,4 +12,8 @@ WORDS = {
 }
 FORMULAS = {"w40": "ρ⁴", "w31": "ρ³ cos θ", "w22": "ρ² cos² θ", "w20": "ρ²", "wd": "ρ²", "w11": "ρ cos θ"}
 FILLED = {"paraxial": "rays fill the paraxial entrance pupil", "stop": "rays fill the real stop"}
+PUPIL_AXES = {
+    "paraxial": ("ξ, pupil radii", "η, pupil radii (towards the field)"),
+    "stop": ("ξ, stop radii", "η, stop radii (towards the field)"),
+}
 PLACES = {"paraxial": "place in the entrance pupil, pupil radii", "stop": "place in the stop, stop radii"}

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from PySide6.QtCore import QObject, Signal
+
 from p2sf.messages import Message
 from p2sf_explorer.state.pinning import OPTICS
 from p2sf_explorer.state.state import State, entry
@@ -10,15 +12,22 @@ from p2sf_explorer.store.store import Store
 OTHER_SIDE = Message("B is on screen, and the controls move A; show A, or swap the two, to change this one")
 
 
-class PanelStore:
+class PanelStore(QObject):
     """A `Store` that refuses to change the optics of A from a panel that shows B.
 
     A panel takes its values from the picture under the pointer, so a place, a surface or a coefficient of B would be
-    put into A. The entries that say how A and B are displayed change as ever.
+    put into A. The entries that say how A and B are displayed change as ever. What a panel hears of other panels ends
+    with this object.
     """
 
+    selected = Signal(object)
+    pointed = Signal(int)
+
     def __init__(self, store: Store) -> None:
+        super().__init__()
         self._store = store
+        store.selected.connect(self.selected)
+        store.pointed.connect(self.pointed)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._store, name)

@@ -1,5 +1,7 @@
 """How the Tolerances panel is arranged in the room it has: one value for each kind, charts, and tables."""
 
+from collections.abc import Mapping
+
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QWidget
@@ -26,7 +28,7 @@ GAP = 8  # pixels between a value and the next name
 class KindRow(QWidget):
     """One value for all errors of a kind, each behind its name, on as many lines as the width asks for."""
 
-    def __init__(self, boxes: dict[str, QDoubleSpinBox], end: QWidget):
+    def __init__(self, boxes: Mapping[str, QDoubleSpinBox], end: QWidget):
         super().__init__()
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)

@@ -1,5 +1,7 @@
 """Tables of the Tolerances panel: errors by their harm, whose ± values are typed over, and the worst builds."""
 
+from math import isfinite
+
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QColor, QPainter
 from PySide6.QtWidgets import (
@@ -14,14 +16,22 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.tolerance import Tolerance
 from p2sf.tolerance.errors_of_build import IRREGULAR, UNITS, Kind
+from p2sf.tolerance.single import INVALID
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.state.build_errors import LARGEST
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.tolerancing.analysis import Figures
 
 WORST_TIP = "Worst builds: click to see one as A beside the lens as designed, B"
 HARMS = {"rms_waves": "adds, λ", "strehl": "takes", "mtf": "takes", "boresight_um": "shifts, µm"}
+LOST = "rays are lost"
+LOST_TIP = "At ± this tolerance rays are lost: there is no figure, and the builds are not to be trusted."
+FORM_TIP = (
+    "By exact rays. The quadratic form by which builds are drawn says {value}: it does not describe so large an error."
+)
+NOTICED = 0.01  # of the largest harm: errors of the form below that are not told
 SHORT = {"rms_waves": "RMS, λ", "strehl": "Strehl", "mtf": "contrast", "boresight_um": "shift, µm"}
 ERROR_WORDS: dict[Kind, str] = {
     "decentre_x": "decentre x, surface {where}",
@@ -101,9 +111,13 @@ class BarDelegate(QStyledItemDelegate):
 
 
 class ErrorTable(_Table):
-    """Errors, the most harmful first; a ± value may be typed over (``typed``: which, and its new amount)."""
+    """Errors, the most harmful first; a ± value may be typed over.
+
+    ``typed``: which one, and its new amount; ``refused``: why a text is none.
+    """
 
     typed = Signal(object, float)
+    refused = Signal(object)
 
     def __init__(self) -> None:
         super().__init__(("error", "±", HARMS["rms_waves"]), "Errors by their harm")
@@ -126,7 +140,7 @@ class ErrorTable(_Table):
     def show_errors(self, view: Figures, settings: ToleranceView) -> None:
         """Show a row for each error; own values are in bold."""
         own = {(kind, first, max(first, last)) for kind, first, last, _ in settings.own}
-        most = max((abs(harm) for _, _, harm in view.errors), default=0.0) or 1.0
+        most = max((abs(harm) for _, _, harm in view.errors if isfinite(harm)), default=0.0) or 1.0
         with QSignalBlocker(self):
             self.setHorizontalHeaderItem(2, QTableWidgetItem(tr(HARMS[view.criterion])))
             self.setRowCount(len(view.errors))
@@ -139,25 +153,43 @@ class ErrorTable(_Table):
                 font.setBold((one.kind, *one.piece) in own or (one.kind, 0, 0) in own)
                 amount.setFont(font)
                 digits = significant(harm, 2) if abs(harm) >= 1e-3 * most else "0"
-                self.put(row, 2, local(digits), right=True).setData(SHARE_ROLE, max(harm, 0.0) / most)
+                cell = self.put(row, 2, local(digits) if isfinite(harm) else tr(LOST), right=True)
+                cell.setData(SHARE_ROLE, max(harm, 0.0) / most if isfinite(harm) else 1.0)
+                cell.setToolTip(_doubt(harm, view.form_errors[row], most))
 
     def _on_typed(self, item: QTableWidgetItem) -> None:
         one = self._rows[item.row()]
         try:
             unit = unit_words(one.kind)
             value = read_number(item.text(), "tolerance", {"": 1.0, unit: 1.0})
-        except P2SFError:
-            value = -1.0
-        if value >= 0:
-            self.typed.emit(one, value)
-        else:
+            if not 0 <= value <= LARGEST[one.kind]:
+                raise P2SFError(
+                    "the tolerance of {error} is {value:g}{unit}; give a number from 0 to {high:g}",
+                    error=error_words(one),
+                    value=value,
+                    unit=unit if unit in ("", "°") else f" {unit}",
+                    high=LARGEST[one.kind],
+                )
+        except P2SFError as error:
             with QSignalBlocker(self):
                 item.setText(local(_written_amount(one)))
+            self.refused.emit(error)
+        else:
+            self.typed.emit(one, value)
 
 
 def _written_amount(one: Tolerance) -> str:
     unit = unit_words(one.kind)
     return f"{one.amount:g}{unit}" if unit in ("", "°") else f"{one.amount:g} {unit}"
+
+
+def _doubt(harm: float, form_error: float, most: float) -> str:
+    """Return what is to be said of a harm: rays that are lost, and builds that are drawn by another figure."""
+    if not isfinite(harm):
+        return tr(LOST_TIP)
+    if abs(form_error) <= max(INVALID * abs(harm), NOTICED * most):
+        return ""
+    return local(tr(FORM_TIP, value=significant(harm + form_error, 2)))
 
 
 class BuildList(_Table):

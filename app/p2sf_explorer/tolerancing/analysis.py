@@ -5,7 +5,7 @@ They take seconds: only `question` runs on the live path, and a worker runs `Ana
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import floor, log10
+from math import floor, inf, isfinite, log10
 
 import numpy as np
 
@@ -16,7 +16,9 @@ from p2sf.tolerance import (
     Builds,
     Differentials,
     Tolerance,
+    by_form,
     differentials,
+    form_errors,
     harms,
     of_worst_field,
     sensitivities,
@@ -34,7 +36,7 @@ from p2sf_explorer.state.pinning import pin, unpin
 from p2sf_explorer.state.state import State, ToleranceView, changed
 
 BUILDS = 10_000
-PREPARATION = 0.5  # of the time, as progress is told
+PREPARATION = 0.4  # of the time, as progress is told, for differentials, and as much for single errors
 LISTED = 50  # worst builds
 BINS, LIMITS = 60, 121
 MOST_PLACES = 9
@@ -66,11 +68,12 @@ class ToleranceQuestion:
 
 @dataclass(frozen=True, eq=False)
 class ToleranceResult:
-    """The lens with one error at a time, and random builds."""
+    """The lens with one error at a time, by exact rays and by the quadratic form, and random builds."""
 
     request: ToleranceRequest
     known: Differentials
     alone: Builds
+    form: Builds
     builds: Builds
 
 
@@ -78,8 +81,9 @@ class ToleranceResult:
 class Figures:
     """What the panel shows, by its criterion in the worst field, which is written with ``places`` decimals.
 
-    ``errors``: each tolerance, its place and by how much it makes the lens worse, the largest first. ``edges`` and
-    ``counts`` of the histogram. ``yields``: (3, limits) limit, share of the builds that keep it and its standard error.
+    ``errors``: each tolerance, its place and by how much it makes the lens worse, the largest first, NaN where it loses
+    rays; ``form_errors`` of each: how much more the form of the builds says. ``edges`` and ``counts`` of the histogram.
+    ``yields``: (3, limits) limit, share of the builds that keep it and its standard error.
     ``share`` and ``error``: of ``limit``. ``worst``: number, from 0, and value of builds, the worst first.
     """
 
@@ -87,6 +91,7 @@ class Figures:
     places: int
     nominal: float
     errors: tuple[tuple[Tolerance, int, float], ...]
+    form_errors: tuple[float, ...]
     edges: np.ndarray
     counts: np.ndarray
     yields: np.ndarray
@@ -158,6 +163,8 @@ class Analyst:
 
     def __init__(self) -> None:
         self._last: Differentials | None = None
+        self._single: tuple[Builds, Builds] | None = None
+        self._single_of: tuple[Differentials, tuple[int, ...], float | None] | None = None
 
     def answer(
         self, asked: ToleranceRequest, cancelled: Callable[[], bool], progress: Callable[[float], None]
@@ -175,17 +182,31 @@ class Analyst:
                 asked.lens, asked.sources, asked.tolerances, lambda share: progress(PREPARATION * share), cancelled
             )
             self._last = known
-        alone = sensitivities(known, asked.places, asked.frequency_per_mm)
+        alone, form = self._alone(known, asked, cancelled, progress)
         builds = simulate(
             known,
             BUILDS,
             asked.places,
             asked.draw,
             asked.frequency_per_mm,
-            lambda share: progress(PREPARATION + (1 - PREPARATION) * share),
+            lambda share: progress(2 * PREPARATION + (1 - 2 * PREPARATION) * share),
             cancelled,
         )
-        return ToleranceResult(asked, known, alone, builds)
+        return ToleranceResult(asked, known, alone, form, builds)
+
+    def _alone(
+        self,
+        known: Differentials,
+        asked: ToleranceRequest,
+        cancelled: Callable[[], bool],
+        progress: Callable[[float], None],
+    ) -> tuple[Builds, Builds]:
+        """Return one error at a time by exact rays and by the form, kept for other draws of the same builds."""
+        key = known, asked.places, asked.frequency_per_mm
+        if self._single is None or self._single_of != key:
+            alone = sensitivities(*key, lambda share: progress(PREPARATION * (1 + share)), cancelled)
+            self._single, self._single_of = (alone, by_form(*key)), key
+        return self._single
 
 
 def figures(found: ToleranceResult, view: ToleranceView) -> Figures:
@@ -206,13 +227,15 @@ def figures(found: ToleranceResult, view: ToleranceView) -> Figures:
         for place, one in enumerate(found.known.tolerances)
         if place not in found.request.places
     ]
-    rows.sort(key=lambda row: -row[2])
+    rows.sort(key=lambda row: -row[2] if isfinite(row[2]) else -inf)
+    excess = form_errors(found.form, found.alone, criterion, found.request.places)
     order = best_first(values, criterion)[::-1][:LISTED]
     return Figures(
         criterion,
         places,
         float(alone[-1]),
         tuple(rows),
+        tuple(float(excess[place]) for _, place, _ in rows),
         edges,
         counts,
         np.stack([limits, *np.transpose(yields)]),

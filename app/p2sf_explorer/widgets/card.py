@@ -16,6 +16,7 @@ from PySide6.QtGui import (
     QAccessible,
     QContextMenuEvent,
     QDrag,
+    QKeyEvent,
     QMouseEvent,
     QPainter,
     QPaintEvent,
@@ -43,6 +44,8 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.i18n.tr import local, tr, unbroken
+from p2sf_explorer.state.state import State, entry
+from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.copying import copy_menu
 
 LIST_AIR = 24  # pixels beside the longest line of an open list
@@ -119,6 +122,7 @@ class Card(QFrame):
         self.readout.setObjectName("readout")
         self.readout.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.choosers: dict[str, QComboBox] = {}
         self.head = QHBoxLayout()
         self.head.addWidget(self.title)
         self.head.addWidget(self.readout, 1)
@@ -297,6 +301,17 @@ class Card(QFrame):
             self.readout.setVisible(not sentence)
             self.overlay.say(sentence, self.head.geometry().bottom() + 1)
 
+    def bind(self, store: Store, **choosers: QComboBox) -> None:
+        """Let choosers choose entries of the state by these names, and show what a state has there (`show_state`)."""
+        for name, box in choosers.items():
+            box.activated.connect(lambda _, name=name, box=box: store.update(**{name: box.currentData()}))
+        self.choosers |= choosers
+
+    def show_state(self, state: State) -> None:
+        """Follow a state with the choosers; no signal goes back."""
+        for name, box in self.choosers.items():
+            select(box, entry(state, name))
+
     def set_body(self, widget: QWidget) -> None:
         """Put the picture under the title line."""
         self.column.addWidget(widget, 1)
@@ -334,7 +349,14 @@ def paint_chevron(widget: QWidget) -> None:
 
 
 class Chooser(QComboBox):
-    """A combo box with a chevron, since a style sheet takes the native arrow away."""
+    """A combo box with a chevron, since a style sheet takes the native arrow away; digits are the window's."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Leave digits to the window, where Qt would choose the next item that begins with one."""
+        if event.text().isdigit():
+            event.ignore()
+        else:
+            super().keyPressEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the box, then the chevron."""

@@ -180,9 +180,9 @@ class SurfaceModel(QAbstractTableModel):
         return self._tip(row, key) if role == Qt.ItemDataRole.ToolTipRole else None
 
     def _tip(self, row: int, key: str) -> str:
-        """Return what a column means, and of aspheric terms the shape of the surface that is added to them."""
-        shapes = self._rows.shapes[row][1] if self._rows and key == "aspheric" and self._rows.shapes else ()
-        return "\n\n".join([tr(HEADS[key][1]), *map(said, shapes)])
+        """Return what a column means, and what of the surface it does not show, such as a shape beside even terms."""
+        beside = self._rows.beside[row].get(key) if self._rows and self._rows.beside else None
+        return "\n\n".join([tr(HEADS[key][1]), *map(said, beside.words if beside else ())])
 
     def setData(self, index: Index, value: str, role: int = Qt.ItemDataRole.EditRole) -> bool:
         """Emit what was typed, unless it is what was there."""
@@ -216,6 +216,6 @@ class LocalNumbers(QStyledItemDelegate):
 def entries(rows: Rows, row: int) -> tuple[str, ...]:
     """Return a surface's entries in the order of the columns, with a mark for the stop."""
     texts = rows.texts[row]
-    shapes = map(said, rows.shapes[row][0]) if rows.shapes else ()
+    shapes = map(said, rows.beside[row]["aspheric"].short) if rows.beside else ()
     terms = "  + ".join(filter(None, (texts[-1], *shapes)))
     return (*texts[:STOP], "●" if row + 1 == rows.stop else "○", *texts[STOP:-1], terms)

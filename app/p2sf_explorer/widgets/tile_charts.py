@@ -236,7 +236,7 @@ class LightChart(TileChart):
         bright = stretched(values.astype(float) / (peak or 1.0), scale)
         pixels = lookup(named(BRIGHTNESS, self.theme))[as_indices(bright, 0.0, 1.0)]
         rect = start, start, width_um, width_um
-        self.show_pixels(pixels, rect, Samples(values, rect, "share of the light, 1/µm²"))
+        self.show_pixels(pixels, rect, Samples(values, rect, tr("share of the light, 1/µm²")))
 
     def show_airy(self, radius_um: float) -> None:
         """Show the first dark ring of a perfect lens."""
@@ -245,8 +245,6 @@ class LightChart(TileChart):
 
 class WavesChart(TileChart):
     """A wavefront over the pupil within its outline."""
-
-    axes = "ξ, pupil radii", "η, pupil radii"
 
     def __init__(self) -> None:
         super().__init__()
@@ -260,7 +258,7 @@ class WavesChart(TileChart):
         self.rim.set_data(*outline)
         rect = -1.0, -1.0, 2.0, 2.0
         pixels = table[as_indices(values.astype(float), -limit, limit)]
-        self.show_pixels(pixels, rect, Samples(values, rect, "W, waves"))
+        self.show_pixels(pixels, rect, Samples(values, rect, tr("W, waves")))
 
 
 class PointsChart(TileChart):

@@ -3,12 +3,12 @@
 import re
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
+from PySide6.QtCore import QEvent, QLocale, QSize, Qt, Signal
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.i18n.tr import decimal_separator, local, tr
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import entry
 from p2sf_explorer.store.store import Store
@@ -27,22 +27,40 @@ class PlayButton(QToolButton):
 
 
 STANDARD = QKeySequence.StandardKey
-EDITING = (STANDARD.Copy, STANDARD.Cut, STANDARD.Paste, STANDARD.SelectAll, STANDARD.Undo, STANDARD.Redo)
+EDITING = (STANDARD.Copy, STANDARD.Cut, STANDARD.Paste, STANDARD.SelectAll)
 
 
 class ShortField(QLineEdit):
     """A field for a few letters, which leaves the window its shortcuts.
 
-    On X11 a line edit takes Ctrl+E and Ctrl+K, as Emacs has them, which here are the snapshot and the palette.
+    On X11 a line edit takes Ctrl+E and Ctrl+K, as Emacs has them, which here are the snapshot and the palette. On every
+    system it takes undo and redo, even where there is nothing to undo in it.
     """
 
     def event(self, event: QEvent) -> bool:
-        """Claim no key with Ctrl but those of copying, pasting and undoing."""
+        """Claim no key with Ctrl but those of copying and pasting, and those of undoing what is being typed."""
         if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
-            if event.modifiers() & Qt.KeyboardModifier.ControlModifier and not any(map(event.matches, EDITING)):
+            if event.modifiers() & Qt.KeyboardModifier.ControlModifier and not self._claims(event):
                 event.ignore()
                 return True
         return super().event(event)
+
+    def _claims(self, event: QKeyEvent) -> bool:
+        undo = self.isUndoAvailable() and event.matches(STANDARD.Undo)
+        redo = self.isRedoAvailable() and event.matches(STANDARD.Redo)
+        return undo or redo or any(map(event.matches, EDITING))
+
+
+class NumberBox(QDoubleSpinBox):
+    """A number with arrow keys, its decimal separator that of the language, told when it is complete."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        edit = ShortField(self)
+        edit.setObjectName("qt_spinbox_lineedit")  # as Qt's own, which is no part of its own to a screen reader
+        self.setLineEdit(edit)
+        self.setKeyboardTracking(False)
+        self.setLocale(QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C))
 
 
 class ValueEdit(ShortField):
@@ -78,9 +96,11 @@ class ValueEdit(ShortField):
 
     def _commit(self) -> None:
         self._type(False)
-        if self.isModified() and self.text() != self.last:
+        if self.isModified():
+            text = self.text()
             self.setModified(False)
-            self.committed.emit(self.text())
+            if text != self.last:
+                self.committed.emit(text)
             self.setText(self.last)  # in the standard form, also where the number has stayed the same
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
@@ -212,6 +232,7 @@ def read_list(text: str, read: Callable[[str], float]) -> tuple[float, ...]:
 class ValueList(QWidget):
     """A name, a number of values where ``counts`` are offered, and the values themselves.
 
+    The name gives way where it would leave the values too little room.
     ``counted`` tells a chosen number, ``listed`` values that were typed, ``refused`` why a text is no list of values.
     """
 
@@ -256,12 +277,21 @@ class ValueList(QWidget):
         words = self.edit.fontMetrics().horizontalAdvance(self.edit.text() + "MM")  # and the paddings
         return QSize(words + sum(part.sizeHint().width() + SPACE_PX for part in parts), super().sizeHint().height())
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave the name out where the values would be cut."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        self.label.setVisible(self.width() >= self.sizeHint().width())
+
     def show_values(self, texts: Sequence[str]) -> None:
         """Show values as they are written."""
         before = self.edit.text()
         self.edit.set_text("; ".join(texts))
         if self.edit.text() != before:
             self.updateGeometry()
+            self._fit()
         self.edit.setCursorPosition(0) if not self.edit.hasFocus() else None
         place = self.count.findData(len(texts))
         if place != self.count.currentIndex():

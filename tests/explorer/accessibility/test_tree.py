@@ -55,6 +55,7 @@ OPENED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", OPENED)
 def test_what_opens_above_the_window_has_names_and_roles_too(window, name):
     OPENED[name](window)

@@ -19,6 +19,7 @@ from p2sf_explorer.state.limits import RINGS
 from p2sf_explorer.state.pinning import OPTICS, optics, pin, side_b, swapped, unpin, with_links
 from p2sf_explorer.state.state import ENTRIES, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
+from tests.support.events import choose
 from tests.support.zooms import focusing_zoom
 
 VIEWS = {"profiles": profiles, "mtf": contrast}
@@ -192,8 +193,7 @@ def test_what_a_panel_shows_of_b_is_not_put_into_a(both, qtbot):
     for side in (Qt.Key.Key_Left, Qt.Key.Key_Right):
         qtbot.keyClick(chart, side)
         assert both.store.state == before and both.banner.isVisible()
-    both.panels["psf"].scale.setCurrentIndex(0)
-    both.panels["psf"].scale.activated.emit(0)
+    choose(both.panels["psf"].scale, "linear")
     assert both.store.state.display.psf_scale == "linear", "looks are common to both"
     both.controls.rows["sensor_shift_um"].edit.committed.emit("40")
     assert both.store.state.optics.sensor_shift_um == 40.0, "the controls show A and move it"

@@ -12,9 +12,12 @@ from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
 from p2sf.paraxial.first_order import cardinal_points
-from p2sf.raytrace.pencil import displayed_opd, opd_map, pencil
+from p2sf.paraxial.pupils import stop_rim
+from p2sf.raytrace.pencil import displayed_opd, opd_map, pencil, pupil_grid, reaching_by_surfaces
+from p2sf.tolerance.errors_of_build import Tolerance
 from p2sf.tolerance.nodal import exact_aberrations
 from p2sf_explorer.compute.glass_outlines import Section
+from p2sf_explorer.compute.layout import layout_of
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import disc, pupil_of
 from p2sf_explorer.compute.setup import built, paraxial_setup, prescription, with_lens
@@ -22,6 +25,9 @@ from p2sf_explorer.results.field_map import field_map, fields_deg
 from p2sf_explorer.state.build_errors import renumbered, with_error, without_piece
 from p2sf_explorer.state.built import adjustments, exaggerated, pieces, with_errors
 from p2sf_explorer.state.state import changed, new_state
+from tests.support.depths import RELAYS_MM
+from tests.support.perturbed_rays import perturbed
+from tests.support.waves import rms_about_plane
 
 START = with_lens(new_state(), "double_gauss_28")
 SKEW = (("decentre_x", 3, 5, 0.08), ("tilt_x", 1, 2, 0.1), ("tilt_y", 3, 5, -0.07))
@@ -81,13 +87,14 @@ def test_the_pupil_is_that_of_exact_rays_all_over_the_disc(quality):
     """The map of terms against exact rays on a grid, traced one by one."""
     setup = paraxial_setup(of(SKEW, field_deg=7.0))
     shown = pupil_of(setup, True, quality)
-    exact = opd_map(setup.lens, setup.source, 32)
+    across, up, disc_32 = pupil_grid(32)
+    exact = rms_about_plane(opd_map(setup.lens, setup.source, 32)[disc_32], across[disc_32], up[disc_32])
     xi, eta, inside = disc(len(shown.waves))
     some = np.flatnonzero(inside.ravel())[:: inside.sum() // 500]
     waves = displayed_opd(setup.lens, setup.source, xi.ravel()[some], eta.ravel()[some])
     # Order 8 leaves 1e-2 waves of this lens at full aperture, order 18 rounding of the quadrature.
     assert np.abs(shown.waves.ravel()[some] - waves).max() < {"preview": 2e-2, "settled": 1e-4}[quality]
-    assert shown.rms == pytest.approx(float(np.nanstd(exact)), rel=0.05)
+    assert shown.rms == pytest.approx(exact, rel=0.05)
     left, right = shown.waves[:, : len(shown.waves) // 2], shown.waves[:, : -len(shown.waves) // 2 - 1 : -1]
     assert np.nanmax(np.abs(left - right)) > 0.05  # or half of the pupil would have done
 
@@ -276,3 +283,42 @@ def test_nodes_stand_in_the_map_where_their_fields_do():
     # The fifth order moves the exact node by some hundredths of the map; mirrored, it would be far away.
     assert coma((x, y)) < 0.4 * min(coma((x, y - 0.1)), coma((0.1, y)), coma((-0.1, y)))
     assert coma((x, y)) < 0.1 * coma((x, -y))
+
+
+@pytest.mark.parametrize("stop", ["file", "auto"])
+@pytest.mark.parametrize("error", [("thickness", 3, 3, 0.5), ("radius", 5, 5, 2.0), ("index", 4, 4, 0.005)], ids=str)
+def test_the_iris_of_a_built_lens_keeps_its_radius(error, stop):
+    """At an f-number the stop of the lens with errors is that of the lens without, in every view and in its file."""
+    still, off = (changed(START, f_number=8.0, stop=stop, errors=errors) for errors in ((), (error,)))
+    rim = float(paraxial_setup(still).stop.semi_diameter)
+    assert [float(paraxial_setup(off).stop.semi_diameter), layout_of(off, paraxial_setup(off)).drawing.stop_rim] == [
+        pytest.approx(rim, rel=1e-15)
+    ] * 2
+    mean = np.abs(rim_heights(off))
+    assert mean == pytest.approx(rim, rel=1e-7), "exact rays of the rim"
+    filed = changed(with_lens(new_state(), "fast_gauss_f14"), errors=(error,))
+    saved = parse_toml(lens_to_toml(built(filed)), "saved")
+    assert stop_rim(saved) == pytest.approx(stop_rim(prescription(filed)), rel=1e-15)
+
+
+def rim_heights(state) -> np.ndarray:
+    """Return how high exact rays to the rim of the stop meet its surface, mm."""
+    setup = paraxial_setup(state)
+    angle = np.linspace(0, 2 * np.pi, 7)
+    found = reaching_by_surfaces(setup.lens, setup.source, np.cos(angle), np.sin(angle))
+    return np.hypot(*found.on_surfaces.points[int(setup.stop.surface) - 1, :2, :-1])
+
+
+def test_an_object_at_a_finite_depth_stays_where_it_is():
+    """Its image lands where the referee's own rays from that place do: 3.3 mm off where the field's angle was kept."""
+    start = with_lens(new_state(), "telecentric_relay")
+    field = max(find_lens("telecentric_relay").fields_deg)
+    designed, moved = (
+        changed(start, depth_mm=RELAYS_MM["telecentric_relay"], field_deg=field, errors=errors)
+        for errors in ((), (("thickness", 6, 6, 0.2),))
+    )
+    setup = paraxial_setup(designed)
+    assert paraxial_setup(moved).object_y_mm == pytest.approx(setup.object_y_mm, rel=1e-12)
+    seen = perturbed(setup.lens, setup.source, Tolerance("thickness", 6, 0.2), 0.2)
+    place, *_ = seen.traced(seen.aimed(np.zeros(1), np.zeros(1)))
+    assert chief(moved) == pytest.approx(place[:, 0], abs=1e-7)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from p2sf.raytrace.pencil import Status, pencil
-from p2sf.raytrace.surface import sag_and_slope
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -26,7 +25,7 @@ def test_a_drawn_ray_ends_where_the_pencil_says_that_a_rim_stops_it(name, field,
         if ray.clipped:
             assert ray.z.size == surface + 1  # its start, then every surface up to the one that stops it
             rim = setup.lens.surfaces[surface - 1].semi_diameter
-            sag = float(sag_and_slope(setup.lens.surfaces[surface - 1], rim**2)[0])
+            sag = float(setup.lens.surfaces[surface - 1].sag(0.0, rim))
             vertex = sum(s.thickness for s in setup.lens.surfaces[: surface - 1])
             # In the plane of the rim, widened by a rounding of six digits; the surface itself may be met before it.
             assert ray.z[-1] == pytest.approx(vertex + sag, abs=1e-4) or ray.z[-1] < vertex + sag

@@ -54,7 +54,7 @@ def differences(one: object, two: object, place: str) -> list[str]:
 @pytest.mark.parametrize("name", ["double_gauss_28", "reverse_telephoto"])
 def test_a_mirror_behind_the_lens_changes_nothing_but_the_direction(name):
     lens = find_lens(name)
-    where = {"depth_mm": 2000.0, "focus_mm": 1500.0, "field_deg": 7.0}
+    where = {"depth_mm": 2100.0, "focus_mm": 1500.0, "field_deg": 7.0}  # no figure at a rounding tie
     names = [*SAME, "field", "chromatic", "through_focus", "solid"]
     before, after = (answer(each, names, **where) for each in (lens, folded(lens)))
     assert differences(before.psf, after.psf, "psf") == []

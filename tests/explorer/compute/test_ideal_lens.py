@@ -6,6 +6,7 @@ import pytest
 from p2sf.lens.lens import Lens, indices, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.toml import lens_to_toml
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.pencil import pupil_rays, trace
 from p2sf_explorer.compute.glass_outlines import glass_of, still
@@ -13,7 +14,6 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.meridional import path
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.panels import REGISTRY, view_of
-from p2sf_explorer.results.lens_table import IDEAL
 from p2sf_explorer.scene3d.meshes import elements
 from p2sf_explorer.state.state import changed
 from tests.support.simple_lenses import two_thin_lenses
@@ -29,7 +29,7 @@ def test_every_panel_answers(lens):
     state = changed(default_state("lens", lens_to_toml(lens)), field_deg=5.0)
     found = live(state, views={entry.key: view_of(entry) for entry in REGISTRY if entry.view})
     assert float(np.asarray(found.psf.strehl)) == pytest.approx(1.0, abs=1e-6)
-    assert found.views["lens"].shapes[0][0] == (IDEAL,)
+    assert found.views["lens"].beside[0]["aspheric"].short == (Message("ideal lens"),)
 
 
 def test_plain_numbers_go_where_the_arrays_go(lens):

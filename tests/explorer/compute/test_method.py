@@ -131,6 +131,7 @@ def test_waves_of_rays_too_steep_for_paraxial_coefficients_are_explained():
     assert not any("these are paraxial" in str(w) for w in live(SHARP).warnings)
 
 
+@pytest.mark.slow
 def test_random_pictures_of_the_window_are_those_of_huygens_or_say_ray_density(capsys):
     """The short form of ``python -m tests.long.window_states``."""
     found = list(outcomes(8, seed=3))

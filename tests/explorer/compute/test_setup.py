@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import with_mask
+from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.pupil.mask import PupilMask
 from p2sf.request import Request, set_up
@@ -77,3 +79,12 @@ def test_the_layout_draws_what_the_mask_covers_at_the_stop():
     shown = layout(paraxial_setup(state)).drawing
     assert shown.dark == ((pytest.approx(-0.4 * shown.stop_rim), pytest.approx(0.4 * shown.stop_rim)),)
     assert not layout(paraxial_setup(new_state())).drawing.dark
+
+
+def test_the_f_number_slider_ends_where_the_achromats_crown_has_an_edge():
+    """By hand: two spheres 0.434 mm apart meet at the height of the beam of f/4.91; f/6 leaves both an edge."""
+    low, _ = ranges(find_lens("achromat_f6")).f_number
+    height = 20.0037 / (2 * low)
+    front, back = (radius - np.sqrt(radius**2 - height**2) for radius in (12.38401, 7.9414))
+    assert front + back == pytest.approx(0.434, abs=0.003) and front + back < 0.434
+    assert ranges(find_lens("double_gauss_28")).f_number[0] == pytest.approx(3 / 1.4, rel=0.001)

@@ -147,6 +147,7 @@ def test_the_session_is_kept_while_a_slider_goes_on_moving(window):
     assert 1.3 < kept < 2.0
 
 
+@pytest.mark.slow
 def test_a_run_that_is_killed_leaves_its_mark_and_one_that_ends_does_not():
     """The mark of a run that goes on is no crash: a second window opens beside the first."""
     code = "import sys, time; from p2sf_explorer.files import recent; from pathlib import Path; "

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
 ON_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="seccomp is Linux's")
 USED = "from tests.support.no_network import forbid_network, use_everything; forbid_network(); "

@@ -1,5 +1,6 @@
 """Exporting a set of PSFs from the window: what is offered, asked for, refused, written and cancelled."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -8,9 +9,10 @@ from PySide6.QtCore import Qt
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.library import shipped_lenses
-from p2sf_explorer.compute.setup import default_state
+from p2sf.messages import Message
+from p2sf_explorer.compute.setup import default_state, with_lens
 from p2sf_explorer.exporting.set_dialog import SetDialog
-from p2sf_explorer.exporting.set_request import SetTexts, count_of, first_texts, read_request
+from p2sf_explorer.exporting.set_request import SetTexts, first_texts, read_axes, read_request
 from p2sf_explorer.files.snapshot import side_car
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.state import changed, new_state
@@ -39,7 +41,7 @@ def test_what_is_offered_first_can_be_made(qapp, name, language):
         state = default_state(name)
         texts = first_texts(state)
         request = read_request(state, texts, "set.npz")
-        assert np.prod(request.axes.shape) == count_of(texts)
+        assert np.prod(request.axes.shape) == np.prod(read_axes(texts).shape)
         assert request.grid.pixels == 65 and request.grid.fill_factor == 1.0
     finally:
         set_language("en")
@@ -64,7 +66,9 @@ def test_texts_are_read_in_the_units_and_with_either_decimal_sign():
     ("key", "text", "why"),
     [
         ("depths", "soon", "distance"),
-        ("depths", " ; ", "at least"),
+        ("depths", " ; ", "one or more"),
+        ("depths", "1 m:2 m", "LOW:HIGH:COUNT"),
+        ("fields", "0:∞:3", "field angle"),
         ("fields", "95", "field angle"),
         ("wavelengths", "5 mm", "unit"),
         ("pixel", "0", "pitch"),
@@ -114,6 +118,60 @@ def test_a_cancelled_set_writes_nothing(window, dialog, qtbot, tmp_path):
     assert "nothing was written" in dialog.note.text() and dialog.export.isEnabled()
 
 
+def test_ranges_are_those_of_the_command_line(dialog):
+    """Between 1 m and infinity evenly in dioptres: 1, 2/3, 1/3 and 0."""
+    fill(dialog, replace(TEXTS, depths="1 m:∞:4", fields="0:14:5; 0,5°", wavelengths="400:700:4"))
+    assert [dialog.count.text().count(part) for part in ("4", "6", "96")] == [2, 2, 1]
+    axes = read_axes(dialog.texts())
+    assert axes.depths_mm == pytest.approx((1000, 1500, 3000, inf))
+    assert axes.fields_deg == (0.0, 0.5, 3.5, 7.0, 10.5, 14.0) and axes.wavelengths_nm == (400, 500, 600, 700)
+
+
+@pytest.mark.parametrize("wrong", ["0:14", "soon", "7;"])
+def test_a_list_that_is_wrong_is_not_counted(dialog, wrong):
+    fill(dialog, TEXTS)
+    assert "8" in dialog.count.text()
+    dialog.edits["fields"].setText(wrong)
+    assert dialog.count.text() == "" if wrong != "7;" else "4" in dialog.count.text()
+
+
+def test_what_was_said_is_gone_once_a_field_is_typed_in(dialog):
+    fill(dialog, TEXTS)
+    dialog.note.setText("old")
+    dialog.edits["fields"].setText("0")
+    assert not dialog.note.text()
+
+
+def test_the_end_of_a_cancelled_set_does_not_end_the_next(window, dialog, qtbot, tmp_path):
+    fill(dialog, TEXTS)
+    first, second = (read_request(window.store.state, TEXTS, str(tmp_path / name)) for name in ("a.npz", "b.npz"))
+    dialog._show_running(second)
+    dialog._on_failed(first, Message("old"))
+    dialog._on_progress(first, 0.7)
+    assert dialog.bar.isVisible() and not dialog.export.isEnabled() and not dialog.note.text()
+    assert dialog.bar.value() == 0
+    dialog._show_running(None)
+
+
+def test_the_fields_follow_a_lens_that_comes_while_the_dialog_is_open(window, dialog):
+    """What nobody typed follows edits too, as of the pixel; what was typed stays for the same lens."""
+    window.store.replace(with_lens(window.store.state, "cooke_triplet"))
+    dialog.edits["fields"].setText("0; 3")
+    window.store.update(pixel_um=6.5)
+    assert dialog.texts().pixel.startswith("6.5") and dialog.texts().fields == "0; 3"
+    window.store.replace(with_lens(window.store.state, "tessar"))
+    assert dialog.texts() == first_texts(window.store.state)
+
+
+def test_a_set_of_a_misaligned_lens_is_written(window, dialog, qtbot, tmp_path):
+    window.store.update(errors=(("decentre_x", 3, 5, 0.1), ("tilt_x", 1, 2, 0.05)))
+    fill(dialog, TEXTS)
+    with qtbot.waitSignal(dialog.ended, timeout=60000):
+        assert dialog.write(str(tmp_path / "set.npz"))
+    with np.load(tmp_path / "set.npz") as file:
+        assert file["psf"].shape == (2, 2, 2, 21, 21) and (file["chief_x_mm"] != 0).all()
+
+
 def test_the_fields_keep_what_was_typed_until_another_lens_comes(window, dialog):
     fill(dialog, TEXTS)
     window.commands.ask_set()
@@ -121,3 +179,23 @@ def test_the_fields_keep_what_was_typed_until_another_lens_comes(window, dialog)
     window.store.replace(changed(window.store.state, lens="tessar"))
     window.commands.ask_set()
     assert dialog.texts() != TEXTS
+
+
+@pytest.mark.parametrize(("key", "text"), [("pixel", "0"), ("fields", "95"), ("pixels", "5000")])
+def test_what_is_refused_is_not_counted(dialog, key, text):
+    fill(dialog, TEXTS)
+    assert "8" in dialog.count.text()
+    dialog.edits[key].setText(text)
+    assert dialog.count.text() == ""
+
+
+def test_commas_between_numbers_are_told_what_separates_them():
+    with pytest.raises(P2SFError) as caught:
+        read_axes(replace(TEXTS, fields="0, 7, 14"))
+    assert caught.value.message.values["parameter"] == "fields_deg"
+    assert read_axes(replace(TEXTS, fields="0,7")).fields_deg == (0.7,)
+
+
+def test_a_long_note_is_shown_whole(dialog):
+    dialog._say("\n".join(["what was saved, beside what, and what is to be said of it"] * 6))
+    assert dialog.note.height() >= dialog.note.heightForWidth(dialog.note.width())

@@ -70,6 +70,7 @@ SETUPS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("setup", SETUPS)
 @pytest.mark.parametrize("ending", [".npz", ".tiff", ".fits", ".csv", ".png", ".json"])
 def test_a_snapshot_dropped_on_the_window_is_the_same_state_and_the_same_psf(busy, tmp_path, ending, setup):

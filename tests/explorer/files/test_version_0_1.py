@@ -67,9 +67,9 @@ def test_a_snapshot_opens_as_its_state(path):
 
 @pytest.mark.parametrize("name", ["moved", "by_hand"])
 def test_the_picture_of_an_old_snapshot_is_the_same(name, glasses_of_version_0_1):
-    """To rounding: sums are ordered otherwise by other linear-algebra libraries."""
+    """To what settled sums promise, 1e-4 of the picture in the mean square: other nodes carry the same pupil."""
     found, stored = picture(name)
-    assert np.allclose(found, stored, rtol=0, atol=1e-12 * stored.max())
+    assert np.linalg.norm(found - stored) < 1e-4 * np.linalg.norm(stored)
 
 
 @pytest.mark.parametrize("name", ["moved", "by_hand"])

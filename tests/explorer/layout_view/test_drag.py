@@ -170,6 +170,7 @@ def hold(chart, grip):
     return at - QPointF(0, 9) if grip.kind == "stop" else at
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "by"), [("sensor", (14, 0)), ("rim", (0, 4)), ("stop", (-6, 0)), ("edge", (-4, 0)), ("vertex", (6, 0))]
 )
@@ -257,6 +258,7 @@ def test_where_decentres_are_enlarged_the_hand_moves_the_enlarged_glass(window, 
 OFF = (("tilt_x", 3, 5, 1.0), ("decentre_y", 3, 5, 0.5), ("decentre_y", 7, 11, -0.8))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "by"), [("sensor", (14, 0)), ("rim", (0, 4)), ("stop", (-6, 0)), ("edge", (-4, 0)), ("vertex", (6, 0))]
 )
@@ -422,6 +424,7 @@ def test_a_picture_of_twice_the_size_with_twice_the_type_has_its_sources_twice_a
     assert large.place(depth, slope) == pytest.approx(tuple(2 * v for v in plain.place(depth, slope)), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["source", "sensor", "edge"])
 @pytest.mark.parametrize("percent", [100.0, 200.0])
 def test_large_type_has_large_handles(window, chart, kind, percent):

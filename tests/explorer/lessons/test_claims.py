@@ -29,6 +29,7 @@ def by_another_road(claim: Claim, state: State) -> float:
     return value / other if claim.how == "/" else value - other
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("state", "claim"), CLAIMS)
 def test_a_claim_is_true(state, claim):
     value = by_another_road(claim, state)

@@ -2,12 +2,13 @@
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel
+from PySide6.QtWidgets import QApplication, QLabel
 
 from p2sf_explorer.lessons.controller import NOTHING_BEFORE, LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
 from p2sf_explorer.state.state import changed
+from tests.support.events import choose
 
 FIRST, SECOND = shipped_lessons()[:2]
 ALT = Qt.KeyboardModifier.AltModifier
@@ -92,6 +93,28 @@ def test_the_answer_is_hidden_until_asked_for(window, qtbot, panel):
     assert said(FIRST.steps[1].answer) in shown(panel.answer)  # undo goes through lessons as through all else
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("lesson", shipped_lessons()[:6], ids=lambda lesson: lesson.name)
+def test_an_answer_that_is_shown_can_be_read(window, qtbot, teaching, lesson):
+    """In a window of 1280 × 800 it began below the lower edge of its area."""
+    window.resize(1280, 800)
+    teaching.begin(lesson.name)
+    for number, step in enumerate(lesson.steps):
+        QApplication.processEvents()
+        panel, area = teaching.panel, teaching.panel.area
+        if step.question:
+            assert window.store.state.lesson.step == number
+            qtbot.mouseClick(panel.reveal, Qt.MouseButton.LeftButton)
+            QApplication.processEvents()
+            top, low = (area.verticalScrollBar().value() + at for at in (0, area.viewport().height()))
+            room = panel.answer.geometry()
+            assert low >= room.bottom() + 1 or top >= panel.question.y() - 1, (
+                "all of it, or as much as there is room for"
+            )
+            assert top <= room.top() < low
+        teaching.move(1)
+
+
 def test_the_slider_of_the_step_is_pointed_to(window, qtbot, panel):
     rows = window.controls.rows
     assert not any(row.property("pointed") for row in rows.values())
@@ -105,16 +128,18 @@ def test_after_the_last_step_comes_the_next_lesson_and_the_list_leads_to_any(win
     for _ in FIRST.steps:
         teaching.move(1)
     assert window.store.state.lesson.name == SECOND.name and window.store.state.optics.lens == SECOND.lens
-    panel.choice.setCurrentIndex(len(shipped_lessons()) - 1)
-    panel.choice.activated.emit(panel.choice.currentIndex())
     last = shipped_lessons()[-1]
-    assert window.store.state.lesson.name == last.name
+    choose(panel.choice, last.name)
+    panel.choice.setFocus()
+    qtbot.keyClick(panel.choice, "2")
+    assert window.store.state.lesson.name == last.name, "digits put panels on the stage, here as everywhere"
     before = window.store.latest(lambda state: not state.lesson.name)
     for _ in last.steps:
         teaching.move(1)
     assert window.store.state == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lesson", shipped_lessons(), ids=lambda lesson: lesson.name)
 def test_every_step_of_every_lesson_is_painted(window, teaching, lesson):
     teaching.begin(lesson.name)

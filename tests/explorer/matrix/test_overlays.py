@@ -163,7 +163,7 @@ def test_illumination_is_light_through_the_stop_over_the_sensors_area():
 
     def irradiance(slope):
         rays = pencil(setup.lens, Source(np.inf, slope, NM / 1000), *grid())
-        light = float(rays.weight.mean()) * np.cos(np.arctan(slope)) ** 4
+        light = float(rays.launch.mean()) * np.cos(np.arctan(slope)) ** 4
         near = (slope - step, slope, slope + step)
         low, middle, high = (chief(setup.lens, s) for s in near)
         radial = (high - low) / (2 * step)

@@ -1,5 +1,6 @@
 """The accuracy panel: a figure of an earlier picture is marked, in every language."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +15,7 @@ from p2sf_explorer.compute.reference import MethodResult
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.accuracy import AccuracyPanel, common_limit
-from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.store.store import Store
 
 
@@ -72,8 +73,7 @@ def test_the_complete_trade_of_a_shipped_lens_takes_the_plot_s_place(qapp):
     panel.restyle(LIGHT)
     trade = shipped_trades()["tessar"]
     for cost, of in (("bytes", "nbytes"), ("time", "batch_us")):
-        panel.shown.setCurrentIndex(panel.shown.findData(cost))
-        panel.show(answer)
+        panel.show(replace(answer, state=changed(answer.state, accuracy_plot=cost)))
         assert [dot.cost for dot in panel.trade.dots] == [getattr(row, of) for row in trade.rows]
         line = panel.trade.front
         assert all(a.cost < b.cost and a.error > b.error for a, b in pairwise(line))
@@ -81,6 +81,5 @@ def test_the_complete_trade_of_a_shipped_lens_takes_the_plot_s_place(qapp):
     dot = panel.trade.dots[0]
     found = panel.trade.read(*panel.trade.place(dot))
     assert dot.settings in found.head and len(panel.trade.rows_of_data()) == len(trade.rows) + 1
-    panel.shown.setCurrentIndex(panel.shown.findData("here"))
     panel.show(answer)
     assert panel.trade.isHidden() and not panel.methods.isHidden()

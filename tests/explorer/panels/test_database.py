@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QApplication
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database.parts import KINDS
@@ -15,6 +16,8 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import paraxial_setup, shipped
 from p2sf_explorer.results.database import ATLAS_DEFOCUS, answer, question
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.workspaces import on_stage
+from tests.support.events import choose
 
 
 def asked(**changes):
@@ -54,6 +57,7 @@ def test_table1_has_no_error_where_it_has_no_rule_and_none_at_its_nodes():
     assert 0 < found.largest["exact"]["w40"] < 1e-9 < found.largest["table1"]["w40"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lens", shipped())
 def test_every_shipped_lens_has_maps_and_an_atlas(lens):
     found = answer(asked(lens=lens))
@@ -63,6 +67,7 @@ def test_every_shipped_lens_has_maps_and_an_atlas(lens):
     assert np.allclose(peaks[np.isfinite(peaks)], 1)
 
 
+@pytest.mark.slow
 def test_the_atlas_stands_around_the_depth_in_focus():
     found = answer(asked(focus_mm=2000.0))
     depths = found.atlas.depths_mm
@@ -176,15 +181,28 @@ def test_arrow_keys_start_from_where_a_slider_has_put_the_source(window, panel, 
     assert window.store.state.optics.field_deg == pytest.approx(float(np.sort(fields)[-2]), abs=1e-6)
 
 
-def test_the_choosers_repaint(window, panel, qtbot):
+def test_the_choosers_repaint_and_undo_takes_them_back(window, panel):
+    def drawn():
+        head, *_, values = panel.error.grids[0]
+        return panel.map.grids[0][-1], values, head
+
+    def check(term, rule):
+        found = panel._answer
+        assert np.array_equal(drawn()[0], found.maps[term])
+        assert np.array_equal(drawn()[1], found.errors[rule][term], equal_nan=True) and term.upper() in drawn()[2]
+        assert (panel.term.currentData(), panel.rule.currentData()) == (term, rule)
+
+    check("w22", "table1")
     before = panel.map.grab().toImage(), panel.error.grab().toImage()
-    panel.term.setFocus()
-    qtbot.keyClick(panel.term, Qt.Key.Key_Home)
-    qtbot.keyClick(panel.rule, Qt.Key.Key_End)
-    panel.term.activated.emit(0)
-    assert panel.map.grab().toImage() != before[0]
-    assert panel.error.grab().toImage() != before[1]
-    assert "W40" in panel.note.text()
+    choose(panel.term, "w40")
+    check("w40", "table1")
+    assert panel.map.grab().toImage() != before[0] and panel.error.grab().toImage() != before[1]
+    choose(panel.rule, "linear")
+    check("w40", "linear")
+    window.store.undo()
+    check("w40", "table1")
+    window.store.undo()
+    check("w22", "table1")
 
 
 def test_an_edited_lens_has_its_own_maps(window, panel, qtbot):
@@ -195,3 +213,17 @@ def test_an_edited_lens_has_its_own_maps(window, panel, qtbot):
     window.store.replace(edited_state(state, with_value(prescription(state), 1, "radius", "57")))
     qtbot.waitUntil(lambda: panel._answer is not before and not panel._stale(), timeout=20000)
     assert panel._answer.question.lens == replace(window.live.setup.lens)
+
+
+def test_maps_beside_the_stage_can_be_read(window, panel):
+    """At 1280 × 800 three maps stood side by side there, of some pixels each."""
+    window.resize(1280, 800)
+    QApplication.processEvents()
+    shown = [chart for chart in (panel.map, panel.error, panel.atlas) if chart.isVisible()]
+    assert shown and all(min(chart.area.width(), chart.area.height()) >= 45 for chart in shown)
+    assert panel.rule.isVisible() == panel.error.isVisible()
+    state = window.store.state
+    window.store.update(**on_stage(state.display, "database"))
+    QApplication.processEvents()
+    assert all(part.isVisible() for part in (panel.map, panel.error, panel.atlas, panel.note, panel.rule))
+    window.store.replace(state)

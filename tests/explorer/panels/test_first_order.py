@@ -11,6 +11,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.results.first_order import pupil_rows, source_rows
 from p2sf_explorer.state.state import changed
+from tests.support.tiers import in_tiers
 
 
 def traced(lens, wavelength, y, u, first=0, last=None):
@@ -29,7 +30,7 @@ def numbers(rows):
     return {name: message.values.get("value") for name, message, _ in rows}
 
 
-@pytest.mark.parametrize("name", sorted(set(shipped_lenses()) - {"diffractive_singlet"}))  # `traced` refracts only
+@pytest.mark.parametrize("name", in_tiers(sorted(set(shipped_lenses()) - {"diffractive_singlet"})))  # `traced` refracts
 @pytest.mark.parametrize("depth", [None, 2000.0])
 def test_heights_magnification_aperture_and_pupils_fit_each_other(name, depth):
     state = changed(default_state(name), field_deg=1.0)
@@ -67,6 +68,7 @@ def test_heights_magnification_aperture_and_pupils_fit_each_other(name, depth):
     assert -index[-1] * marginal * axial_u / 1e-3 * (y + u * image) == pytest.approx(aperture["Lagrange invariant"])
 
 
+@pytest.mark.slow
 def test_the_relay_inverts_and_says_so_everywhere():
     answer = live(changed(default_state("relay"), field_deg=1.0, method="seidel"))
     shown = numbers(source_rows(answer))

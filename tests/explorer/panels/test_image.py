@@ -2,12 +2,13 @@
 
 from dataclasses import replace
 from time import process_time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
 
-from p2sf.errors import Cancelled, RequestError
+from p2sf.errors import Cancelled, GeometryError, RequestError
 from p2sf.image import Progress, form_image
 from p2sf.image.lattice import Lattice
 from p2sf.image.misaligned import channel_kernels
@@ -35,6 +36,7 @@ from p2sf_explorer.results.image import (
     coarse,
     fine_enough,
     local_psf,
+    moved_in,
     no_plan,
     pixels,
     question,
@@ -95,6 +97,38 @@ def test_the_whole_field_uses_mirror_images_and_reaches_the_widest_chief_ray():
     assert coarse(whole).headline.values == {"count": 12}  # 2 × 2 of 3 × 3 in three colours
 
 
+@pytest.mark.parametrize("field", [22.0, -22.0, 20.5])
+def test_a_field_point_beyond_the_field_of_the_lens_has_no_picture(field):
+    """The field of the Cooke triplet ends at 20°, to 1e-3° in every colour; the sensor used to be moved in."""
+    with pytest.raises(GeometryError) as raised:
+        scene_of(asked(lens="cooke_triplet", field_deg=field))
+    assert raised.value.message.values == {"field": pytest.approx(abs(field), abs=1e-3), "widest": 20.0}
+    for inside in (20.0, -20.0):
+        assert scene_of(asked(lens="cooke_triplet", field_deg=inside)).sensor.centre_mm[1] * inside > 0
+
+
+def test_a_picture_that_was_moved_off_its_field_point_says_so():
+    """The picture's corners end at the field of the lens, and 20° lands above its upper edge."""
+    kept, moved = (asked(lens="cooke_triplet", field_deg=field) for field in (10.0, 20.0))
+    assert not moved_in(kept, SimpleNamespace(scene=scene_of(kept)))
+    scene = scene_of(moved)
+    ((_, note),) = moved_in(moved, SimpleNamespace(scene=scene))
+    assert note.values["off"] == pytest.approx(moved.centre_mm - scene.sensor.centre_mm[1])
+    assert note.values["off"] > scene.sensor.rows / 2 * scene.sensor.pixel_mm
+
+
+def test_a_field_point_beyond_a_photo_is_not_another_one(tmp_path):
+    write_photo(tmp_path / "photo.png", np.random.default_rng(2).random((300, 300, 3)).astype(np.float32))
+    taken = dict(
+        photo_source=str(tmp_path / "photo.png"), photo_pixel_um=30.0, photo_show="taken", lens="cooke_triplet"
+    )
+    assert image._taken_values(asked(**taken, field_deg=2.0)).shape[0] == ROWS
+    with pytest.raises(RequestError) as raised:
+        image._taken_values(asked(**taken, field_deg=8.0))  # 7 mm from the axis, and the photo reaches 4.5 mm
+    assert raised.value.message.values["half"] == 4.5
+
+
+@pytest.mark.slow
 def test_large_pixels_get_no_plan_and_small_ones_do():
     whole, part = coarse(asked(photo_pixel_um=None)), coarse(asked())
     assert not fine_enough(whole) and fine_enough(part)
@@ -163,6 +197,7 @@ def test_a_cancelled_picture_stops_in_the_plan_too():
 STATED = [(name, field) for name in shipped_lenses() for field in (None, *find_lens(name).fields_deg, "all")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "field"), STATED, ids=[f"{name}-{field}" for name, field in STATED])
 def test_every_shipped_lens_has_its_first_picture_within_a_second(name, field):
     """As first shown, at its stated fields, and over the whole field; a second of CPU time, since machines are busy."""

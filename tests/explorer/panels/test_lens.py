@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import shipped_lenses
-from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n.messages import WINDOW
@@ -220,12 +220,17 @@ def test_the_exact_blur_is_the_rms_of_the_light_and_not_of_the_rays():
     """Through the real stop of a wide lens rays stand for unequal light: by as much as the spot's own RMS says."""
     picture = live(new_state(lens="reverse_telephoto", depth_mm=np.inf, focus_mm=np.inf, field_deg=30.0, f_number=4.0))
     setup = picture.setup
-    blur = real_blur(picture, np.array([np.inf, 400.0]), 6)
+    blur = real_blur(picture, np.array([np.inf, 400.0]), 16)
+    nodes, share = np.polynomial.legendre.leggauss(12)  # in ρ², with 36 directions: exact to ρ²³
+    radius, angle = np.sqrt((nodes + 1) / 2)[:, None], 2 * np.pi * (np.arange(36) + 0.5) / 36
+    xi, eta = (radius * np.sin(angle)).ravel(), (radius * np.cos(angle)).ravel()
+    area = np.repeat(share, 36)
     for depth, found in zip((np.inf, 400.0), blur, strict=True):
         source = Source(depth, setup.source.field_slope, setup.source.wavelength_um)
-        rays = pencil(setup.lens, source, *hexapolar(6))
-        assert np.ptp(rays.weight) > 0.05 * rays.weight.mean()
-        share, y = rays.weight / rays.weight.sum(), 1000 * np.stack([rays.dx, rays.dy])
-        off = y - (y * share).sum(1, keepdims=True)
-        assert found == pytest.approx(2 * np.sqrt((off**2 * share).sum()), rel=1e-6)  # as the weights, differences
-        assert found != pytest.approx(2 * np.hypot(*y.std(1)), rel=1e-4)
+        rays = pencil(setup.lens, source, xi, eta)
+        assert np.ptp(rays.launch) > 0.05 * rays.launch.mean()
+        y = 1000 * np.stack([rays.dx, rays.dy])
+        light, even = (weight / weight.sum() for weight in (area * rays.launch, area))
+        of_light, of_rays = (2 * np.sqrt(np.cov(y, aweights=w, ddof=0).trace()) for w in (light, even))
+        assert found == pytest.approx(of_light, rel=1e-6)  # as the weights, differences
+        assert found != pytest.approx(of_rays, rel=1e-4)

@@ -16,6 +16,7 @@ from p2sf_explorer.compute.setup import load, prescription
 from p2sf_explorer.panels.glass_completion import completer, written_indices
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.widgets.surface_table import KEYS
+from tests.support.events import choose
 
 LENS = "double_gauss_28"
 LEFT = Qt.MouseButton.LeftButton
@@ -154,8 +155,7 @@ def test_a_sensor_edited_by_itself_stays_where_it_is_put():
 
 
 def test_the_chooser_changes_what_the_sensor_follows(window, table):
-    table.focus.setCurrentIndex(table.focus.findData("off"))
-    table.focus.activated.emit(table.focus.currentIndex())
+    choose(table.focus, "off")
     assert window.store.state.display.keep_focus == "off"
 
 

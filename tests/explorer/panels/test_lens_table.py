@@ -104,6 +104,7 @@ def test_a_typed_glass_is_live(window, typed, glass):
     assert float(window.live.setup.coefficients.w40) != before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("row", "key", "text", "words"),
     [
@@ -197,6 +198,7 @@ def test_a_glass_without_this_wavelength_is_refused():
         edited_state(state, with_value(load("plano_convex"), 1, "medium", "nd 1.5 vd 60"))
 
 
+@pytest.mark.slow
 def test_100_edits_undone_give_bit_identical_states_and_pictures(window):
     chance, first = np.random.default_rng(1), window.store.state
     visited = [first]

@@ -6,12 +6,18 @@ import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtWidgets import QApplication
 
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.metrics.window import radius_of_energy
+from p2sf.psf.methods import render
+from p2sf_explorer.matrix.pictures import radius_figure
 from p2sf_explorer.matrix.points import nearest
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.tile_charts import LightChart, arranged
+from tests.support.events import choose
 
 QUICK = {"method": "seidel", "f_number": 8.0}
 
@@ -92,8 +98,7 @@ def test_what_moves_again_ends_what_was_being_settled(window, panel):
 
 @pytest.mark.parametrize("what", ["spot", "ray_fan", "opd_fan", "mtf", "pupil"])
 def test_every_kind_has_its_picture(window, panel, qtbot, what):
-    panel.what.setCurrentIndex(panel.what.findData(what))
-    panel.what.activated.emit(panel.what.currentIndex())
+    choose(panel.what, what)
     rested(panel, qtbot)
     assert panel.shown[0].what == what
     assert all(chart.words.figure and chart.words.extent for chart in panel.grid.charts)
@@ -130,6 +135,7 @@ def test_depths_are_typed_with_their_units(window, panel, qtbot):
     assert headings(panel)[:3] == ["0° 1 m", "0° 2.5 m", "0° ∞"]
 
 
+@pytest.mark.slow
 def test_a_and_b_stand_side_by_side_and_a_click_goes_to_either(window, panel, qtbot):
     window.store.update(matrix_across="side")
     assert "Ctrl+B" in panel.badge.text() and panel.grid.shape == (3, 1)
@@ -201,6 +207,8 @@ def test_in_the_rail_pictures_and_controls_have_room(window, panel):
     assert all(min(chart.area.width(), chart.area.height()) > 30 for chart in panel.grid.charts)
     parts = (panel.what, panel.across, panel.fields, panel.values, panel.shared, panel.scale, panel.badge)
     assert all(part.visibleRegion().boundingRect().height() >= part.minimumSizeHint().height() for part in parts)
+    edit = panel.values.edit
+    assert edit.fontMetrics().horizontalAdvance(edit.text()) < edit.width() - 8, "three colours and their unit"
 
 
 def test_zoom_of_one_is_that_of_all_on_one_scale(window, panel, qtbot):
@@ -246,3 +254,11 @@ def test_curves_have_a_legend_and_pictures_have_none(window, panel, qtbot):
     window.store.update(matrix_what="psf")
     rested(panel, qtbot)
     assert panel.widget.readout.text() == ""
+
+
+@pytest.mark.parametrize("pixel_um", [0.5, 1.7])
+def test_radii_have_the_digits_of_the_profiles(pixel_um):
+    """Three significant digits, as *Profiles* writes R80 of the same light."""
+    psf = render(find_lens("double_gauss_28"), Source(field_deg=7), "fitted", pixels=256, pixel_um=pixel_um)
+    radius = float(radius_of_energy(psf, 0.8))
+    assert str(radius_figure(psf, True).values["radius"]) == f"{radius:.3g}"

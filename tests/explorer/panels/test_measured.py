@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
@@ -39,6 +40,7 @@ def panel(window):
     window.store.update(tab="profiles")
 
 
+@pytest.mark.slow
 def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window, qtbot, tmp_path):
     panel.open_picture(str(picture))
     assert panel.overlay.text and not panel.save.isVisibleTo(panel.widget)
@@ -46,7 +48,11 @@ def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window,
     assert panel.list.rowCount() == 6 and not panel.overlay.text
     assert panel.chart.read(*panel.chart.from_pixels(panel.chart.room(panel.chart.tiles[0]).center()))
     values = dict(zip((row[0] for row in panel.table.rows), panel.table.values, strict=True))
-    assert values["W40"].endswith("λ (3.862)")
+    stated, off = (
+        float(values["W40"].split("(")[1].rstrip(")")),
+        float(values["f-number"].replace("−", "-").split(" ± ")[0]),
+    )
+    assert stated == pytest.approx(3.862 * (1 + off / 100) ** -4, rel=0.01)  # of the lens, at the f-number found
     words = values["sensor shift"].removesuffix(" µm").split(" ± ")
     shift, error = map(float, words)
     assert len({len(text.partition(".")[2]) for text in words}) == 1, "a value has as many decimals as its error"
@@ -95,6 +101,35 @@ def photographed(path):
     noise = np.random.default_rng(0).normal(0, 0.005, blurred.shape)
     write_photo(path, blurred + noise.astype(np.float32), "linear")
     return truth
+
+
+@pytest.mark.slow
+def test_the_encoding_is_chosen_and_what_was_done_is_said(panel, picture, window, qtbot, tmp_path):
+    """8 bits of one picture, taken for sRGB by themselves and for counts when told so."""
+    counts = np.load(picture)
+    path = tmp_path / "points.png"
+    Image.fromarray(np.clip(255 * (counts / counts.max()) ** (1 / 2.2), 0, 255).astype(np.uint8)).save(path)
+    said = {}
+    panel.open_picture(str(path))
+    for choice in ("automatic", "linear"):
+        panel.encoding.setCurrentIndex(panel.encoding.findData(choice))
+        panel.encoding.activated.emit(panel.encoding.currentIndex())
+        assert window.store.state.measured.encoding == choice
+        wanted = "srgb" if choice == "automatic" else choice
+        qtbot.waitUntil(
+            lambda wanted=wanted: panel._found is not None and panel._found.frames[0].encoding == wanted, timeout=60000
+        )
+        said[choice] = panel.widget.readout.text()
+    assert "sRGB" in said["automatic"] and "linear counts" in said["linear"]
+    window.store.update(measured_encoding="automatic")
+
+
+def test_stop_ends_a_measurement_before_it_is_done(panel, picture, qtbot):
+    panel.open_picture(str(picture))
+    qtbot.waitUntil(lambda: "%" in panel.widget.readout.text(), timeout=60000)
+    panel.stop_button.click()
+    qtbot.waitUntil(lambda: not panel.worker.busy, timeout=20000)
+    assert panel._found is None and "stopped" in panel.overlay.text
 
 
 def test_what_is_no_picture_of_points_is_said(panel, window, qtbot, tmp_path):

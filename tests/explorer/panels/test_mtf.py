@@ -45,6 +45,7 @@ def test_what_is_painted_is_the_autocorrelation_of_the_pupil(waves):
     assert found.frequency_per_mm[-1] == pytest.approx(2000 * float(c.na) / float(c.wavelength_um), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_slow_transfer_function_follows_and_no_wrong_curve_is_shown(window, qtbot):
     """At 1.5 m the Petzval focused at infinity has hundreds of waves: asked of the worker, then painted."""
     window.store.update(lens="petzval", method="traced", field_deg=3.0, depth_mm=700.0, tab="mtf")
@@ -99,7 +100,7 @@ def test_energy_behind_a_ring_is_beside_that_of_the_same_pupil(window, qtbot):
     """That of the annular Airy pattern, 2J₁(v)/v − ε²·2J₁(εv)/(εv) over 1 − ε², summed over rings."""
     window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="profiles"))
     panel = window.panels["profiles"]
-    qtbot.waitUntil(lambda: len(panel.within.data()[0]) > 0, timeout=30_000)
+    qtbot.waitUntil(lambda: not panel.asking.worker.busy and len(panel.within.data()[0]) > 0, timeout=30_000)
     (radius, perfect), (_, clear) = panel.perfect.data(), panel.clear.data()
     unit = 2 * np.pi * float(window.live.setup.coefficients.na) / float(window.live.setup.coefficients.wavelength_um)
     v = np.linspace(1e-6, 60 * unit, 40_000)

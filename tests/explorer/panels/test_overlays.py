@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import new_state
+from tests.support.events import choose
 
 
 @pytest.fixture
@@ -23,8 +24,7 @@ def rested(panel, qtbot):
 
 @pytest.mark.parametrize("of", CHOICES["curves_of"])
 def test_every_kind_has_its_curves_and_a_legend(window, panel, qtbot, of):
-    panel.of.setCurrentIndex(panel.of.findData(of))
-    panel.of.activated.emit(panel.of.currentIndex())
+    choose(panel.of, of)
     rested(panel, qtbot)
     found = panel.found[1]
     assert window.store.state.curves.of == of and panel.chart.labels == found.axes

@@ -80,6 +80,7 @@ def widths(chart: Chart) -> np.ndarray:
     return np.diff(np.array(chart.ranges()))[:, 0]
 
 
+@pytest.mark.slow
 @every_panel
 def test_the_wheel_zooms_about_the_pointer_and_home_is_the_whole_plot(charts, qtbot):
     for chart in charts:
@@ -95,6 +96,7 @@ def test_the_wheel_zooms_about_the_pointer_and_home_is_the_whole_plot(charts, qt
         assert chart.ranges() == whole and not chart.pins
 
 
+@pytest.mark.slow
 @every_panel
 def test_a_drag_carries_the_picture_along(charts, qtbot, window):
     for chart in charts:
@@ -117,6 +119,7 @@ def moved(chart, at, held):
     return QMouseEvent(QEvent.Type.MouseMove, at, chart.mapToGlobal(at), Qt.MouseButton.NoButton, LEFT, held)
 
 
+@pytest.mark.slow
 @every_panel
 def test_what_is_under_the_pointer_is_said_beside_it(charts, qtbot):
     for chart in charts:
@@ -139,6 +142,7 @@ def leaving():
     return QEvent(QEvent.Type.Leave)
 
 
+@pytest.mark.slow
 @every_panel
 def test_a_locked_scale_stays_and_an_unlocked_one_follows(charts, qtbot):
     for chart in charts:
@@ -152,6 +156,7 @@ def test_a_locked_scale_stays_and_an_unlocked_one_follows(charts, qtbot):
         chart.set_range((left, right), (low, high))
 
 
+@pytest.mark.slow
 @every_panel
 def test_a_marker_is_pinned_copied_and_removed(charts, qtbot, window):
     for chart in charts:

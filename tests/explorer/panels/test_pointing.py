@@ -9,22 +9,17 @@ from PySide6.QtWidgets import QApplication
 
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.layout_view.surface_highlight import section
+from tests.support.events import choose
 
 
 @pytest.fixture
 def panel(window):
     window.open_panel("seidel")
     made = window.panels["seidel"]
-    choose(made, "w40")
+    choose(made.term, "w40")
     made.chart.grab()
     yield made
-    choose(made, "w40")
     window.store.point_at(0)
-
-
-def choose(panel, term):
-    panel.term.setCurrentIndex(panel.term.findData(term))
-    panel.term.activated.emit(panel.term.currentIndex())
 
 
 def on_surface(window, surface):
@@ -48,7 +43,7 @@ def test_bars_are_as_high_as_the_contributions_and_the_last_is_their_sum(window,
 
 
 def test_all_sums_stand_side_by_side_and_add_up(window, panel):
-    choose(panel, "all")
+    choose(panel.term, "all")
     waves = window.live.views["seidel"].waves
     count = len(waves["w40"])
     for surface in range(1, count + 1):

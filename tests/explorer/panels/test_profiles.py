@@ -47,7 +47,7 @@ def test_fine_sections_go_through_the_samples_of_the_picture(method, lens):
     view, psf = profiles(answer), answer.psf
     assert view.position_um.size > 3 * psf.values.shape[-1]
     rows = psf.values.shape[0] // 2
-    scale = float(psf.strehl) / psf.values.max()
+    scale = float(psf.sum_over_peak)
     top = max(view.along_y.max(), 1e-9)
     found = np.interp(psf.y_um, view.position_um, view.along_y) / top
     own = psf.values[:, rows] * scale

@@ -18,6 +18,7 @@ from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.terms import NAMES
+from tests.support.events import choose
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])
@@ -182,9 +183,9 @@ def test_the_bar_sets_range_and_speed_and_refuses_in_a_sentence(window, qtbot):
 
 def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qtbot, tmp_path):
     window.store.update(playback_slider="added_wd", playback_range=(0.0, 1.0), playback_seconds=0.25, free_pupil=True)
-    state = window.store.state
     bar, path = window.play, tmp_path / "way.png"
-    bar.subject.setCurrentIndex(bar.subject.findData("psf"))
+    choose(bar.subject, "psf")
+    state = window.store.state
     with qtbot.waitSignal(bar.filming.ended, timeout=20000) as told:
         assert bar.film(str(path))
         assert bar.progress.isVisible()
@@ -204,7 +205,7 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
 
 def filmed(window, qtbot, path, subject: str, meanwhile=lambda: None) -> str:
     bar = window.play
-    bar.subject.setCurrentIndex(bar.subject.findData(subject))
+    choose(bar.subject, subject)
     with qtbot.waitSignal(bar.filming.ended, timeout=60000) as told:
         assert bar.film(str(path))
         assert not bar.close_bar.isEnabled()
@@ -225,6 +226,7 @@ def part_of(path, widget, chart) -> np.ndarray:
 def test_what_changes_while_a_film_is_made_is_not_in_it(window, qtbot, tmp_path):
     """Undo takes the sweep out of the state, and another depth comes in: the film is the same to the pixel."""
     sweeping = dict(playback_slider="added_wd", playback_range=(0.0, 1.0), playback_seconds=0.25, free_pupil=True)
+    sweeping |= dict(playback_subject="psf")
 
     def meddle():
         window.store.undo()
@@ -273,6 +275,7 @@ def test_a_film_can_be_cancelled(window, qtbot, tmp_path):
     assert window.live.state == window.store.state
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".png", ".gif"])
 def test_a_film_keeps_its_size_while_the_window_is_resized(window, qtbot, tmp_path, ending):
     window.store.update(playback_slider="field_deg", playback_seconds=0.4)

@@ -1,5 +1,7 @@
 """Every command by name and key: palette, help, and the choices of stop, clip, colours and theme."""
 
+import re
+
 import pytest
 from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
@@ -13,6 +15,7 @@ from p2sf_explorer.shell.command_palette import Palette, named, ranked, score
 from p2sf_explorer.shell.help import HelpPage
 from p2sf_explorer.state.what_if import PRESETS
 from p2sf_explorer.widgets.command import Command
+from tests.support.events import choose
 from tests.support.zooms import focusing_zoom
 
 
@@ -24,6 +27,7 @@ from tests.support.zooms import focusing_zoom
         ("cook", ["Copy the look", "Lens: Cooke triplet"], 1),
         ("UNDO", ["Steps: Undo"], 0),
         ("spr", ["Vorgabe: Sphärisch, Randfokus", "Sprache: Deutsch"], 1),
+        ("casse", ["Lens: Maksutov-Cassegrain", "Lens: Cassegrain telescope f/10, 200 mm"], 1),
         ("", ["first", "second"], 0),
     ],
 )
@@ -65,6 +69,17 @@ def test_typing_and_enter_do_what_is_found(window, qtbot):
     assert window.store.state.display.tab == "mtf"
 
 
+def test_the_first_word_of_a_lens_s_title_finds_that_lens(window):
+    window.commands.find()
+    palette, words = window.commands.palette, [title(name) for name in shipped()]
+    first = [re.match(r"\w+", text)[0] for text in words]
+    for word, text in zip(first, words, strict=True):
+        if first.count(word) == 1:
+            palette.sought.setText(f"lens {word}")
+            assert text in palette.found.item(0).text()
+    palette.hide()
+
+
 def test_arrows_choose_and_escape_goes_back(window, qtbot):
     before = window.store.state
     window.commands.find()
@@ -102,8 +117,7 @@ def test_stop_aim_and_clip_tell_the_store_and_follow_it(window, qtbot):
     assert window.store.state.optics.aim == window.live.setup.lens.aim == filled.currentData() != usual
     window.store.undo()
     assert filled.currentData() == window.live.setup.lens.aim == usual
-    row.stop.setCurrentIndex(row.stop.findData("auto"))
-    row.stop.activated.emit(row.stop.currentIndex())
+    choose(row.stop, "auto")
     assert window.store.state.optics.stop == "auto"
     qtbot.mouseClick(row.clip, Qt.MouseButton.LeftButton, pos=QPoint(8, row.clip.height() // 2))
     assert window.store.state.optics.clip

@@ -8,8 +8,10 @@ from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWid
 
 from p2sf_explorer.panels import REGISTRY
 from tests.explorer.panels.test_strip_and_map import filled
+from tests.support.tiers import in_tiers
 
 TABS = [entry.key for entry in REGISTRY if entry.key != "solid"]
+DIFFERENT = ("psf", "lens_table", "matrix")  # a picture, a table, and choosers
 MOST = 200
 
 
@@ -36,7 +38,7 @@ def named(parts) -> str:
     return "\n".join(f"{type(part).__name__} {part.accessibleName() or part.objectName()}" for part in parts)
 
 
-@pytest.mark.parametrize("key", TABS)
+@pytest.mark.parametrize("key", in_tiers(TABS, DIFFERENT))
 def test_tab_reaches_everything_of_a_panel_and_comes_round(window, key, qtbot):
     window.open_panel(key)
     if key == "image":  # its buttons are for a picture

@@ -67,7 +67,7 @@ def test_the_next_answer_uncovers_every_panel(without):
     assert not without.banner.isVisible()
     assert not any(without.panels[key].widget.overlay.isVisible() for key in without._visible())
     known = {name: str(value) for name, value, _ in without.controls.facts.rows}
-    assert {name for name, value in known.items() if value == UNKNOWN} <= {"Strehl ratio"}, "ray density has none"
+    assert {name for name, value in known.items() if value == UNKNOWN} <= {"Strehl ratio", "Peak of the PSF"}
 
 
 REASON = Message("the blur is too wide for a table; stop down")

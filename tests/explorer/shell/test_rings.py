@@ -51,6 +51,7 @@ def test_dragging_the_zoom_turns_the_lens_and_is_one_step_of_undo(window, rows, 
     assert window.store.state.optics.zoom is None and row.edit.text() == "30.0 mm"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("text", "zoom"), [("tele", 60.0), ("40 mm", 40.0), ("52,5", 52.5), ("33.3 mm", 33.3)])
 def test_a_column_or_a_number_may_be_typed(window, rows, qtbot, text, zoom):
     type_into(qtbot, rows["zoom"].edit, text)

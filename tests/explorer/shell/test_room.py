@@ -17,8 +17,11 @@ from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shi
 from p2sf_explorer.docking.tabs import Tabs
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.lens_table import LensTablePanel
+from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.readout import BAR_AIR, Readout, Sentence
 
@@ -83,6 +86,39 @@ def test_no_fact_is_cut_where_the_banner_takes_room(window, qtbot):
     air = area.viewport().width() - facts.mapTo(area, facts.rect().topRight()).x() - 1
     assert air == (BAR_AIR if bar.isVisible() else 0)
     window.resize(1440, 900)
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_strehl_ratio_and_peak_are_seen_without_scrolling(only_window, language):
+    set_language(language)
+    try:
+        made = MainWindow(new_state(theme="light", language=language), measured=False)
+        made.resize(1280, 800)
+        made.show()
+        QApplication.processEvents()
+        facts, area = made.controls.facts, made.controls.figures
+        for name in ("Strehl ratio", "Peak of the PSF"):
+            row = [row[0] for row in facts.rows].index(name)
+            top = facts.mapTo(area.viewport(), facts._room(row).toRect().topLeft()).y()
+            assert 0 <= top <= area.viewport().height() - facts.row, name
+        assert made.top.named.isVisible(), "the label of the methods"
+        made.store.update(method="seidel")
+        assert made.top.named.isVisible()
+        assert made.top.method.currentText() != made.top.tolerance.text()
+        made.close()
+    finally:
+        set_language("en")
+
+
+def test_times_make_room_for_warnings(window):
+    window.resize(1280, 800)
+    QApplication.processEvents()
+    status = window.status
+    usual = status.facts.width()
+    assert tr("{ms} ms computing", ms="").strip() in status.facts.text()
+    window.store.update(lens="wide_angle_35", depth_mm=500.0, field_deg=31.0, method="seidel")
+    assert len(window.live.warnings) > 1 and status.facts.width() < usual
+    assert status.facts._cut() == status.facts.text() and " · NA " in status.facts.text()
 
 
 def test_a_colour_bar_widens_for_its_longest_label_and_keeps_that_room(qapp):

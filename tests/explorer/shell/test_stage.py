@@ -64,6 +64,14 @@ def test_a_digit_puts_that_satellite_on_the_stage_and_again_puts_it_back(window,
     assert where(window) == before
 
 
+def test_digits_go_to_the_stage_from_a_chooser_too(window, qtbot):
+    """Qt would choose the next item that begins with one, such as another number of rays."""
+    box, before = window.panels["layout"].count, window.store.state
+    box.setFocus()
+    qtbot.keyClick(box, "1")
+    assert where(window)[0] == "layout" and window.store.state.display.rays_count == before.display.rays_count
+
+
 def test_digits_typed_into_a_value_or_a_table_stay_there(window, qtbot):
     edit = window.controls.rows["depth_mm"].edit
     edit.setFocus()

@@ -49,6 +49,7 @@ def large(window, monkeypatch):
     window.resize(1440, 900)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "least"), [((2560, 1440), 14), ((3840, 2160), 20)])
 def test_on_a_large_screen_no_type_is_too_small_to_read(large, monkeypatch, size, least):
     """Of every widget that has words, and of everything that charts and readouts write, over all panels."""
@@ -70,6 +71,7 @@ def test_on_a_large_screen_no_type_is_too_small_to_read(large, monkeypatch, size
     assert painted and min(painted) >= least
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_workspace_fits_a_screen_of_1280_by_720(qapp, language):
     set_language(language)
@@ -99,6 +101,7 @@ def test_the_first_start_fits_the_screen(large, monkeypatch, size, wanted):
     assert (large.width(), large.height()) == wanted
 
 
+@pytest.mark.slow
 def test_the_keys_make_type_larger_smaller_and_fit_for_the_screen(large, qtbot):
     window = large
     plain = window.controls.focus_button.fontInfo().pixelSize()

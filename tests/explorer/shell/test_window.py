@@ -42,6 +42,7 @@ def test_dragging_a_slider_moves_every_panel_together(window, drag, key):
     assert changed(before, pictures(window)) == set(before)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", KEYS)
 def test_the_number_beside_the_slider_follows(window, drag, key):
     row = window.controls.rows[key]

@@ -97,6 +97,7 @@ def test_ones_own_is_saved_found_and_deleted(window, bar, qtbot, monkeypatch):
     assert not window.workspaces.own()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*WORKSPACES, "mine"])
 def test_each_survives_restart_link_and_snapshot(window, bar, tmp_path, name):
     own = Workspace("spot", ("mtf", "layout"), "seidel", 0.63, (0.2, 0.5, 0.3), "bottom", show_controls=False)

@@ -23,6 +23,7 @@ def ran(tmp_path_factory):
     return found
 
 
+@pytest.mark.slow
 def test_every_block_of_the_handbook_runs(ran):
     assert set(ran) >= {"tutorial", "import", "export", "plans", "theory"}
     kinds = {(block.language, block.mark) for name in PAGES for block in blocks(page(name))}

@@ -6,6 +6,8 @@ import pytest
 
 from p2sf_explorer.handbook.pages import FOLDER
 
+pytestmark = pytest.mark.slow
+
 NOTEBOOKS = sorted((FOLDER / "notebooks").glob("*.ipynb"))
 
 

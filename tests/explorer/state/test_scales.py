@@ -113,3 +113,8 @@ def test_ticks_are_short_and_say_their_values(decade, span):
     for value, text in ticks(-half, half, 5):
         assert float(text.replace("−", "-")) == pytest.approx(value, rel=1e-9, abs=1e-12 * half)
         assert len(text) <= 8, "an axis has room for no more"
+
+
+@pytest.mark.parametrize("mm", [9.99e9, 1e10, 3.844e11, 1e99, 1.7e308])
+def test_a_distance_is_never_longer_than_a_dozen_letters(mm):
+    assert len(written_distance(mm)) <= 13 and read_distance(written_distance(mm)) == pytest.approx(mm, rel=1e-3)

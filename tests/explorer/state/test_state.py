@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import AIMS
 from p2sf_explorer.state.link import shortened
-from p2sf_explorer.state.state import CHOICES, LINKABLE, State, new_state
-from p2sf_explorer.state.state_files import SCHEMA, read_state, state_from_json, state_to_dict, state_to_json
+from p2sf_explorer.state.state import CHOICES, LINKABLE, PanelChoices, State, new_state
+from p2sf_explorer.state.state_files import SCHEMA, VERSION, read_state, state_from_json, state_to_dict, state_to_json
 from p2sf_explorer.state.terms import TERMS
 
 finite = {"allow_nan": False, "allow_infinity": False}
@@ -85,6 +85,14 @@ def test_a_state_from_before_masks_leaves_the_stop_as_the_lens_file_has_it(versi
     assert state.optics.field_deg == 3.0 and not state.optics.mask
 
 
+@pytest.mark.parametrize("version", range(1, VERSION + 1))
+def test_a_state_that_says_nothing_of_choosers_has_them_as_at_the_first_start(version):
+    values = {"field_deg": 3.0} if version == 1 else {"optics": {"field_deg": 3.0}, "playback": {"seconds": 2.0}}
+    state = state_from_json(json.dumps({"schema": SCHEMA, "version": version, "state": values}))
+    assert state.optics.field_deg == 3.0
+    assert (state.choices, state.playback.subject) == (PanelChoices(), "stack")
+
+
 @pytest.mark.parametrize("aim", AIMS)
 def test_every_file_and_link_says_how_rays_fill_the_pupil(aim):
     state = new_state(aim=aim, pinned=new_state(aim=aim))
@@ -102,6 +110,8 @@ def test_infinity_is_plain_json():
     ("changes", "words"),
     [
         ({"depth_mm": -1.0}, "source depth is -1 mm"),
+        ({"depth_mm": 1e99}, "source depth is 1e.99 mm"),
+        ({"matrix_depths_mm": (1e3, 1e30)}, "source depth is 1e.30 mm"),
         ({"depth_mm": float("nan")}, "source depth is nan mm"),
         ({"field_deg": 90.0}, "field angle is 90°"),
         ({"field_deg": "wide"}, "field angle is 'wide'"),

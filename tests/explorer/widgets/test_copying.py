@@ -41,6 +41,7 @@ def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
     assert [float(cell) for cell in rows[0][1:]] == pytest.approx(psf.x_um, abs=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", ["sqrt", "log"])
 def test_what_is_copied_is_light_and_not_brightness(window, scale):
     """A map is shown by root or logarithm; the numbers copied are the PSF's, in the bar's units."""

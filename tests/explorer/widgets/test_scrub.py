@@ -128,6 +128,7 @@ def test_a_click_on_a_number_still_lets_one_type(window, qtbot):
     assert window.store.state.optics.depth_mm == 2000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("modifiers", "by"), [(NONE, 0.1), (SHIFT, 1.0), (ALT, 0.01)])
 def test_wheel_and_arrows_move_a_number_and_a_turn_is_one_step(window, qtbot, modifiers, by):
     edit, first = window.controls.rows["field_deg"].edit, window.store.state

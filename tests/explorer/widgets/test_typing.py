@@ -29,6 +29,53 @@ def test_the_virtual_object_of_such_a_sensor_is_imaged_on_it():
     assert far - lens.sensor_mm == pytest.approx(near - far, rel=0.02)  # to first order in 1/depth
 
 
+CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
+
+
+def type_into(qtbot, edit, text: str) -> None:
+    edit.setFocus()
+    edit.selectAll()
+    qtbot.keyClicks(edit, text)
+
+
+def test_undo_after_a_typed_value_is_the_window_s_and_while_typing_the_text_s(window, qtbot):
+    first, edit = window.store.state, window.controls.rows["field_deg"].edit
+    before = edit.text()
+    type_into(qtbot, edit, "4")
+    qtbot.keyClick(edit, Qt.Key.Key_Return)
+    assert window.store.state.optics.field_deg == 4.0 and edit.hasFocus()
+    qtbot.keyClick(edit, Qt.Key.Key_Z, CTRL)
+    assert window.store.state == first and edit.text() == before
+    qtbot.keyClick(edit, Qt.Key.Key_Z, CTRL | SHIFT)
+    assert window.store.state.optics.field_deg == 4.0
+    type_into(qtbot, edit, "7")
+    qtbot.keyClick(edit, Qt.Key.Key_Z, CTRL)
+    assert window.store.state.optics.field_deg == 4.0 and edit.text() != "7", "what is being typed is taken back first"
+    qtbot.keyClick(edit, Qt.Key.Key_Z, CTRL)
+    assert window.store.state == first
+
+
+def test_undo_after_a_number_box_is_the_window_s_too(window, qtbot):
+    window.open_panel("measured")
+    box, first = window.panels["measured"].pixel, window.store.state
+    type_into(qtbot, box, "5")
+    qtbot.keyClick(box, Qt.Key.Key_Return)
+    assert window.store.state.measured.pixel_um == 5.0
+    qtbot.keyClick(box, Qt.Key.Key_Z, CTRL)
+    assert window.store.state == first and box.value() == first.measured.pixel_um
+
+
+def test_a_value_typed_as_it_was_follows_the_state_again(window, qtbot):
+    edit = window.controls.rows["field_deg"].edit
+    type_into(qtbot, edit, "x")
+    edit.setText("")
+    edit.insert(edit.last)  # as typed
+    assert edit.isModified()
+    qtbot.keyClick(edit, Qt.Key.Key_Return)
+    window.store.update(field_deg=3.0)
+    assert edit.text() == edit.last and "3" in edit.text()
+
+
 @pytest.mark.parametrize(("key", "text"), [("wavelength_nm", "587.5618"), ("depth_mm", "inf"), ("field_deg", "10")])
 def test_a_number_typed_that_is_there_already_is_written_as_numbers_are(window, qtbot, key, text):
     edit = window.controls.rows[key].edit

@@ -15,7 +15,7 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
-from p2sf_explorer.compute.deferred_sums import KEPT, MOST_NODES, SumCache, SumRequest
+from p2sf_explorer.compute.deferred_sums import AT_ONCE_SECONDS, KEPT, NODE_SECONDS, SumCache, SumRequest
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.pinning import optics
@@ -152,14 +152,14 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 
-@pytest.mark.parametrize("method", MOST_NODES)
+@pytest.mark.parametrize("method", NODE_SECONDS)
 def test_what_is_summed_at_once_is_small(method):
     """The estimate of nodes before any is traced keeps what it promises, to a factor of 2 in a corner's slope."""
     for name in ("fast_gauss_f14", "telephoto", "landscape"):
         for shift in (0.0, 100.0, 300.0, 900.0):
             state = changed(with_lens(State(), name), method=method, sensor_shift_um=shift)
             answer = live(state, cache=SumCache())
-            assert answer.pending or answer.psf.rays <= 2 * MOST_NODES[method]
+            assert answer.pending or answer.psf.rays * NODE_SECONDS[method] <= 2 * AT_ONCE_SECONDS
 
 
 def test_the_latest_sums_are_kept_and_no_more():

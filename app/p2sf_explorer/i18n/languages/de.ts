@@ -39,7 +39,7 @@
 <message><source>A corrector plate of some micrometres at the centre of a spherical mirror: sharp over five degrees</source><translation>Eine Korrektionsplatte von einigen Mikrometern im Mittelpunkt eines Kugelspiegels: scharf über fünf Grad</translation></message>
 <message><source>A field of {angle:.0f}° is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle:.0f}° liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>A lesson, with its subject on the stage (F3)</source><translation>Eine Lektion, und worum es in ihr geht, auf der Bühne (F3)</translation></message>
-<message><source>A meniscus and a stop behind it: coma removed by moving the stop, as in the first cameras</source><translation>Ein Meniskus und dahinter eine Blende: Koma durch den Ort der Blende behoben, wie in den ersten Kameras</translation></message>
+<message><source>A meniscus and a stop behind it: coma removed by moving the stop, as in later box cameras</source><translation>Ein Meniskus und dahinter eine Blende: Koma durch den Ort der Blende behoben, wie in späteren Boxkameras</translation></message>
 <message><source>A paraboloid and a hyperboloid: no spherical aberration at all, but coma, and a hole in the pupil</source><translation>Ein Paraboloid und ein Hyperboloid: gar keine sphärische Aberration, aber Koma und ein Loch in der Pupille</translation></message>
 <message><source>A photograph through the lens on the stage</source><translation>Eine Fotografie durch das Objektiv auf der Bühne</translation></message>
 <message><source>A ray aimed at N leaves from N′ in its old direction; from the first vertex.</source><translation>Ein auf N gerichteter Strahl tritt aus N′ in alter Richtung aus; vom ersten Scheitel.</translation></message>
@@ -106,6 +106,7 @@
 <message><source>Brightness scale</source><translation>Helligkeitsskala</translation></message>
 <message><source>Brightness: each picture relative to its own peak, or with One scale all relative to the brightest</source><translation>Helligkeit: jedes Bild auf seine eigene Spitze bezogen oder mit Ein Maßstab alle auf die hellste</translation></message>
 <message><source>Build ten thousand other lenses</source><translation>Zehntausend andere Objektive bauen</translation></message>
+<message><source>By how much the f-number exceeds the stated one, which is taken to be right to 3 %.</source><translation>Um wie viel die Blendenzahl die angegebene übertrifft, die auf 3 % genau gilt.</translation></message>
 <message><source>C I axial colour</source><translation>C I Farblängsfehler</translation></message>
 <message><source>C II lateral colour</source><translation>C II Farbquerfehler</translation></message>
 <message><source>Cancel</source><translation>Abbrechen</translation></message>
@@ -185,7 +186,7 @@
 <message><source>Discard all your own values</source><translation>Alle eigenen Werte verwerfen</translation></message>
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
-<message><source>Distances with units, ∞ included, separated by semicolons: 2 m; 500 mm; ∞</source><translation>Abstände mit ihren Einheiten, auch ∞, mit Semikolons dazwischen: 2 m; 500 mm; ∞</translation></message>
+<message><source>Distances with units, ∞ included: 500 mm; 2 m; ∞. A range, evenly spaced in 1/distance: 1 m:∞:4</source><translation>Abstände mit ihren Einheiten, auch ∞: 500 mm; 2 m; ∞. Eine Reihe, gleichmäßig in 1/Abstand: 1 m:∞:4</translation></message>
 <message><source>Do not ask again</source><translation>Nicht mehr fragen</translation></message>
 <message><source>Double Gauss, 28 degree field, f/3, 100 mm</source><translation>Doppel-Gauß, 28 Grad Feld, f/3, 100 mm</translation></message>
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
@@ -196,7 +197,7 @@
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>EFL {focal} mm, {speed} · {column}</source><translation>EFL {focal} mm, {speed} · {column}</translation></message>
-<message><source>Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by hand are ignored.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor.</translation></message>
+<message><source>Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by hand are ignored. Put semicolons between the values of a list; first : last : count is a range, evenly spaced, in 1/distance for depths.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor. Zwischen den Werten einer Liste stehen Semikolons; erster : letzter : Anzahl ist eine Reihe gleichmäßiger Schritte, bei Abständen in 1/Abstand.</translation></message>
 <message><source>Each PSF relative to its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF auf ihre eigene Spitze bezogen, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
@@ -227,13 +228,14 @@
 <message><source>Fast, for a narrow field: very good on axis, but the curved field soon leaves the sensor</source><translation>Lichtstark bei kleinem Feld: sehr gut auf der Achse, das gewölbte Bildfeld biegt sich rasch weg</translation></message>
 <message><source>Field</source><translation>Feld</translation></message>
 <message><source>Field along x</source><translation>Feld entlang x</translation></message>
-<message><source>Field angles in degrees, separated by semicolons: 0; 7; 14</source><translation>Feldwinkel in Grad, mit Semikolons dazwischen: 0; 7; 14</translation></message>
+<message><source>Field angles along y, in degrees: 0; 7; 14. A range: 0:14:5</source><translation>Feldwinkel in y, in Grad: 0; 7; 14. Eine Reihe: 0:14:5</translation></message>
 <message><source>Field curvature: where sagittal (S) and tangential (T) rays focus. Distortion: (real − paraxial image height)/paraxial. Thick: exact rays; fine: third order (W22, W20, W11).</source><translation>Bildfeldwölbung: wo sagittale (S) und tangentiale (T) Strahlen zum Fokus kommen. Verzeichnung: (wahre − paraxiale Bildhöhe)/paraxiale. Dick: exakte Strahlen, fein: dritte Ordnung (W22, W20, W11).</translation></message>
 <message><source>Field curves</source><translation>Feldkurven</translation></message>
 <message><source>Field in x</source><translation>Feld in x</translation></message>
 <message><source>Field in x: the field angle along x, for a lens that is not symmetric. The PSF is then drawn with +y pointing away from the axis, turned with its field.</source><translation>Feld in x: der Feldwinkel entlang x, wo das Objektiv nicht symmetrisch ist. Die PSF wird dann mit +y von der Achse weg gezeichnet: gedreht wie ihr Feld.</translation></message>
 <message><source>Field map</source><translation>Feldkarte</translation></message>
 <message><source>Field map: PSFs all over a 3:2 picture whose corner is the edge of the field, each relative to its own peak and turned with its field. Click a picture, or choose it with the arrow keys and Enter, to go to its field; a frame marks the present one. If the lens is not symmetric, every picture has a field of its own, and you can drag the ring to any field.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige. Wo das Objektiv nicht symmetrisch ist, hat jedes Bild sein eigenes Feld, und der Ring lässt sich zu jedem ziehen.</translation></message>
+<message><source>Field point</source><translation>Feldpunkt</translation></message>
 <message><source>Field: angle of the chief ray at the entrance pupil; the image height is about f′·tan(field). ▾ marks the fields of the lens file.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
 <message><source>Fields</source><translation>Felder</translation></message>
 <message><source>Figures</source><translation>Zahlen</translation></message>
@@ -280,7 +282,12 @@
 <message><source>Handbook: the page of what has the focus</source><translation>Handbuch: die Seite zu dem, was den Fokus hat</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
-<message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand.</translation></message>
+<message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand. Die Strehl-Zahl ist |Mittel von exp(2πiW)|² der Phase W im Fokus, ohne Konstante und Verkippung.</translation></message>
+<message><source>its transmission</source><translation>ihre Durchlässigkeit</translation></message>
+<message><source>passes a share of light that changes with the height</source><translation>lässt je nach Höhe verschieden viel Licht durch</translation></message>
+<message><source>rays are lost</source><translation>Strahlen gehen verloren</translation></message>
+<message><source>At ± this tolerance rays are lost: there is no figure, and the builds are not to be trusted.</source><translation>Bei ± dieser Toleranz gehen Strahlen verloren: Es gibt keine Zahl, und auf die gebauten Objektive ist kein Verlass.</translation></message>
+<message><source>By exact rays. The quadratic form by which builds are drawn says {value}: it does not describe so large an error.</source><translation>Aus exakten Strahlen. Die quadratische Form, nach der Objektive gezogen werden, sagt {value}: Einen so großen Fehler beschreibt sie nicht.</translation></message>
 <message><source>How many rays come from each point</source><translation>Wie viele Strahlen von jedem Punkt ausgehen</translation></message>
 <message><source>How many, evenly spread; this replaces typed values</source><translation>Wie viele, gleichmäßig verteilt; vergisst eingegebene Werte</translation></message>
 <message><source>How much farther from the lens the sensor was than in the window.</source><translation>Wie viel weiter vom Objektiv der Sensor stand als im Fenster.</translation></message>
@@ -431,6 +438,7 @@
 <message><source>PSF, sum = 1</source><translation>PSF, Summe = 1</translation></message>
 <message><source>PSF, √</source><translation>PSF, √</translation></message>
 <message><source>PSFs</source><translation>PSFs</translation></message>
+<message><source>PSFs of this database are predicted to differ from those of exact rays by 1 − R² up to {worst:.1e} {where}, median {median:.1e}; {remedy}</source><translation>PSFs dieser Datenbank weichen nach der Vorhersage um 1 − R² bis {worst:.1e} {where} von denen exakter Strahlen ab, im Median um {median:.1e}; {remedy}</translation></message>
 <message><source>PSFs over the field on the stage</source><translation>PSFs über das Feld auf der Bühne</translation></message>
 <message><source>PSFs, {wide} µm wide, √ of peak = 1</source><translation>PSFs, {wide} µm breit, √ mit Spitze = 1</translation></message>
 <message><source>PSFs, √</source><translation>PSFs, √</translation></message>
@@ -441,8 +449,9 @@
 <message><source>Paraxial image</source><translation>Paraxiales Bild</translation></message>
 <message><source>Paraxial image of this depth, from the last vertex; from the principal points 1/s′ = 1/f′ − 1/s.</source><translation>Paraxiales Bild dieses Abstands, vom letzten Scheitel; von den Hauptpunkten aus 1/s′ = 1/f′ − 1/s.</translation></message>
 <message><source>Paste a link</source><translation>Link einfügen</translation></message>
+<message><source>Peak of the PSF</source><translation>Spitze der PSF</translation></message>
 <message><source>Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0; nahe 1 etwa exp(−(2πσ)²), σ der RMS von W.</translation></message>
-<message><source>Peak waves ± one standard deviation; in brackets the values of the lens.</source><translation>Wellen (Spitze) ± eine Standardabweichung; in Klammern die des Objektivs.</translation></message>
+<message><source>Peak waves ± one standard deviation; in brackets those of the lens at the f-number found.</source><translation>Wellen (Spitze) ± eine Standardabweichung; in Klammern die des Objektivs bei der gefundenen Blendenzahl.</translation></message>
 <message><source>Perfect lens</source><translation>Ideale Linse</translation></message>
 <message><source>Perfect lens and pixels</source><translation>Ideale Linse und Pixel</translation></message>
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
@@ -539,6 +548,8 @@
 <message><source>Rear-stop landscape singlet</source><translation>Landschaftslinse mit hinterer Blende</translation></message>
 <message><source>Redo</source><translation>Wiederholen</translation></message>
 <message><source>Redo: take the step again (Ctrl+Shift+Z)</source><translation>Wiederholen: den Schritt noch einmal tun (Strg+Umschalt+Z)</translation></message>
+<message><source>Refocusing would remove {percent:.0f} % of the wavefront variance</source><translation>Nachfokussieren nähme {percent:.0f} % der Varianz der Wellenfront weg</translation></message>
+<message><source>Refocusing would remove {percent:.0f} % of the wavefront variance, made by {causes}</source><translation>Nachfokussieren nähme {percent:.0f} % der Varianz der Wellenfront weg, verursacht durch {causes}</translation></message>
 <message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
 <message><source>Remove this surface; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
@@ -823,7 +834,7 @@
 <message><source>Wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>Wavelength λ in vacuum; the index of each glass n(λ) follows it. F, d and C are Fraunhofer's lines.</source><translation>Wellenlänge λ im Vakuum; der Brechungsindex n(λ) jedes Glases folgt ihr. F, d und C sind Fraunhofers Linien.</translation></message>
 <message><source>Wavelengths</source><translation>Wellenlängen</translation></message>
-<message><source>Wavelengths in nm, separated by semicolons: 486.1; 587.6; 656.3</source><translation>Wellenlängen in nm, mit Semikolons dazwischen: 486,1; 587,6; 656,3</translation></message>
+<message><source>Wavelengths in nm: 486.1; 587.6; 656.3. A range: 400:700:7</source><translation>Wellenlängen in nm: 486,1; 587,6; 656,3. Eine Reihe: 400:700:7</translation></message>
 <message><source>Wd</source><translation>Wd</translation></message>
 <message><source>Wd = 0: a line towards the field</source><translation>Wd = 0: eine Linie zum Feld hin</translation></message>
 <message><source>Wd = −2 W40: rim rays meet on the axis</source><translation>Wd = −2 W40: Randstrahlen treffen sich auf der Achse</translation></message>
@@ -836,6 +847,44 @@
 <message><source>What changes from column to column</source><translation>Was sich von Spalte zu Spalte ändert</translation></message>
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What is adjusted in every lens at assembly so that the mean square of the wavefronts of all fields is smallest.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
+<message><source>What whole numbers of the picture mean; automatic takes 8 bits for sRGB</source><translation>Was ganze Zahlen des Bildes bedeuten; automatisch gelten 8 Bit als sRGB</translation></message>
+<message><source>automatic</source><translation>automatisch</translation></message>
+<message><source>measuring, {percent} %, {left} s left</source><translation>misst, {percent} %, noch {left} s</translation></message>
+<message><source>no numbers: what the model leaves is {chi2:.3g} times the variance of the noise, and {most:g} is the most. Try more numbers; check f-number, wavelength, pixel and stated noise, state the gain of bright points, and see that the picture is linear and sharp, and the points much smaller than a pixel</source><translation>keine Zahlen: das Modell lässt das {chi2:.3g}-Fache der Varianz des Rauschens übrig, höchstens das {most:g}-Fache darf es sein. Versuchen Sie mehr Zahlen; prüfen Sie Blendenzahl, Wellenlänge, Pixel und das angegebene Rauschen, geben Sie bei hellen Punkten die Verstärkung an, und sehen Sie nach, ob das Bild linear und unverwackelt ist und die Punkte viel kleiner als ein Pixel sind</translation></message>
+<message><source>numbers read as linear counts</source><translation>Zahlen als lineare Zählwerte gelesen</translation></message>
+<message><source>numbers read as sRGB and made linear</source><translation>Zahlen als sRGB gelesen und linear gemacht</translation></message>
+<message><source>sRGB</source><translation>sRGB</translation></message>
+<message><source>XY polynomial</source><translation>XY-Polynom</translation></message>
+<message><source>Zernike fringe sag</source><translation>Zernike-Fläche (Fringe)</translation></message>
+<message><source>Zernike standard sag</source><translation>Zernike-Fläche (Standard)</translation></message>
+<message><source>an ISET file</source><translation>eine ISET-Datei</translation></message>
+<message><source>axes decentred by ({decentre:g}) mm and tilted by ({tilt:g})°</source><translation>Achsen um ({decentre:g}) mm dezentriert und um ({tilt:g})° gekippt</translation></message>
+<message><source>has a term in {term}</source><translation>hat ein Glied in {term}</translation></message>
+<message><source>irregular</source><translation>Passfehler</translation></message>
+<message><source>irregular: {fringes:g} fringes, at 45° {turned:g}, over a radius of {radius:g} mm</source><translation>Passfehler: {fringes:g} Ringe, unter 45° {turned:g}, über einem Radius von {radius:g} mm</translation></message>
+<message><source>has a shape that is not of revolution ({kind})</source><translation>ist keine Rotationsfläche ({kind})</translation></message>
+<message><source>its aspheric terms</source><translation>ihre asphärischen Glieder</translation></message>
+<message><source>its clear rim</source><translation>ihr freier Rand</translation></message>
+<message><source>its conic constant</source><translation>ihre konische Konstante</translation></message>
+<message><source>its hole or obscuration</source><translation>ihr Loch oder ihre Abschattung</translation></message>
+<message><source>its ideal focal length</source><translation>ihre ideale Brennweite</translation></message>
+<message><source>its irregularity</source><translation>ihr Passfehler</translation></message>
+<message><source>its radius</source><translation>ihr Radius</translation></message>
+<message><source>rays within a radius of {radius:g} mm are lost</source><translation>Strahlen innerhalb eines Radius von {radius:g} mm gehen verloren</translation></message>
+<message><source>rectangular rim about ({centre:g}) mm, half-widths {widths:g} mm, turned by {turn:g}°</source><translation>rechteckiger Rand um ({centre:g}) mm, halbe Breiten {widths:g} mm, um {turn:g}° gedreht</translation></message>
+<message><source>rim about ({centre:g}) mm</source><translation>Rand um ({centre:g}) mm</translation></message>
+<message><source>surface {surface} differs between columns in its shape, its rim or a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in Form, Rand oder einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} has even terms beside its shape ({kind}), or that of a higher degree than a CODE V file holds; save as TOML</source><translation>Fläche {surface} ({kind}) hat gerade Glieder daneben oder einen höheren Grad, als eine CODE-V-Datei fasst; als TOML speichern</translation></message>
+<message><source>surface {surface} has even terms or diffraction beside its shape ({kind}), for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ({kind}) hat gerade Glieder oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} is tilted, decentred or not of revolution, and {what} supports only rotational symmetry; {remedy}</source><translation>Fläche {surface} ist gekippt, dezentriert oder keine Rotationsfläche, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
+<message><source>surface {surface} passes a share of light that changes with the height, which the paraxial pupil takes for even; aim at the stop</source><translation>Fläche {surface} lässt je nach Höhe verschieden viel Licht durch, was die paraxiale Pupille für gleichmäßig nimmt; auf die Blende zielen</translation></message>
+<message><source>surface {surface} {reason}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} {reason}, wofür es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
+<message><source>surface {surface}: a file that ends in {ending} cannot express {what}; save as TOML</source><translation>Fläche {surface}: {what} lässt sich in einer Datei mit der Endung {ending} nicht ausdrücken; als TOML speichern</translation></message>
+<message><source>surface {surface}: transmission {vertex:g} with {slope:g} per mm²; give a share from 0 to 1 and a finite number</source><translation>Fläche {surface}: Durchlässigkeit {vertex:g} mit {slope:g} je mm²; einen Anteil von 0 bis 1 und eine endliche Zahl angeben</translation></message>
+<message><source>the surface is not of revolution, which no even terms describe; keep its shape</source><translation>die Fläche ist keine Rotationsfläche, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
+<message><source>the thickness behind it</source><translation>die Dicke dahinter</translation></message>
+<message><source>transmission {vertex:g} + {slope:g} mm⁻²·h²</source><translation>Durchlässigkeit {vertex:g} + {slope:g} mm⁻²·h²</translation></message>
+<message><source>what is left is {chi2:.2g} times the variance of the noise, so the noise is less than taken and the errors are too large; check the read noise and the gain, and that the picture was not smoothed</source><translation>übrig bleibt das {chi2:.2g}-Fache der Varianz des Rauschens, also ist das Rauschen kleiner als angenommen, und die Fehler sind zu groß; Ausleserauschen und Verstärkung prüfen, und ob das Bild geglättet wurde</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
 <message><source>What stands in front of the lens</source><translation>Was vor dem Objektiv steht</translation></message>
 <message><source>What stands in the stop: an obscuration, the blades of an iris, the vanes of a spider, a filter, a phase plate; phases and amplitudes of a lens file stay.</source><translation>Was in der Blende steht: eine Abschattung, die Lamellen einer Iris, die Streben einer Spinne, ein Filter, eine Phasenplatte; Phasen und Amplituden einer Objektivdatei bleiben.</translation></message>
@@ -845,6 +894,7 @@
 <message><source>What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, rays, spots, fans and sums per surface remain those of the lens.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; Bild, Datenbank, Feldkurven, Farbverschiebung, Schärfentiefe, Strahlen, Spots, Fächer und Summen je Fläche bleiben die des Objektivs.</translation></message>
 <message><source>What-if: waves added to the six coefficients</source><translation>Was wäre wenn: Wellen, zu den sechs Koeffizienten hinzugefügt</translation></message>
 <message><source>When the sliders rest, the picture is compared with a converged sum of exact rays (Huygens): the reference, the difference, and what every method costs in time and error appear here.</source><translation>Wenn die Regler ruhen, wird das Bild mit einer auskonvergierten Summe exakter Strahlen (Huygens) verglichen: Referenz, Unterschied und was jede Methode an Zeit und Fehler kostet, erscheinen hier.</translation></message>
+<message><source>Where it is on the sensor: x and y from the chief ray.</source><translation>Wo sie auf dem Sensor liegt: x und y vom Hauptstrahl aus.</translation></message>
 <message><source>Whether the plot at the right shows every method at this point, or every representation of all PSFs of the lens</source><translation>Was das rechte Diagramm zeigt: alle Verfahren an diesem Punkt, oder alle Darstellungen aller PSFs des Objektivs</translation></message>
 <message><source>Which coefficient</source><translation>Welcher Koeffizient</translation></message>
 <message><source>Which curves are shown</source><translation>Welche Kurven gezeigt werden</translation></message>
@@ -885,7 +935,6 @@
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius hinter einer Maske; den Sensor näher an das Bild bringen oder abblenden</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius braucht {lines} × {samples} Pupillenproben; den Sensor dem Bild nähern oder abblenden</translation></message>
-<message><source>a blur that takes {across} pupil samples a side behind a mask; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe, die {across} Abtastwerte der Pupille je Seite braucht, hinter einer Maske; den Sensor näher an das Bild bringen oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
 <message><source>a circle</source><translation>ein Kreis</translation></message>
 <message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
@@ -894,7 +943,6 @@
 <message><source>a database of fields along one line</source><translation>eine Datenbank mit Feldern auf einer Linie</translation></message>
 <message><source>a database of the six coefficients</source><translation>eine Datenbank der sechs Koeffizienten</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
-<message><source>a file that ends in {ending}</source><translation>eine Datei mit der Endung {ending}</translation></message>
 <message><source>a frame of shape {shape}; give rows and columns of counts</source><translation>eine Aufnahme der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
 <message><source>a frame without a finite count; check the file and its dark and flat fields</source><translation>eine Aufnahme ohne einen endlichen Zählwert; die Datei und ihr Dunkel- und Hellbild prüfen</translation></message>
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
@@ -914,6 +962,7 @@
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
 <message><source>a number is too long or lists are nested too deep; this is not a lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
+<message><source>this blur over a window {width:.3g} µm wide needs {radii} × {directions} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über ein Fenster von {width:.3g} µm braucht {radii} × {directions} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
 <message><source>a picture of rays</source><translation>ein Bild von Strahlen</translation></message>
@@ -979,7 +1028,8 @@
 <message><source>apodisation power</source><translation>Potenz der Apodisation</translation></message>
 <message><source>apodised</source><translation>apodisiert</translation></message>
 <message><source>as designed</source><translation>wie entworfen</translation></message>
-<message><source>as designed {value}</source><translation>wie entworfen {value}</translation></message>
+<message><source>as designed, worst field: {value}</source><translation>wie entworfen, schlechtestes Feld: {value}</translation></message>
+<message><source>as designed, compensated, worst field: {value}</source><translation>wie entworfen, kompensiert, schlechtestes Feld: {value}</translation></message>
 <message><source>as designed: {value}</source><translation>wie entworfen: {value}</translation></message>
 <message><source>as in the file</source><translation>laut Datei</translation></message>
 <message><source>as it is</source><translation>wie es ist</translation></message>
@@ -991,6 +1041,8 @@
 <message><source>astigmatism</source><translation>Astigmatismus</translation></message>
 <message><source>at ({x}, {y}) of the corner: share of the peak</source><translation>bei ({x}, {y}) der Ecke: Anteil der Spitze</translation></message>
 <message><source>at infinity</source><translation>im Unendlichen</translation></message>
+<message><source>at infinity, {field:.4g}°, {wave:.4g} nm</source><translation>im Unendlichen, {field:.4g}°, {wave:.4g} nm</translation></message>
+<message><source>at {depth:.6g} mm, {field:.4g}°, {wave:.4g} nm</source><translation>bei {depth:.6g} mm, {field:.4g}°, {wave:.4g} nm</translation></message>
 <message><source>at {wavelength} nm</source><translation>bei {wavelength} nm</translation></message>
 <message><source>auto</source><translation>auto</translation></message>
 <message><source>back focus</source><translation>Schnittweite zum Sensor</translation></message>
@@ -1066,6 +1118,7 @@
 <message><source>column {name} is missing</source><translation>die Spalte {name} fehlt</translation></message>
 <message><source>columns is {found}; write at least two names, as in ["wide", "tele"]</source><translation>columns ist {found}; mindestens zwei Namen schreiben, etwa ["wide", "tele"]</translation></message>
 <message><source>coma</source><translation>Koma</translation></message>
+<message><source>commas</source><translation>Kommas</translation></message>
 <message><source>commercial grade</source><translation>Klasse handelsüblich</translation></message>
 <message><source>compensators {places} are not among the {count} tolerances</source><translation>Kompensatoren {places} sind nicht unter den {count} Toleranzen</translation></message>
 <message><source>computing</source><translation>rechnet</translation></message>
@@ -1202,10 +1255,11 @@
 <message><source>frequency on the sensor, 1/mm</source><translation>Ortsfrequenz auf dem Sensor, 1/mm</translation></message>
 <message><source>from</source><translation>von</translation></message>
 <message><source>front group</source><translation>vordere Gruppe</translation></message>
+<message><source>predicted error up to {error:.1g}</source><translation>vorhergesagter Fehler bis {error:.1g}</translation></message>
 <message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
-<message><source>geometric: ray density, no diffraction; {percent:.0f} % of the pupil's light is in view</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts der Pupille im Bild</translation></message>
+<message><source>geometric: ray density, no diffraction; {percent:.0f} % of the light in the window</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts im Fenster</translation></message>
 <message><source>give fields along x as well, or align it</source><translation>auch Felder längs x angeben oder sie gerade stellen</translation></message>
 <message><source>give the name of a file in it</source><translation>den Namen einer Datei darin angeben</translation></message>
 <message><source>glass "{name}"</source><translation>Glas "{name}"</translation></message>
@@ -1337,6 +1391,7 @@
 <message><source>model</source><translation>Modell</translation></message>
 <message><source>move the slider that has the focus</source><translation>den Regler bewegen, der den Fokus hat</translation></message>
 <message><source>much fainter than the others</source><translation>viel schwächer als die anderen</translation></message>
+<message><source>narrow the depths, the fields or the wavelengths</source><translation>Abstände, Felder oder Wellenlängen einengen</translation></message>
 <message><source>nd is {value}; give an index between 1 and 4</source><translation>nd ist {value}; einen Index zwischen 1 und 4 angeben</translation></message>
 <message><source>neural</source><translation>neuronal</translation></message>
 <message><source>nm</source><translation>nm</translation></message>
@@ -1351,6 +1406,7 @@
 <message><source>no fit has {numbers} numbers; choose one of {offered}</source><translation>keine Anpassung hat {numbers} Zahlen; eine von {offered} wählen</translation></message>
 <message><source>no glass (NM and CD lines) is in this file; give an AGF catalogue</source><translation>in dieser Datei ist kein Glas (Zeilen NM und CD); einen AGF-Katalog angeben</translation></message>
 <message><source>no nodes</source><translation>keine Knoten</translation></message>
+<message><source>no numbers of the whole frame: what they leave is {chi2:.3g} times the variance of the noise, and {most:g} is the most. Check f-number, wavelength, pixel, distance, focus and stated noise, and that the picture is linear, not cropped, and of points much smaller than a pixel; or name what else may be wrong with the lens as unknowns</source><translation>keine Zahlen des ganzen Bildes: sie lassen das {chi2:.3g}-Fache der Varianz des Rauschens übrig, höchstens das {most:g}-Fache darf es sein. Prüfen Sie Blendenzahl, Wellenlänge, Pixel, Abstand, Fokus und das angegebene Rauschen, und ob das Bild linear, nicht beschnitten und von Punkten viel kleiner als ein Pixel ist; oder nennen Sie als Unbekannte, was am Objektiv sonst falsch sein kann</translation></message>
 <message><source>no picture</source><translation>kein Bild</translation></message>
 <message><source>no point can be used: {flags}; expose less, or move the points apart</source><translation>kein Punkt ist brauchbar: {flags}; kürzer belichten oder die Punkte weiter auseinanderrücken</translation></message>
 <message><source>no point of the target</source><translation>kein Punkt der Zielkarte</translation></message>
@@ -1360,7 +1416,6 @@
 <message><source>no ray but the chief ray reaches the sensor; stop the lens down or reduce the field</source><translation>kein Strahl außer dem Hauptstrahl erreicht den Sensor; abblenden oder das Feld verkleinern</translation></message>
 <message><source>no ray lands within {half} pixels of the chief ray; take larger pixels</source><translation>im Umkreis von {half} Pixeln um den Hauptstrahl landet kein Strahl; größere Pixel nehmen</translation></message>
 <message><source>no ray of the fan reaches the sensor; choose a smaller field</source><translation>kein Strahl des Fächers erreicht den Sensor; ein kleineres Feld wählen</translation></message>
-<message><source>no ray reaches the sensor; choose a smaller field or leave {parameter} off</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder {parameter} auslassen</translation></message>
 <message><source>no ray reaches the sensor; choose a smaller field or stop the lens down</source><translation>kein Strahl erreicht den Sensor; ein kleineres Feld wählen oder abblenden</translation></message>
 <message><source>no ray reaches the sensor; {remedy}</source><translation>kein Strahl erreicht den Sensor; {remedy}</translation></message>
 <message><source>no stop (AST) is stated; surface 1 is the stop, which is what OSLO takes</source><translation>es ist keine Blende (AST) angegeben; Fläche 1 ist die Blende, wie OSLO es annimmt</translation></message>
@@ -1487,6 +1542,7 @@
 <message><source>range_um of {name} is {limits}; write the shortest and the longest wavelength</source><translation>range_um von {name} ist {limits}; die kürzeste und die längste Wellenlänge schreiben</translation></message>
 <message><source>ray</source><translation>Strahl</translation></message>
 <message><source>ray density</source><translation>Strahlendichte</translation></message>
+<message><source>rays are lost {where}, and neither six coefficients nor fits describe that; {remedy}</source><translation>{where} gehen Strahlen verloren, was weder sechs Koeffizienten noch Anpassungen beschreiben; {remedy}</translation></message>
 <message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
 <message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
 <message><source>rays meet surface {surface} before surface {before}, beyond the edge of the glass, where no light can go; choose a smaller field or aperture</source><translation>Strahlen treffen Fläche {surface} vor Fläche {before}, jenseits des Glasrandes, wo kein Licht hingelangt; kleineres Feld oder kleinere Öffnung wählen</translation></message>
@@ -1537,6 +1593,7 @@
 <message><source>seidel: six coefficients</source><translation>seidel: sechs Koeffizienten</translation></message>
 <message><source>seidel: six coefficients are enough, predicted R² ≥ {r_squared}</source><translation>seidel: sechs Koeffizienten genügen, vorhergesagt R² ≥ {r_squared}</translation></message>
 <message><source>semi-diameter</source><translation>Halbmesser</translation></message>
+<message><source>semicolons</source><translation>Semikolons</translation></message>
 <message><source>sensor</source><translation>Sensor</translation></message>
 <message><source>sensor at {place} mm, shift {shift}</source><translation>Sensor bei {place} mm, Verschiebung {shift}</translation></message>
 <message><source>sensor centre_mm is ({centre}); give two finite numbers</source><translation>centre_mm des Sensors ist ({centre}); zwei endliche Zahlen angeben</translation></message>
@@ -1549,6 +1606,7 @@
 <message><source>sensor {name} is {count}; give a whole number from 1 to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von 1 bis {most} angeben</translation></message>
 <message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
 <message><source>share of a panel beside the stage</source><translation>Anteil einer Ansicht neben der Bühne</translation></message>
+<message><source>share of the light, 1/µm²</source><translation>Anteil des Lichts, 1/µm²</translation></message>
 <message><source>share of the light in a pixel</source><translation>Anteil des Lichts in einem Pixel</translation></message>
 <message><source>share of the peak</source><translation>Anteil an der Spitze</translation></message>
 <message><source>share of the stage</source><translation>Anteil der Bühne</translation></message>
@@ -1616,25 +1674,17 @@
 <message><source>surface {number} is where {due} is expected; sort them</source><translation>Fläche {number} steht, wo {due} kommen müsste; ordnen</translation></message>
 <message><source>surface {surface}</source><translation>Fläche {surface}</translation></message>
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
-<message><source>surface {surface} differs between columns in its aspheric terms or in a medium without a name, for which a Zemax file has no line; save as TOML</source><translation>Fläche {surface} unterscheidet sich zwischen Spalten in asphärischen Termen oder in einem Medium ohne Namen, wofür eine Zemax-Datei keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
-<message><source>surface {surface} has a hole or an obscuration, which an ISET file cannot express; save as TOML</source><translation>Fläche {surface} hat ein Loch oder eine Abschattung, was eine ISET-Datei nicht ausdrücken kann; als TOML sichern</translation></message>
 <message><source>surface {surface} has a hole, but this needs a clear part without holes; leave {parameter} off, or treat the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in r^{power}, and a CODE V file holds powers up to r^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in r^{power}, und eine CODE-V-Datei fasst Potenzen bis r^{most}; als TOML speichern</translation></message>
-<message><source>surface {surface} has a term in {term}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} hat ein Glied in {term}, für das es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
-<message><source>surface {surface} is a Qbfs asphere with even terms or diffraction beside it, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ist eine Qbfs-Asphäre mit geraden Gliedern oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
-<message><source>surface {surface} is a Qbfs asphere, which a CODE V file cannot express here; save as TOML, or convert it to even terms</source><translation>Fläche {surface} ist eine Qbfs-Asphäre, die eine CODE-V-Datei hier nicht fasst; als TOML speichern oder in gerade Glieder umrechnen</translation></message>
 <message><source>surface {surface} is a mirror, which has no index that could be wrong</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
 <message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
-<message><source>surface {surface} is an ideal lens, which a CODE V file cannot express; save as TOML</source><translation>Fläche {surface} ist eine ideale Linse, die eine CODE-V-Datei nicht fasst; als TOML speichern</translation></message>
-<message><source>surface {surface} is irregular, which a file that ends in {ending} cannot express; save as TOML</source><translation>Fläche {surface} hat einen Passfehler, was eine Datei mit der Endung {ending} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot express; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
-<message><source>surface {surface} is tilted, decentred or irregular, and {what} supports only rotational symmetry; {remedy}</source><translation>Fläche {surface} ist gekippt, dezentriert oder hat einen Passfehler, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
 <message><source>surface {surface}: a number of its shape, its phase or its irregularity is not finite; correct it</source><translation>Fläche {surface}: eine Zahl ihrer Form, ihrer Phase oder ihres Passfehlers ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
@@ -1648,6 +1698,7 @@
 <message><source>surface {surface}: ior is neither a number nor [[nm …], [n …]]; correct it</source><translation>Fläche {surface}: ior ist weder eine Zahl noch [[nm …], [n …]]; berichtigen</translation></message>
 <message><source>surface {surface}: ior is not a table of wavelengths and indices ({reason})</source><translation>Fläche {surface}: ior ist keine Tabelle von Wellenlängen und Indizes ({reason})</translation></message>
 <message><source>surface {surface}: its rim has the centre ({centre:g}) mm and the half-widths {widths}; give finite numbers, and positive widths</source><translation>Fläche {surface}: ihr Rand hat die Mitte ({centre:g}) mm und die halben Breiten {widths}; endliche Zahlen und positive Breiten angeben</translation></message>
+<message><source>surface {surface}: medium {medium}; give one of p2sf.glass.media, such as ConstantIndex(1.5)</source><translation>Fläche {surface}: Medium {medium}; geben Sie eines aus p2sf.glass.media an, etwa ConstantIndex(1.5)</translation></message>
 <message><source>surface {surface}: normalisation radius {radius} mm; give a number from {low:g} to {high:g}</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
@@ -1712,6 +1763,7 @@
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
 <message><source>the depth map holds depths that are not positive; give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält Abstände, die nicht positiv sind; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
+<message><source>the depth map reaches from {low:g} mm to {high:g} mm, and the scene from {near:g} mm to {far:g} mm; give depths in mm from the first vertex, and the scene a range that holds them</source><translation>die Tiefenkarte reicht von {low:g} mm bis {high:g} mm, die Szene von {near:g} mm bis {far:g} mm; geben Sie Tiefen in mm ab dem ersten Scheitel an und der Szene einen Bereich, der sie enthält</translation></message>
 <message><source>the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞</source><translation>der Abstand "{text}" hat eine unbekannte Einheit; mm, cm, m, km oder ∞ schreiben</translation></message>
 <message><source>the energy follows when the slider rests</source><translation>die Energie folgt, wenn der Regler ruht</translation></message>
 <message><source>the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus</source><translation>die Eintrittspupille liegt im Unendlichen, also sagt ein Feldwinkel nichts; die Blende von diesem Brennpunkt wegrücken</translation></message>
@@ -1721,6 +1773,8 @@
 <message><source>the environment variable {name} is {value}; give a whole number of 1 or more</source><translation>die Umgebungsvariable {name} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>the export was cancelled; nothing was written</source><translation>der Export wurde abgebrochen; nichts wurde geschrieben</translation></message>
 <message><source>the field is stated {count} times, by {names}; keep one</source><translation>das Feld ist {count}-mal angegeben, durch {names}; eines behalten</translation></message>
+<message><source>the field of {field:.4g}° lies beyond the {widest:g}° of this lens, where there is no picture of it; choose a smaller field, or the whole field</source><translation>das Feld von {field:.4g}° liegt außerhalb der {widest:g}° dieses Objektivs, wo es kein Bild davon gibt; ein kleineres Feld oder das ganze Feld wählen</translation></message>
+<message><source>the field point lands {height:.4g} mm from the axis, and the photo ends at {half:.4g} mm; choose a smaller field, or every pixel of the photo</source><translation>der Feldpunkt liegt {height:.4g} mm von der Achse, und das Foto endet bei {half:.4g} mm; ein kleineres Feld oder jedes Pixel des Fotos wählen</translation></message>
 <message><source>the fields of tolerances have several wavelengths; give them one</source><translation>die Felder von Toleranzen haben mehrere Wellenlängen; ihnen eine geben</translation></message>
 <message><source>the file asks for telecentric object space; chief rays pass the centre of its stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum; Hauptstrahlen gehen stattdessen durch die Mitte ihrer Blende</translation></message>
 <message><source>the file cannot be read ({reason}); check its path and permissions</source><translation>die Datei ist nicht lesbar ({reason}); Pfad und Rechte prüfen</translation></message>
@@ -1775,7 +1829,6 @@
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
 <message><source>the lens is set aside, and only the six sliders make the picture; switch "Free pupil" off to see the lens</source><translation>das Objektiv ist beiseitegelegt, allein die sechs Regler machen das Bild; „Freie Pupille“ ausschalten, um es zu sehen</translation></message>
-<message><source>the lens is {value}; give what p2sf.load_lens returns</source><translation>das Objektiv ist {value}; angeben, was p2sf.load_lens liefert</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
 <message><source>the lens names no stop surface and no semi-diameters; state one of them</source><translation>das Objektiv nennt weder Blendenfläche noch Halbmesser; eines davon angeben</translation></message>
 <message><source>the lens states no semi-diameters, so nothing can be clipped; add them or leave {parameter} off</source><translation>das Objektiv nennt keine Halbmesser, also lässt sich nichts beschneiden; diese hinzufügen oder {parameter} auslassen</translation></message>
@@ -1805,10 +1858,10 @@
 <message><source>the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it</source><translation>das Foto hat {count:.3g} Megapixel, von denen höchstens {most:g} auf einmal geschärft werden; einen Teil davon wählen</translation></message>
 <message><source>the picture has the shape ({shape}), but the scene's sensor needs {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
+<message><source>the picture holds whole numbers, as codes of sRGB are; convert it to linear light, in floats with white 1</source><translation>das Bild enthält ganze Zahlen wie die Codes von sRGB; wandeln Sie es in lineares Licht um, in Gleitkommazahlen mit Weiß bei 1</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
 <message><source>the picture {name} is not in {folder} any more; put it back there, or choose another</source><translation>das Bild {name} ist nicht mehr in {folder}; dorthin zurücklegen oder ein anderes wählen</translation></message>
 <message><source>the pixel is {pixel:g} µm; give a pitch above 0</source><translation>das Pixel misst {pixel:g} µm; einen Abstand über 0 angeben</translation></message>
-<message><source>the point at {depth:g} mm, slope {slope:.4g}, {wave:g} nm: {error}</source><translation>der Punkt bei {depth:g} mm, Steigung {slope:.4g}, {wave:g} nm: {error}</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
 <message><source>the pupil is too distorted for polynomials over its spatial frequencies, which give {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
 <message><source>the pupil map of this lens folds over; stop the lens down or take a smaller field</source><translation>die Pupillenabbildung dieses Objektivs faltet sich; das Objektiv abblenden oder ein kleineres Feld nehmen</translation></message>
@@ -1826,7 +1879,6 @@
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
 <message><source>the scene has several depths, but a picture through a misaligned lens has one; give near_mm and far_mm the same value and leave depth_map out</source><translation>die Szene hat mehrere Tiefen, und ein Bild durch ein dejustiertes Objektiv kennt nur eine; near_mm und far_mm gleich angeben und depth_map weglassen</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
-<message><source>the search for rims in the pupil</source><translation>die Suche nach Rändern in der Pupille</translation></message>
 <message><source>the sensitivities were stopped before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
 <message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
@@ -1840,6 +1892,7 @@
 <message><source>the stage</source><translation>die Bühne</translation></message>
 <message><source>the state</source><translation>der Zustand</translation></message>
 <message><source>the state has an unknown entry "{entry}"; known are {known}</source><translation>der Zustand hat einen unbekannten Eintrag "{entry}"; bekannt sind {known}</translation></message>
+<message><source>the state has no entry "{name}"; choose {names}</source><translation>der Zustand hat keinen Eintrag „{name}“; wählen Sie {names}</translation></message>
 <message><source>the state inside {name}</source><translation>der Zustand in {name}</translation></message>
 <message><source>the state names no lens; give the name of a shipped lens or a path</source><translation>der Zustand nennt kein Objektiv; den Namen eines mitgelieferten Objektivs oder einen Pfad angeben</translation></message>
 <message><source>the state's edited lens is not text; leave lens_text out to take the lens as its file has it</source><translation>das bearbeitete Objektiv des Zustands ist kein Text; lens_text weglassen, um das Objektiv zu nehmen, wie es in der Datei steht</translation></message>
@@ -1864,15 +1917,17 @@
 <message><source>the transfer function was stopped</source><translation>die Übertragungsfunktion wurde angehalten</translation></message>
 <message><source>the wavefront changes by {step:.3g} waves from one cell to the next, and more than {most:g} is ambiguous; give it on a finer grid, without jumps of whole waves</source><translation>die Wellenfront ändert sich von einer Zelle zur nächsten um {step:.3g} Wellen, und mehr als {most:g} ist mehrdeutig; auf einem feineren Gitter angeben, ohne Sprünge um ganze Wellen</translation></message>
 <message><source>the wavefront has the shape {shape}; give a square array</source><translation>die Wellenfront hat die Form {shape}; eine quadratische Matrix angeben</translation></message>
+<message><source>the window of {width:.4g} µm holds {share:.3g} % of the light, and the PSF has unit sum within it; give more {pixels} or a larger {pixel}</source><translation>das Fenster von {width:.4g} µm enthält {share:.3g} % des Lichts, und die PSF hat darin die Summe 1; geben Sie mehr {pixels} oder ein größeres {pixel} an</translation></message>
 <message><source>the {axis} nodes must be one or more numbers in ascending order; sort them</source><translation>die Knoten für {axis} müssen eine oder mehrere Zahlen in steigender Folge sein; ordnen</translation></message>
 <message><source>the {quantity} "{text}" has the unit "{unit}"; {remedy}</source><translation>"{text}" hat die Einheit "{unit}" bei: {quantity}; {remedy}</translation></message>
-<message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>"{text}" ist keine Zahl für: {quantity}; eine wie 12,5 schreiben</translation></message>
+<message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>{quantity}: "{text}" ist keine Zahl; eine wie 12,5 schreiben</translation></message>
 <message><source>their sum</source><translation>ihre Summe</translation></message>
 <message><source>there are no builds of this lens yet; wait until Tolerances shows its histogram</source><translation>von diesem Objektiv gibt es noch keine Exemplare; warten, bis Toleranzen sein Histogramm zeigt</translation></message>
 <message><source>there are {count} lenses for {due} columns; give one for each</source><translation>es gibt {count} Objektive für {due} Spalten; für jede eines angeben</translation></message>
 <message><source>there are {count} steps</source><translation>es gibt {count} Schritte</translation></message>
 <message><source>there are {count} workspaces already; delete one that is no longer needed</source><translation>es gibt schon {count} Arbeitsbereiche; löschen Sie einen, der nicht mehr gebraucht wird</translation></message>
 <message><source>there is 1 step</source><translation>es gibt 1 Schritt</translation></message>
+<message><source>there is no lens as built: {why}</source><translation>es gibt kein Objektiv, wie gebaut: {why}</translation></message>
 <message><source>there is no display to open the window on; start it from a desktop session, or under xvfb-run</source><translation>es gibt keinen Bildschirm, auf dem sich das Fenster öffnen ließe; aus einer Desktop-Sitzung oder unter xvfb-run starten</translation></message>
 <message><source>there is no frame to write; choose a longer sweep</source><translation>es gibt kein Bild zu schreiben; einen längeren Durchlauf wählen</translation></message>
 <message><source>there is no link to paste; copy one that begins with p2sf:</source><translation>kein Link zum Einfügen da; einen kopieren, der mit p2sf: beginnt</translation></message>
@@ -1890,8 +1945,7 @@
 <message><source>thickness</source><translation>Dicke</translation></message>
 <message><source>thickness behind surface {where}</source><translation>Dicke hinter Fläche {where}</translation></message>
 <message><source>thickness {number}: {thickness} mm</source><translation>Dicke {number}: {thickness} mm</translation></message>
-<message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rays} rays; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rays} Strahlen; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
-<message><source>this blur over {pixels} pixels of {pixel_um:g} µm needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über {pixels} Pixel zu {pixel_um:g} µm braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
+<message><source>this blur over a window {width:.3g} µm wide needs {rays} rays; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über ein Fenster von {width:.3g} µm braucht {rays} Strahlen; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>this is a database of PSFs, not a lens or a state; use it with p2sf psf, or open its lens</source><translation>das ist eine Datenbank von PSFs, kein Objektiv und kein Zustand; mit p2sf psf benutzen oder ihr Objektiv öffnen</translation></message>
 <message><source>this is a folder; name a file in it</source><translation>das ist ein Ordner; eine Datei darin nennen</translation></message>
 <message><source>this is a glass catalogue, not a lens; give it beside a lens file</source><translation>das ist ein Glaskatalog, kein Objektiv; neben einer Objektivdatei angeben</translation></message>
@@ -1991,6 +2045,7 @@
 <message><source>write a number from 0</source><translation>eine Zahl ab 0 schreiben</translation></message>
 <message><source>write a number that is not 0, inf for a plane</source><translation>eine Zahl schreiben, die nicht 0 ist, inf für eine Ebene</translation></message>
 <message><source>write a positive number</source><translation>eine positive Zahl schreiben</translation></message>
+<message><source>write a share from 0 to 1</source><translation>einen Anteil von 0 bis 1 schreiben</translation></message>
 <message><source>write a wavelength in nanometres, 50 to 50000</source><translation>eine Wellenlänge in Nanometern schreiben, 50 bis 50000</translation></message>
 <message><source>write an angle in degrees</source><translation>einen Winkel in Grad schreiben</translation></message>
 <message><source>write an angle in degrees below 90</source><translation>einen Winkel in Grad unter 90 schreiben</translation></message>
@@ -2000,6 +2055,7 @@
 <message><source>write the number {number} without quotation marks</source><translation>die Zahl {number} ohne Anführungszeichen schreiben</translation></message>
 <message><source>write {number} with a decimal point, not "{found}"</source><translation>{number} mit Dezimalpunkt schreiben, nicht "{found}"</translation></message>
 <message><source>write {units} or no unit</source><translation>{units} oder keine Einheit schreiben</translation></message>
+<message><source>x {x:z.2f}, y {y:z.2f} µm</source><translation>x {x:z.2f}, y {y:z.2f} µm</translation></message>
 <message><source>x, mm</source><translation>x, mm</translation></message>
 <message><source>x, of the edge</source><translation>x, des Randes</translation></message>
 <message><source>x, µm</source><translation>x, µm</translation></message>
@@ -2043,6 +2099,7 @@
 <message><source>{count} numbers are off</source><translation>{count} Zahlen stimmen nicht</translation></message>
 <message><source>{count} of the drawn rays do not pass (they miss a surface, or are totally reflected); less light arrives than the picture assumes.</source><translation>{count} der gezeichneten Strahlen kommen nicht durch (Fläche verfehlt oder totale Reflexion); es kommt weniger Licht an, als das Bild annimmt.</translation></message>
 <message><source>{count} of {all} wavelengths keep the channel's lateral and axial colour</source><translation>{count} von {all} Wellenlängen erhalten Farbquer- und Farblängsfehler des Kanals</translation></message>
+<message><source>{count} of {total} PSFs are wider than their windows, which hold as little as {share:.2g} % of the light; ask for more pixels a side, or larger ones</source><translation>{count} von {total} PSFs sind breiter als ihr Fenster, in das zum Teil nur {share:.2g} % des Lichts fallen; mehr Pixel je Seite verlangen, oder größere</translation></message>
 <message><source>{count} rays</source><translation>{count} Strahlen</translation></message>
 <message><source>{count} samples {pixel_um:.3g} µm apart hold no contrast of a PSF of aperture {na:.3g}: λ/(4 NA) is {critical:.3g} µm; sample it so closely, or take the MTF of the lens</source><translation>{count} Proben im Abstand {pixel_um:.3g} µm halten keinen Kontrast einer PSF der Apertur {na:.3g}: λ/(4 NA) sind {critical:.3g} µm; so dicht abtasten oder die MTF des Objektivs nehmen</translation></message>
 <message><source>{count} surfaces</source><translation>{count} Flächen</translation></message>
@@ -2052,6 +2109,7 @@
 <message><source>{count} wavelengths for a colour PSF; give a whole number from 1 to {most}</source><translation>{count} Wellenlängen für eine farbige PSF; eine ganze Zahl von 1 bis {most} angeben</translation></message>
 <message><source>{depth:.4g} mm</source><translation>{depth:.4g} mm</translation></message>
 <message><source>{depth:g} mm</source><translation>{depth:g} mm</translation></message>
+<message><source>PSFs: {count} = depths {depths} × fields {fields} × wavelengths {wavelengths}</source><translation>PSFs: {count} = Abstände {depths} × Felder {fields} × Wellenlängen {wavelengths}</translation></message>
 <message><source>{depth}, field {field}°, {wavelength} nm</source><translation>{depth}, Feld {field}°, {wavelength} nm</translation></message>
 <message><source>{done} of {all} settled</source><translation>{done} von {all} fertig</translation></message>
 <message><source>{error:.2g} relative, does not keep {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} nicht ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
@@ -2140,9 +2198,14 @@
 <message><source>{numbers} fitted numbers; the six Seidel coefficients require rotational symmetry</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen nur Rotationssymmetrie</translation></message>
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
+<message><source>{off:.3g} mm from the middle of this picture, which was moved in to stay within the field of the lens</source><translation>{off:.3g} mm von der Mitte dieses Bilds, das nach innen gerückt wurde, um im Feld des Objektivs zu bleiben</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
+<message><source>{parameter} fitted keeps more of them</source><translation>{parameter} fitted gibt sie getreuer wieder</translation></message>
+<message><source>{parameter} has no number; give one or more</source><translation>{parameter} hat keine Zahl; eine oder mehrere angeben</translation></message>
+<message><source>{parameter} has the shape {shape}, or holds what is no finite number; give one number or a list of them</source><translation>{parameter} hat die Form {shape} oder enthält etwas, das keine endliche Zahl ist; geben Sie eine Zahl oder eine Liste von Zahlen an</translation></message>
 <message><source>{parameter} has {count} terms; give up to {most} numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} Zahlen angeben</translation></message>
+<message><source>{parameter} holds {kind}; give real numbers</source><translation>{parameter} enthält {kind}; geben Sie reelle Zahlen an</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose noll or fringe</source><translation>{parameter} ist "{value}"; noll oder fringe wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose stop or paraxial</source><translation>{parameter} ist "{value}"; stop oder paraxial wählen</translation></message>
@@ -2151,6 +2214,7 @@
 <message><source>{parameter} is for {method} fitted; leave it out</source><translation>{parameter} gilt für {method} fitted; weglassen</translation></message>
 <message><source>{parameter} is given with {height}; give {angle} with it, or leave it out</source><translation>{parameter} ist mit {height} angegeben; dazu {angle} angeben oder es weglassen</translation></message>
 <message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
+<message><source>{parameter} is {value:g} %; give 0 or more, 0 where the f-number is known exactly</source><translation>{parameter} ist {value:g} %; 0 oder mehr angeben, 0 bei genau bekannter Blendenzahl</translation></message>
 <message><source>{parameter} is {value:g} mm, but an object at infinity has no height; give {depth} as well, or the field as an angle or an image height</source><translation>{parameter} ist {value:g} mm, aber ein Objekt im Unendlichen hat keine Höhe; auch {depth} angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
 <message><source>{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind the lens; give a distance whose image is real, usually a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
 <message><source>{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; give a smaller shift</source><translation>{parameter} ist {value:g} µm, was den Sensor von {place:g} mm hinter dem Objektiv in dieses hinein schiebt; einen kleineren Versatz angeben</translation></message>
@@ -2159,17 +2223,40 @@
 <message><source>{parameter} is {value:g}{unit}, which needs a chief ray at 90° to the axis; give a smaller one</source><translation>{parameter} ist {value:g}{unit}, wofür der Hauptstrahl 90° zur Achse stehen müsste; einen kleineren Wert angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a finite number</source><translation>{parameter}: {value:g}{unit}; eine endliche Zahl angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive finite number</source><translation>{parameter}: {value:g}{unit}; eine positive endliche Zahl angeben</translation></message>
+<message><source>{parameter} is {value:g}{unit}, and beyond {most:g} mm rays cannot be told from parallel ones; give inf</source><translation>{parameter}: {value:g}{unit}; über {most:g} mm hinaus sind Strahlen nicht von parallelen zu unterscheiden; ∞ angeben</translation></message>
+<message><source>{percent:.1f} % of the rays that fill the pupil reach the sensor, too few for its contrast and energy; move the source to a distance the lens is made for, or stop the lens down</source><translation>{percent:.1f} % der Strahlen, die die Pupille füllen, erreichen den Sensor, zu wenige für Kontrast und Energie; die Quelle in einen Abstand bringen, für den das Objektiv gemacht ist, oder abblenden</translation></message>
+<message><source>and so in half of its space</source><translation>und das im halben Raum</translation></message>
+<message><source>median 1 − R² {median:.1e}</source><translation>Median von 1 − R² {median:.1e}</translation></message>
+<message><source>PSFs of this database are predicted to be too far from those of exact rays {where} to say how far, {median}; {remedy}</source><translation>PSFs dieser Datenbank liegen {where} zu weit von denen exakter Strahlen, um zu sagen, wie weit, {median}; {remedy}</translation></message>
+<message><source>predicted 1 − R² against exact rays: median {median:.1e}, up to {worst:.1e} {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, bis {worst:.1e} {where}</translation></message>
+<message><source>predicted 1 − R² against exact rays: median {median:.1e}, too far from them to tell {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, {where} zu weit von ihnen für eine Zahl</translation></message>
+<message><source>in half of this space PSFs are too far from exact rays to predict how far</source><translation>im halben Raum liegen die PSFs zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
+<message><source>none: too far from exact rays to predict how far</source><translation>keine: zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
+<message><source>{parameter} is {value}; put semicolons between the numbers, since a comma may belong to one</source><translation>{parameter} ist {value}; Semikolons zwischen die Zahlen setzen, da ein Komma zu einer gehören kann</translation></message>
+<message><source>the tolerance of {error} is {value:g}{unit}; give a number from 0 to {high:g}</source><translation>Toleranz für {error}: {value:g}{unit}; eine Zahl von 0 bis {high:g} angeben</translation></message>
+<message><source>the point {where}: {error}</source><translation>der Punkt {where}: {error}</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive number, inf allowed</source><translation>{parameter}: {value:g}{unit}; eine positive Zahl angeben, ∞ erlaubt</translation></message>
 <message><source>{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; give an angle between −90 and 90°, both ends left out</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
+<message><source>{parameter} is {value}, and only a depth may reach to inf; give a finite end</source><translation>{parameter} ist {value}, und nur Abstände reichen bis ∞; ein endliches Ende angeben</translation></message>
 <message><source>{parameter} is {value}, but the lens has no such ring; leave it out</source><translation>{parameter} ist {value}, aber das Objektiv hat keinen solchen Ring; weglassen</translation></message>
+<message><source>{parameter} is {value}, which does not ascend from a finite number; write LOW:HIGH:COUNT</source><translation>{parameter} ist {value}, was nicht von einer endlichen Zahl an aufsteigt; VON:BIS:ANZAHL schreiben</translation></message>
+<message><source>{parameter} is {value}, which does not ascend; put the numbers in ascending order</source><translation>{parameter} ist {value}, was nicht aufsteigt; die Zahlen in aufsteigender Folge schreiben</translation></message>
 <message><source>{parameter} is {value}, which is for {method} seidel; leave it out</source><translation>{parameter} ist {value}, was für {method} seidel gilt; weglassen</translation></message>
+<message><source>{parameter} is {value}, whose COUNT is {count}; give from 2 to {most}</source><translation>{parameter} ist {value}, ANZAHL {count}; 2 bis {most} angeben</translation></message>
 <message><source>{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}</source><translation>{parameter} ist {value}; 0 für keine oder eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give a number from {low:g} to {high:g}{unit}, or a column of the lens: {columns}</source><translation>{parameter} ist {value}; eine Zahl von {low:g} bis {high:g}{unit} angeben, oder eine Spalte des Objektivs: {columns}</translation></message>
+<message><source>{parameter} is {value}; give a number without a unit, in {unit}</source><translation>{parameter} ist {value}; geben Sie eine Zahl ohne Einheit an, in {unit}</translation></message>
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number of 1 or more</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
+<message><source>{parameter} is {value}; give at most {most} a side</source><translation>{parameter} ist {value}; geben Sie höchstens {most} je Seite an</translation></message>
+<message><source>{parameter} is {value}; give distances in front of the lens, above 0</source><translation>{parameter} ist {value}; Abstände vor dem Objektiv angeben, größer als 0</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
+<message><source>{parameter} is {value}; give several, in a tuple</source><translation>{parameter} ist {value}; geben Sie mehrere an, als Tupel</translation></message>
+<message><source>{parameter} is {value}; give {wanted}</source><translation>{parameter} ist {value}; geben Sie {wanted} an</translation></message>
+<message><source>{parameter} is {value}; write LOW:HIGH:COUNT, one number, or numbers with {separators}</source><translation>{parameter} ist {value}; VON:BIS:ANZAHL schreiben, eine Zahl, oder Zahlen mit {separators} dazwischen</translation></message>
 <message><source>{parameter} needs a lens of rotational symmetry, and this one has none; leave it out</source><translation>{parameter} braucht ein rotationssymmetrisches Objektiv, und dieses ist keines; weglassen</translation></message>
+<message><source>{parameter} reaches {value:.4g} µm, and this line spread is known up to {most:.4g} µm from its centroid; give positions within that</source><translation>{parameter} reicht bis {value:.4g} µm, und diese Linienbildfunktion ist bis {most:.4g} µm vom Schwerpunkt bekannt; geben Sie Orte innerhalb davon an</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
 <message><source>{path} cannot be read as a picture; it is damaged, or of another kind than its ending says</source><translation>{path} lässt sich nicht als Bild lesen; es ist beschädigt oder von anderer Art, als seine Endung sagt</translation></message>
@@ -2210,6 +2297,7 @@
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
 <message><source>{path}, line {line}: {words} is number {other} once more; give each point one number and place</source><translation>{path}, Zeile {line}: {words} ist noch einmal Nummer {other}; jedem Punkt eine Nummer und einen Ort geben</translation></message>
 <message><source>{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG</source><translation>{path}: HEIF-Fotos brauchen pillow-heif, das nicht installiert ist; pip install 'p2sf[heif]', oder ein JPEG speichern</translation></message>
+<message><source>{path}: numbers of 8 bits are taken for sRGB and made linear; if they are counts, {parameter} linear says so</source><translation>{path}: Zahlen von 8 Bit werden als sRGB gelesen und linear gemacht; sind es Zählwerte, so sagt das {parameter} linear</translation></message>
 <message><source>{path}: PSF data has no ending "{ending}"; choose {endings}</source><translation>{path}: PSF-Daten haben nicht die Endung "{ending}"; {endings} wählen</translation></message>
 <message><source>{path}: a colour PSF has no ending "{ending}"; choose {choices}</source><translation>{path}: eine farbige PSF hat nicht die Endung "{ending}"; {choices} wählen</translation></message>
 <message><source>{path}: a film has no ending "{ending}"; choose {endings}</source><translation>{path}: ein Film hat nicht die Endung "{ending}"; {endings} wählen</translation></message>
@@ -2224,6 +2312,7 @@
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
+<message><source>{pixels} pixels of {pixel_um:g} µm take more than {most} samples a side to be integrated over; give fewer or smaller pixels, or {parameter} False</source><translation>über {pixels} Pixel von {pixel_um:g} µm zu integrieren braucht mehr als {most} Abtastwerte je Seite; geben Sie weniger oder kleinere Pixel an, oder {parameter} False</translation></message>
 <message><source>{pixels} usable pixels for {unknowns} unknowns; take a larger window, or fit fewer numbers</source><translation>{pixels} brauchbare Pixel für {unknowns} Unbekannte; ein größeres Fenster nehmen oder weniger Zahlen anpassen</translation></message>
 <message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
@@ -2235,15 +2324,13 @@
 <message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2</source><translation>{radial} Radien × {angular} Richtungen; mindestens 1 Radius und eine gerade Anzahl ≥ 2 angeben</translation></message>
 <message><source>{radii} radii × {directions} directions</source><translation>{radii} Radien × {directions} Richtungen</translation></message>
-<message><source>{radius:.3g} µm hold {share:.3g} of the light, less than {fraction}; ask for larger radii</source><translation>{radius:.3g} µm enthalten {share:.3g} des Lichts, weniger als {fraction}; größere Radien verlangen</translation></message>
 <message><source>{rounds} rounds of Richardson–Lucy; give at least 1</source><translation>{rounds} Runden Richardson–Lucy; mindestens 1 angeben</translation></message>
-<message><source>{rows} rows × {columns} columns of equal frequency</source><translation>{rows} Zeilen × {columns} Spalten gleicher Frequenz</translation></message>
 <message><source>{rows} rows × {columns} columns; give even counts of at least 2</source><translation>{rows} Zeilen × {columns} Spalten; gerade Anzahlen ab 2 angeben</translation></message>
 <message><source>{rows} × {columns} nodes</source><translation>{rows} × {columns} Knoten</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths, mirror images at no cost</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen, Spiegelbilder umsonst</translation></message>
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
-<message><source>{r} λ without tilt</source><translation>{r} λ ohne Verkippung</translation></message>
+<message><source>{r} λ with tilt</source><translation>{r} λ mit Verkippung</translation></message>
 <message><source>{sampling}; the aligned lens, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
 <message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
@@ -2254,16 +2341,17 @@
 <message><source>{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is</source><translation>{surface} beugt durch {command} {kind}, was nicht gelesen wird; nur DOE mit einer Phase in r (HCT R) wird gelesen</translation></message>
 <message><source>{surface} diffracts without a wavelength (HWL) of its phase; add it</source><translation>{surface} beugt ohne eine Wellenlänge (HWL) der Phase; ergänzen</translation></message>
 <message><source>{surface} has Forbes's polynomials of type {kind:g}, which is neither Qbfs (0) nor Qcon (1); correct it</source><translation>{surface} hat Forbes-Polynome vom Typ {kind:g}, der weder Qbfs (0) noch Qcon (1) ist; berichtigen</translation></message>
+<message><source>{surface} has Zernike terms that are decentred, which is not read; centre them</source><translation>{surface} hat dezentrierte Zernike-Glieder, die nicht gelesen werden; sie zentrieren</translation></message>
 <message><source>{surface} has a shape ({kind}) that is not round or not known; only {known} are read</source><translation>{surface} hat eine Form ({kind}), die nicht rund oder nicht bekannt ist; nur {known} werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only the types {known} are read</source><translation>{surface} hat den Typ {kind}, {description}; nur die Typen {known} werden gelesen</translation></message>
 <message><source>{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up to {most} terms and a positive radius</source><translation>{surface} hat {count:g} Glieder und einen Normierungsradius von {radius:g} in den Zusatzdaten (XDAT); bis zu {most} Glieder und einen positiven Radius angeben</translation></message>
-<message><source>{surface} is a special surface of type {kind}, which is not read; only ODD is</source><translation>{surface} ist eine Sonderfläche vom Typ {kind}, die nicht gelesen wird; nur ODD wird gelesen</translation></message>
+<message><source>{surface} is a special surface of type {kind}, which is not read; {known} are</source><translation>{surface} ist eine Sonderfläche vom Typ {kind}, die nicht gelesen wird; gelesen werden {known}</translation></message>
 <message><source>{surface} is tilted or decentred by its properties (SCBD); give coordinate breaks instead</source><translation>{surface} ist durch ihre Eigenschaften (SCBD) gekippt oder dezentriert; stattdessen Koordinatenbrüche angeben</translation></message>
 <message><source>{surface} is tilted or decentred by {kind} about ({pivot:g}), which is not read; only {known} about the vertex are</source><translation>{surface} ist durch {kind} um ({pivot:g}) gekippt oder dezentriert, was nicht gelesen wird; nur {known} um den Scheitel werden gelesen</translation></message>
 <message><source>{surface} {reason} ({command}), which is not read; give a lens without it</source><translation>{surface} {reason} ({command}), was nicht gelesen wird; ein Objektiv ohne das angeben</translation></message>
 <message><source>{surface} {reason} ({command}); only centred systems are read</source><translation>{surface} {reason} ({command}); nur zentrierte Systeme werden gelesen</translation></message>
-<message><source>{surface}: coefficient {name} of a special surface is not known; K, AR1 to AR30 and NRADIUS after SPS ODD are</source><translation>{surface}: Koeffizient {name} einer Sonderfläche ist nicht bekannt; K, AR1 bis AR30 und NRADIUS nach SPS ODD sind es</translation></message>
+<message><source>{surface}: coefficient {name} of a special surface is not known; K, AR1 to AR30 and NRADIUS after SPS ODD are, and K, NRADIUS and the coefficients by their numbers after {known}</source><translation>{surface}: Koeffizient {name} einer Sonderfläche ist nicht bekannt; K, AR1 bis AR30 und NRADIUS nach SPS ODD sind es, und K, NRADIUS und die Koeffizienten mit ihren Nummern nach {known}</translation></message>
 <message><source>{surface}: glass "{name}" is neither a name nor a six-digit code such as 517642 or 517.642; correct it</source><translation>{surface}: das Glas "{name}" ist weder ein Name noch ein sechsstelliger Code wie 517642 oder 517.642; berichtigen</translation></message>
 <message><source>{surface}: radius {radius:g} differs from the lens data's; correct one</source><translation>{surface}: der Radius {radius:g} weicht von dem der Linsendaten ab; einen berichtigen</translation></message>
 <message><source>{table} has "{key}", which means nothing here; it takes {keys}</source><translation>{table}: "{key}" bedeutet hier nichts; möglich sind {keys}</translation></message>
@@ -2277,9 +2365,9 @@
 <message><source>{value:z.3f} mm</source><translation>{value:z.3f} mm</translation></message>
 <message><source>{value:z.4f} mm</source><translation>{value:z.4f} mm</translation></message>
 <message><source>{value} mm</source><translation>{value} mm</translation></message>
-<message><source>{value} ± {error}{unit}</source><translation>{value} ± {error}{unit}</translation></message>
 <message><source>{value} ± {error} λ</source><translation>{value} ± {error} λ</translation></message>
 <message><source>{value} ± {error} λ ({own})</source><translation>{value} ± {error} λ ({own})</translation></message>
+<message><source>{value} ± {error}{unit}</source><translation>{value} ± {error}{unit}</translation></message>
 <message><source>{value} µm</source><translation>{value} µm</translation></message>
 <message><source>{waves:.0f} nm</source><translation>{waves:.0f} nm</translation></message>
 <message><source>{what} "{word}" is not a number; correct it</source><translation>{what} "{word}" ist keine Zahl; berichtigen</translation></message>

@@ -1,0 +1,182 @@
+"""Arguments as a script gives them: quantities with a unit, masked arrays, lists for tuples, and what is no number."""
+
+import os
+from collections.abc import Callable
+from dataclasses import fields
+from functools import lru_cache, wraps
+from inspect import Parameter, signature
+from numbers import Real
+from types import NoneType, UnionType
+from typing import Any, TypeVar, Union, cast, get_args, get_origin
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.errors import RequestError
+from p2sf.messages import Alternatives
+
+UNITS = (("_per_mm", "1/mm"), ("_mm", "mm"), ("_um", "um"), ("_nm", "nm"), ("_deg", "deg"))
+"""Endings of parameters, the longer ones first, and their units as astropy writes them; any other is a plain number."""
+NUMBERS = (float, int, Real)  # the first two are found ten times as fast
+CLASSES = {float: NUMBERS, int: NUMBERS, bool: (bool, np.bool_), None: NoneType}
+"""What a value of an annotation may be; whether a count is whole is checked where it is used."""
+PLAIN = frozenset((float, int, bool, str, NoneType))
+WANTED = {
+    **dict.fromkeys(("float", "int", "Real"), "a number"),
+    **dict.fromkeys(("bool", "bool_"), "True or False"),
+    "str": "a text",
+    "PathLike": "a path",
+    "Lens": "what p2sf.load_lens returns",
+    "Plan": "what p2sf.plan returns",
+    "Psf": "what p2sf.render returns",
+}
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+Kinds = tuple[type, ...]
+
+
+def checked(function: Function) -> Function:
+    """Return a function that takes its arguments as `argument` has them."""
+    kinds = {name: each.annotation for name, each in signature(function).parameters.items()}
+
+    @wraps(function)
+    def called(*args: Any, **kwargs: Any) -> Any:
+        given = [argument(name, value, kinds[name]) for name, value in zip(kinds, args, strict=False)]
+        named = {name: argument(name, value, kinds.get(name, Any)) for name, value in kwargs.items()}
+        return function(*given, *args[len(kinds) :], **named)
+
+    return cast("Function", called)
+
+
+def check_fields(instance: Any) -> None:
+    """Put what `argument` returns into the fields of a frozen dataclass; RequestError as it."""
+    for name, annotation, allowed in _fields(cast("Any", type(instance))):
+        value = getattr(instance, name)
+        if value == () if type(value) is tuple else type(value) in allowed:
+            continue
+        own = argument(name, value, annotation)
+        if own is not value:
+            object.__setattr__(instance, name, own)
+
+
+@lru_cache(maxsize=64)
+def _fields(kind: Any) -> tuple[tuple[str, Any, Kinds], ...]:
+    """Return the fields of a dataclass that can be checked: name, annotation, and the classes that need no more."""
+    known = ((field.name, field.type, _kinds(cast("Any", field.type))[0]) for field in fields(kind))
+    return tuple((name, annotation, tuple(set(kinds) - {tuple})) for name, annotation, kinds in known if kinds)
+
+
+def argument(name: str, value: Any, annotation: Any) -> Any:
+    """Return the value of a parameter: without its unit, and as a tuple where that is annotated.
+
+    Raises RequestError for a value of another kind than the annotation states; what that leaves open is not checked.
+    """
+    kinds, part = _kinds(annotation)
+    if part is not None and not isinstance(value, str):
+        return _tuple_of(name, value, part)
+    if isinstance(value, kinds or object) and (type(value) in PLAIN or not _has_unit(value)):
+        return value
+    value = in_own_unit(name, value)
+    if isinstance(value, np.ndarray) and not value.ndim and Real in kinds and np.ndarray not in kinds:
+        value = value.item()
+    if not isinstance(value, kinds or object):
+        raise RequestError(
+            "{parameter} is {value}; give {wanted}",
+            parameter=name,
+            value=f"{value!r:.60}",
+            wanted=Alternatives(dict.fromkeys(_wanted(kind) for kind in kinds if kind is not NoneType)),
+        )
+    return value
+
+
+def _wanted(kind: type) -> str:
+    return WANTED.get(kind.__name__, f"a p2sf.{kind.__name__}")
+
+
+@lru_cache(maxsize=256)
+def _kinds(annotation: Any) -> tuple[Kinds, Any]:
+    """Return the classes that an annotation allows, and of a tuple what its parts are annotated as, None of others.
+
+    No classes if the annotation says more than that, as of arrays or choices.
+    """
+    origin = get_origin(annotation)
+    if origin in (Union, UnionType):
+        parts = [_kinds(part)[0] for part in get_args(annotation)]
+        return (tuple(kind for part in parts for kind in part) if all(parts) else ()), None
+    kind = CLASSES.get(annotation, annotation if origin is None else origin)
+    several = kind if isinstance(kind, tuple) else (kind,)
+    usable = all(isinstance(each, type) and not getattr(each, "_is_protocol", False) for each in several)
+    usable = usable and annotation not in (Any, Parameter.empty) and origin in (None, tuple, os.PathLike)
+    return several if usable else (), get_args(annotation)[0] if origin is tuple else None
+
+
+def _tuple_of(name: str, value: Any, annotation: Any) -> tuple[Any, ...]:
+    """Return a tuple, a list, an array or another collection as a tuple, each part as `argument` has it."""
+    value = in_own_unit(name, value)
+    try:
+        parts = iter(value.tolist() if isinstance(value, np.ndarray) else value)
+    except TypeError:
+        raise RequestError(
+            "{parameter} is {value}; give several, in a tuple", parameter=name, value=f"{value!r:.60}"
+        ) from None
+    return tuple(argument(name, part, annotation) for part in parts)
+
+
+def in_own_unit(name: str, value: Any) -> Any:
+    """Return an astropy quantity as a number in the unit of the parameter, and anything without a unit as it is.
+
+    A list or tuple of quantities is converted one by one. Raises RequestError for a quantity of another kind, such as
+    a time for a length, and for one that cannot be converted here.
+    """
+    if isinstance(value, list | tuple) and any(_has_unit(part) for part in value):
+        return type(value)(in_own_unit(name, part) for part in value)
+    if not _has_unit(value):
+        return value
+    unit = next((unit for ending, unit in UNITS if name.endswith(ending)), "")
+    try:
+        found = value.to_value(unit)
+    except (AttributeError, TypeError, ValueError):  # of another package, or no length, angle …
+        raise RequestError(
+            "{parameter} is {value}; give a number without a unit, in {unit}",
+            parameter=name,
+            value=f"{value!s:.40}",
+            unit=unit or "the unit that the documentation states",
+        ) from None
+    return found if np.ndim(found) else float(found)
+
+
+def _has_unit(value: object) -> bool:
+    return hasattr(value, "unit") or hasattr(value, "units")
+
+
+def real_array(name: str, values: ArrayLike, masked: float = np.nan) -> np.ndarray:
+    """Return values as an array of float64, with ``masked`` where a masked array has no value.
+
+    Raises RequestError for complex numbers, and for what is no array of numbers.
+    """
+    values = in_own_unit(name, values)
+    try:
+        given = np.ma.asarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
+    except ValueError:  # rows of different lengths
+        given = np.asarray(None)
+    if given.dtype.kind not in "biuf":
+        raise RequestError(
+            "{parameter} holds {kind}; give real numbers",
+            parameter=name,
+            kind="complex numbers" if given.dtype.kind == "c" else "what is no array of numbers",
+        )
+    numbers: np.ndarray = np.ma.filled(given.astype(float), masked)
+    return numbers
+
+
+def number_list(name: str, values: ArrayLike, infinite: bool = False) -> np.ndarray:
+    """Return one or several numbers as an array (n,); RequestError for anything else, and unless all are finite."""
+    numbers = np.atleast_1d(real_array(name, values))
+    possible = ~np.isnan(numbers) if infinite else np.isfinite(numbers)
+    if numbers.ndim > 1 or not possible.all():
+        raise RequestError(
+            "{parameter} has the shape {shape}, or holds what is no finite number; give one number or a list of them",
+            parameter=name,
+            shape=str(numbers.shape),
+        )
+    return numbers

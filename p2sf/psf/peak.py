@@ -1,0 +1,137 @@
+"""The peak of a continuous picture, which samples miss: its Strehl ratio, whatever the pixel and the window.
+
+The intensity holds no frequency above 2s, s being the highest of the pupil's. Of a non-negative function with a maximum
+M so limited, Bernstein's inequality leaves at least M·cos²(2πs·d) at a distance d from it (Boas 1954, §11.3): what
+a sample can hide is bounded. So samples are climbed from, brightest first, until none left can hide more than is found.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, cos, hypot, pi, sqrt
+
+import numpy as np
+
+from p2sf.conventions import centred_axis
+from p2sf.psf.plane_waves import Waves
+
+FINE = 6  # samples per period of the pupil's highest frequency where the picture is looked at on a grid of its own
+ENOUGH_SAMPLES = 4  # of them that the samples of a picture need to serve instead
+MOST_SAMPLES = 512  # along a side of that grid
+BORDER = 1.5  # periods about the farthest ray where the peak may be
+DARK = 0.02  # of the brightest sample: a window with so dark a border holds the blur
+MOST_CLIMBS = 16
+MOST_TERMS = 2**17  # waves times climbs, after the first: some tens of milliseconds
+MOST_IN_PREVIEW = 2**12  # waves to climb by in a preview, which else takes its best sample
+CLIMB_STEPS = 12  # of Newton's method
+ENOUGH = {"preview": 1e-3, "settled": 1e-6}  # of the peak: the next step gains about the square of it
+ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest intensity of a continuous picture, and where it is, µm from the chief ray."""
+
+    value: float
+    x_um: float
+    y_um: float
+
+
+def peak_of(
+    intensity: np.ndarray,
+    pixel_um: float,
+    waves: Waves,
+    reaching: Callable[[float], Waves | None],
+    quality: str = "settled",
+) -> Peak:
+    """Return the peak of a picture, of which ``intensity`` (y, x) are samples in a window, by the pupil's own sum.
+
+    ``waves``: what was sampled. ``reaching`` returns waves that carry the phase up to a distance from the chief ray,
+    µm, or None where these are too many. The peak is looked for wherever rays land, also beside the window, unless
+    that has a dark border or it takes too many waves. A "preview" climbs from the best sample alone.
+    """
+    axis = centred_axis(intensity.shape[-1], pixel_um)
+    best = _place(intensity, axis, int(np.argmax(intensity)))
+    if not waves.spread:  # a single wave, equally bright everywhere
+        return sampled_peak(intensity, pixel_um)
+    if quality == "preview":
+        few = waves.fx.size <= MOST_IN_PREVIEW
+        return climbed(waves, *best, quality) if few else sampled_peak(intensity, pixel_um)
+    half = waves.blur_um + BORDER / waves.spread
+    held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
+    if held and pixel_um * waves.spread * ENOUGH_SAMPLES <= 1 + ROUNDING:
+        return _highest(waves, _hiding(intensity, axis, waves.spread))
+    wide = waves if hypot(half, half) <= waves.reach_um else reaching(hypot(half, half))
+    if wide is None:
+        wide, half = waves, waves.reach_um / sqrt(2)
+    side = min(MOST_SAMPLES, ceil(2 * half * FINE * waves.spread))
+    grid = centred_axis(side, 2 * half / side)
+    starts = _hiding(wide.intensity(grid, grid, np.float32), grid, waves.spread)
+    own = float(intensity.max())
+    return _highest(wide, [(own, *best), *starts] if own > starts[0][0] else starts)
+
+
+def sampled_peak(intensity: np.ndarray, pixel_um: float) -> Peak:
+    """Return the brightest of the samples (y, x) of a window."""
+    return Peak(
+        float(intensity.max()),
+        *_place(intensity, centred_axis(intensity.shape[-1], pixel_um), int(np.argmax(intensity))),
+    )
+
+
+def _place(intensity: np.ndarray, axis: np.ndarray, index: int) -> tuple[float, float]:
+    row, column = divmod(index, intensity.shape[-1])
+    return float(axis[column]), float(axis[row])
+
+
+def _hiding(intensity: np.ndarray, axis: np.ndarray, spread: float) -> list[tuple[float, float, float]]:
+    """Return most that a maximum about a sample can be, x and y, of all samples that can hide the highest one."""
+    from scipy.ndimage import maximum_filter
+
+    away = min((axis[1] - axis[0]) / sqrt(2), 1 / (8 * spread)) if axis.size > 1 else 0.0
+    least = cos(2 * pi * spread * away) ** 2
+    lobes = (intensity == maximum_filter(intensity, 3, mode="nearest")) & (intensity >= least * intensity.max())
+    indices = np.flatnonzero(lobes)
+    indices = indices[np.argsort(_crests(intensity).ravel()[indices])[::-1]]
+    return [(float(intensity.ravel()[i]) / least, *_place(intensity, axis, int(i))) for i in indices[:MOST_CLIMBS]]
+
+
+def _border(intensity: np.ndarray) -> float:
+    """Return the brightest sample on the border of a window."""
+    return max(float(line.max()) for line in (intensity[0], intensity[-1], intensity[:, 0], intensity[:, -1]))
+
+
+def _crests(intensity: np.ndarray) -> np.ndarray:
+    """Return how high parabolas through each sample and its neighbours rise; a sample on the border as it is."""
+    intensity = intensity.astype(float)
+    crests, middle = intensity.copy(), intensity[1:-1, 1:-1]
+    flat = -ROUNDING * float(intensity.max())
+    for before, after in ((intensity[:-2, 1:-1], intensity[2:, 1:-1]), (intensity[1:-1, :-2], intensity[1:-1, 2:])):
+        bend = np.minimum(before + after - 2 * middle, flat)
+        crests[1:-1, 1:-1] -= (after - before) ** 2 / (8 * bend)
+    return crests
+
+
+def _highest(waves: Waves, starts: list[tuple[float, float, float]]) -> Peak:
+    """Return the highest peak by climbing from each place that can lead higher, the most promising first.
+
+    Of many waves only the brightest few places are climbed from.
+    """
+    highest = climbed(waves, *starts[0][1:])
+    for bound, x, y in starts[1 : max(1, MOST_TERMS // waves.fx.size)]:
+        if bound <= highest.value:
+            continue
+        found = climbed(waves, x, y)
+        highest = max(highest, found, key=lambda peak: peak.value)
+    return highest
+
+
+def climbed(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:
+    """Return the maximum about a place; no step goes farther than half of what the pupil resolves."""
+    most = 1 / (8 * waves.spread)
+    for _ in range(CLIMB_STEPS):
+        value, step_x, step_y, gain = waves.near(x, y)
+        part = min(1.0, most / max(hypot(step_x, step_y), 1e-300))
+        x, y = x + part * step_x, y + part * step_y
+        if part == 1 and gain < ENOUGH[quality] * value:
+            return Peak(float(value + gain), float(x), float(y))
+    return Peak(float(waves.near(x, y)[0]), float(x), float(y))

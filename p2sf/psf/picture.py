@@ -1,0 +1,79 @@
+"""From the plane waves of a pupil to its `Psf`: the sum over a window, the peak, the share of the light."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+
+from p2sf.conventions import centred_axis
+from p2sf.messages import Message
+from p2sf.psf.peak import Peak, peak_of
+from p2sf.psf.plane_waves import Waves
+from p2sf.psf.result import Psf
+
+Window = tuple[int, float]
+"""Pixels on a side, µm per pixel."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """How a PSF was made, for its labels; ``started`` is a `perf_counter` reading."""
+
+    method: str
+    numbers: int
+    rays: int
+    sampling: Message
+    started: float
+    tolerance: float | None = None
+    predicted_error: float | None = None
+
+
+def psf_of_waves(
+    waves: Waves,
+    window: Window,
+    wavelength_um: float,
+    blur_um2: float | None,
+    made: Origin,
+    reaching: Callable[[float], Waves | None],
+    quality: str = "settled",
+) -> Psf:
+    """Return the PSF of plane waves in a window; a "preview" is summed in float32. ``reaching`` as `peak_of` has it."""
+    axis = centred_axis(*window)
+    intensity = waves.intensity(axis, axis, np.float64 if quality == "settled" else np.float32)
+    return psf_from_intensity(
+        intensity, window[1], wavelength_um, blur_um2, made, peak_of(intensity, window[1], waves, reaching, quality)
+    )
+
+
+def psf_from_intensity(
+    intensity: np.ndarray, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Origin, peak: Peak
+) -> Psf:
+    """Return the PSF of an intensity in units of the unaberrated peak.
+
+    ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an
+    integral only while the pitch is below half the period of the finest fringe; else the caller passes None. ``peak``:
+    of the continuous intensity.
+    """
+    total = float(intensity.sum(dtype=float))
+    return Psf(
+        values=intensity / total,
+        pixel_um=pixel_um,
+        wavelength_um=float(wavelength_um),
+        method=made.method,
+        strehl=peak.value,
+        energy=None if blur_um2 is None else total * pixel_um**2 / blur_um2,
+        numbers=made.numbers,
+        rays=made.rays,
+        sampling=made.sampling,
+        seconds=perf_counter() - made.started,
+        tolerance=made.tolerance,
+        predicted_error=made.predicted_error,
+        peak_um=(peak.x_um, peak.y_um),
+        sum_over_peak=total,
+    )
+
+
+def resolved(spread: float, pixel_um: float) -> bool:
+    """Return whether samples this far apart follow the finest fringes, 2·spread cycles per µm."""
+    return 2 * spread * pixel_um <= 1

@@ -1,0 +1,126 @@
+"""A whole pupil from some hundred rays: what they tell of it is smooth, though the field is not.
+
+A coarse pencil says how steep the phase is and whether all rays arrive. Where they do, and no mask has edges, phase,
+direction and light at any nodes follow from it by interpolation; rays on its rim, left out of it, tell how well.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.psf.plane_waves import Waves, pupil_amplitude
+from p2sf.pupil.interpolation import on_disc, refined
+from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.raytrace.pencil import Rays, pencil
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.vignetting import whole_nodes
+
+PROBE = 12, 36
+COARSE = PROBE, (20, 64)  # radii and directions of the pencils that others are interpolated from
+CLOSE = 2e-4  # waves, at the rim, where an interpolation errs most: 1 − R² below 1e-6
+STEP = 1e-4  # of the pupil radius and of a radian, for differences: errors of 1e-8, of round-off 1e-11
+
+Counts = tuple[int, int]
+"""Radial and angular node counts of the whole disc."""
+
+
+@dataclass(frozen=True)
+class RayWaves:
+    """Plane waves of exact rays, the counts of their nodes, and how many rays were lost and traced."""
+
+    waves: Waves
+    counts: Counts
+    lost: int
+    traced: int
+
+
+@lru_cache(maxsize=4)
+def probe(both: bool, counts: Counts = PROBE) -> tuple[np.ndarray, np.ndarray]:
+    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest.
+
+    ``both`` halves of the disc, or the half ξ > 0.
+    """
+    nodes, angle = disc_nodes(*counts), rim_angles(counts)
+    xi, eta = np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
+    return (np.append(xi, -xi), np.tile(eta, 2)) if both else (xi, eta)
+
+
+def rim_angles(counts: Counts) -> np.ndarray:
+    """Return the angles from +η of the rays on the rim of a coarse pencil, over half a turn."""
+    return np.linspace(0, np.pi, counts[1])
+
+
+@lru_cache(maxsize=16)
+def all_reach(lens: Lens, source: Source) -> bool:
+    """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
+    return bool(probing(lens, source).passed.all())
+
+
+@lru_cache(maxsize=4)
+def probing(lens: Lens, source: Source, counts: Counts = PROBE) -> Rays:
+    """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
+    return pencil(lens, source, *probe(lens.misaligned, counts))
+
+
+def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: float) -> RayWaves | None:
+    """Return the plane waves of nodes over the whole pupil, interpolated from a coarse pencil of exact rays.
+
+    None behind a mask, where rays are lost, and where no such pencil tells enough.
+    """
+    found = _smooth(lens, source, reach_um)
+    if found is None:
+        return None
+    coarse, sides = found
+    phase, fx, fy, light = on_disc(sides, coarse, counts)
+    nodes = whole_nodes(counts).unfolded() if lens.misaligned else whole_nodes(counts)
+    amplitude = pupil_amplitude(nodes.weight * light / (nodes.weight @ light), phase)
+    far = _farthest_um(probing(lens, source, coarse))
+    return RayWaves(Waves(amplitude, fx, fy, nodes.even, far, reach_um), counts, 0, sides[0].size)
+
+
+def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
+    """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak, by Parseval; None as `interpolated_waves`.
+
+    The energy of unit area spreads over |∂f/∂(ξ, η)| = |∂f/∂(ρ, θ)|/ρ.
+    """
+    found = _smooth(lens, source, 0.0)
+    if found is None:
+        return None
+    coarse, sides = found
+    radius = np.sqrt((1 + gauss_legendre(coarse[0])[0]) / 2)
+    theta = (np.arange(coarse[1] // 2) + 0.5) * (2 * np.pi / coarse[1])
+    by_radius = refined(sides, coarse, radius + STEP, theta) - refined(sides, coarse, radius - STEP, theta)
+    by_angle = refined(sides, coarse, radius, theta + STEP) - refined(sides, coarse, radius, theta - STEP)
+    turn = by_radius[1] * by_angle[2] - by_radius[2] * by_angle[1]
+    area = np.abs(turn) / (4 * STEP**2 * np.tile(np.repeat(radius, theta.size), sides.shape[1]))
+    nodes = whole_nodes(coarse).unfolded() if lens.misaligned else whole_nodes(coarse)
+    light = refined(sides, coarse, radius, theta)[3]
+    return float(nodes.weight @ (light**2 / area) / (np.pi * (nodes.weight @ light) ** 2))
+
+
+def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.ndarray] | None:
+    """Return the counts of the first pencil that tells enough; its phase, fx, fy and amplitude, (4, sides, rays)."""
+    if not mask_seen(lens, source).clear:
+        return None
+    for coarse in COARSE:
+        rays = probing(lens, source, coarse)
+        if not rays.passed.all():
+            return None
+        sides = np.stack([rays.phase, rays.fx, rays.fy, rays.amplitude]).reshape(4, 2 if lens.misaligned else 1, -1)
+        if _missed_on_rim(sides, coarse, max(_farthest_um(rays), reach_um)) <= CLOSE:
+            return coarse, sides
+    return None
+
+
+def _farthest_um(rays: Rays) -> float:
+    return float(np.hypot(rays.x_um, rays.y_um).max())
+
+
+def _missed_on_rim(sides: np.ndarray, coarse: Counts, reach_um: float) -> float:
+    """Return by how many waves rays on the rim, where an interpolation errs most, are missed at a distance."""
+    exact = sides[..., coarse[0] * coarse[1] // 2 :].reshape(4, -1)
+    phase, fx, fy, _ = np.abs(refined(sides, coarse, np.ones(1), rim_angles(coarse)) - exact).max(1)
+    return float(phase + (fx + fy) * reach_um)

@@ -1,0 +1,82 @@
+"""From few nodes of the disc to any others: a smooth function as polynomials in ρ² times harmonics of the angle.
+
+f(ρ, θ) = Σ_m f_m(ρ)·cos(mθ), or of sin(mθ) where it is odd in ξ; f_m is even in ρ for even m and odd for odd m, so that
+f_m(ρ)/ρ^(m mod 2) is a polynomial in ρ². Gauss–Legendre nodes in ρ² and evenly spaced angles determine as many of both
+as there are nodes, and converge geometrically (Boyd 2001, §18.5).
+"""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+
+from p2sf.conventions import protected
+from p2sf.pupil.quadrature import gauss_legendre
+
+
+def interpolated(
+    values: np.ndarray, counts: tuple[int, int], rho: np.ndarray, theta: np.ndarray, odd: bool = False
+) -> np.ndarray:
+    """Return a function known at the nodes of `disc_nodes(*counts)` at radii × angles, (…, radii·angles).
+
+    ``values``: (…, nodes) over the half disc, even in ξ or ``odd``; ``rho``: (radii,); ``theta``: (angles,), from +η.
+    """
+    radial, angular = counts
+    analysis, harmonics = _harmonics(angular, odd)
+    along = values.reshape(*values.shape[:-1], radial, angular // 2) @ analysis
+    across = np.moveaxis(along, -1, -2)  # (…, harmonics, radii)
+    at_odd = harmonics % 2 == 1
+    polynomial, here = _polynomials(radial, tuple(rho.tolist())), _radii(radial)
+    refined = np.empty((*across.shape[:-1], rho.size))
+    refined[..., ~at_odd, :] = across[..., ~at_odd, :] @ polynomial
+    refined[..., at_odd, :] = (across[..., at_odd, :] / here) @ polynomial * rho
+    wave = np.sin if odd else np.cos
+    found: np.ndarray = np.moveaxis(refined, -1, -2) @ wave(np.outer(harmonics, theta))
+    return found.reshape(*values.shape[:-1], -1)
+
+
+def refined(sides: np.ndarray, coarse: tuple[int, int], radius: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """Return phase, fx, fy and light, (4, points), at radii × angles from those at coarse nodes, (4, sides, nodes).
+
+    All but fx are even in ξ if there is one side; two are the halves ξ > 0 and, mirrored, ξ < 0.
+    """
+    inside = sides[..., : coarse[0] * coarse[1] // 2]
+    if sides.shape[1] == 1:
+        return np.stack([interpolated(x, coarse, radius, theta, odd=k == 1) for k, x in enumerate(inside[:, 0])])
+    even = interpolated((inside[:, 0] + inside[:, 1]) / 2, coarse, radius, theta)
+    odd = interpolated((inside[:, 0] - inside[:, 1]) / 2, coarse, radius, theta, odd=True)
+    return np.concatenate([even + odd, even - odd], axis=1)
+
+
+def on_disc(sides: np.ndarray, coarse: tuple[int, int], counts: tuple[int, int]) -> np.ndarray:
+    """Return `refined` at the nodes of `disc_nodes(*counts)`, with two sides at those of both halves."""
+    radius = np.sqrt((1 + gauss_legendre(counts[0])[0]) / 2)
+    theta = (np.arange(counts[1] // 2) + 0.5) * (2 * np.pi / counts[1])
+    return refined(sides, coarse, radius, theta)
+
+
+@lru_cache(maxsize=8)
+def _radii(radial: int) -> np.ndarray:
+    return protected(np.sqrt((1 + gauss_legendre(radial)[0]) / 2))
+
+
+@lru_cache(maxsize=8)
+def _harmonics(angular: int, odd: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return the matrix (angles, harmonics) that takes values over half a turn to their harmonics, and those."""
+    half = angular // 2
+    theta = (np.arange(half) + 0.5) * (np.pi / half)
+    number = np.arange(1, half + 1) if odd else np.arange(half)
+    matrix = (np.sin if odd else np.cos)(np.outer(theta, number)) * (2 / half)
+    matrix[:, number % half == 0] /= 2  # of the constant, and of the sine that alternates
+    return protected(matrix), protected(number)
+
+
+@lru_cache(maxsize=32)
+def _polynomials(radial: int, rho: tuple[float, ...]) -> np.ndarray:
+    """Return the matrix (radial, radii) from a polynomial's values at the Gauss nodes in ρ² to those at other radii.
+
+    f = Σ (2n + 1)/2·⟨f, Pₙ⟩·Pₙ, which the rule integrates exactly (A&S 22.2.10).
+    """
+    place, weight = gauss_legendre(radial)
+    here, there = legvander(place, radial - 1), legvander(2 * np.square(rho) - 1, radial - 1)
+    return protected((here * weight[:, None] * (np.arange(radial) + 0.5)) @ there.T)

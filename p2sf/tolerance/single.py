@@ -1,0 +1,210 @@
+"""One error at a time, by exact rays: what each tolerance does alone, either way, with the compensators set.
+
+The quadratic form draws thousands of builds; at the limit of a large tolerance it lacks third orders, and knows nothing
+of rays that are lost. Single errors are few, so their figures are not read off the form: the lens with the error is
+traced, and its compensators are set anew. How far the form is from that is its error.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from p2sf.errors import Cancelled, GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.pupil.tilt import without_tilt
+from p2sf.raytrace.pencil import Rays
+from p2sf.threads import one_blas_thread
+from p2sf.tolerance.builds import SUMMED_RMS, Builds, FieldForm, QuadraticForm, by_form
+from p2sf.tolerance.criteria import Criterion, harms
+from p2sf.tolerance.differentials import (
+    Differentials,
+    OpenRays,
+    open_rays,
+    through_build,
+    wavefront_of,
+    with_moved_sensor,
+)
+from p2sf.tolerance.errors_of_build import build
+
+STEP, LEAST_STEP = 0.01, 1e-5  # of a compensator, by which its effect on exact rays is found
+INVALID = 0.1  # of a harm: beyond, the quadratic form does not describe an error
+FINER = (32, 80), (48, 112)  # radii and directions of the rays of a wavefront that is not smooth
+SMOOTH = 0.03  # of the RMS: what the form's polynomials may leave of a change of the wavefront that fewer rays follow
+SETTLED = 1e-5  # of the RMS: by how much it may differ between one number of rays and the next
+
+
+@one_blas_thread
+def sensitivities(
+    known: Differentials,
+    compensators: Sequence[int] = (),
+    frequency_per_mm: float | None = None,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Builds:
+    """Return builds with one error each, at plus and then at minus its tolerance: (2·errors) builds, and the lens last.
+
+    That of a compensator is 0. By exact rays; only the contrast is that of pairs of points of the designed lens, whose
+    phases are exact. Figures are NaN where the error loses rays. Raises Cancelled.
+    """
+    places = tuple(compensators)
+    exact = _ExactBuilds(known, places, QuadraticForm(known, frequency_per_mm))
+    found = by_form(known, places, frequency_per_mm)
+    last = len(found.errors) - 1
+    for number in [last, *range(last)]:
+        if cancelled and cancelled():
+            raise Cancelled("the sensitivities were stopped before they were known")
+        if number < last and number // 2 in places:
+            continue
+        exact.replace(found, number)
+        if progress:
+            progress((number + 1) / (last + 1))
+    for place in places:
+        for values in (found.errors, found.rms_waves, found.strehl, found.boresight_um, found.mtf):
+            values[2 * place : 2 * place + 2] = values[-1]
+    return found
+
+
+def form_errors(form: Builds, alone: Builds, criterion: Criterion, compensators: Sequence[int] = ()) -> np.ndarray:
+    """Return by how much the harms that the form states exceed the exact ones, (errors,); NaN where rays are lost.
+
+    ``form``, ``alone``: of `by_form` and of `sensitivities`, for the same compensators.
+    """
+    excess: np.ndarray = harms(form, criterion, compensators) - harms(alone, criterion, compensators)
+    return excess
+
+
+@dataclass(frozen=True, eq=False)
+class _Waves:
+    """The waves of one field of a build, (rays,), without piston and tilt; ``reached`` are its rays.
+
+    ``phase``: at the focus, without a tilt along the build's own frequencies. ``wavefront``: as displayed.
+    """
+
+    reached: Rays
+    phase: np.ndarray
+    wavefront: np.ndarray
+
+
+class _Opening:
+    """Rays of every field through the open points of the stop, ``still`` those of the lens without errors."""
+
+    def __init__(self, known: Differentials, fine: Sequence[OpenRays]):
+        self._known, self.fine = known, fine
+        self.still = self._reached(np.zeros(len(known.tolerances)))[1]
+        each = zip(self.still, known.sources, strict=True)
+        self._on_sphere = [wavefront_of(known.lens, source, rays) for rays, source in each]
+
+    def waves(self, errors: np.ndarray) -> list[_Waves]:
+        """Return the waves of every field of a build."""
+        built, reached = self._reached(errors)
+        return [self._straight(k, built, rays) for k, rays in enumerate(reached)]
+
+    def slopes(self, there: list[_Waves], errors: np.ndarray, place: int) -> list[_Waves]:
+        """Return what a unit of a compensator adds to the waves ``there`` of a build with these errors."""
+        one = self._known.tolerances[place]
+        step = max(STEP * one.amount, LEAST_STEP)
+        if one.kind == "thickness" and one.first == len(self._known.lens.surfaces):
+            built = build(self._known.lens, self._known.tolerances, errors.tolist())
+            moved = [with_moved_sensor(built, waves.reached, step) for waves in there]
+            more = [self._straight(k, *each) for k, each in enumerate(moved)]
+        else:
+            beside = errors.copy()
+            beside[place] += step
+            more = self.waves(beside)
+        return [
+            _Waves(a.reached, (a.phase - b.phase) / step, (a.wavefront - b.wavefront) / step)
+            for a, b in zip(more, there, strict=True)
+        ]
+
+    def _reached(self, errors: np.ndarray) -> tuple[Lens, list[Rays]]:
+        known = self._known
+        built = build(known.lens, known.tolerances, errors.tolist()) if errors.any() else known.lens
+        each = zip(known.sources, self.fine, strict=True)
+        return built, [through_build(known.lens, built, source, rays.xi, rays.eta) for source, rays in each]
+
+    def _straight(self, field: int, built: Lens, rays: Rays) -> _Waves:
+        """Return the waves of a field by its rays; those of the open rays count the mask's path as well."""
+        open_ = self.fine[field]
+        on_sphere = wavefront_of(built, self._known.sources[field], rays) - self._on_sphere[field]
+        return _Waves(
+            rays,
+            without_tilt(
+                open_.phase + rays.phase - self.still[field].phase, open_.weight, np.stack([rays.fx, rays.fy])
+            ),
+            without_tilt(open_.wavefront + on_sphere, open_.share, open_.axes),
+        )
+
+
+class _ExactBuilds:
+    """Figures of builds by as many exact rays as their wavefronts need."""
+
+    def __init__(self, known: Differentials, places: tuple[int, ...], form: QuadraticForm):
+        self._known, self._places, self._form = known, places, form
+        self._few = _Opening(known, known.fine)
+
+    @cached_property
+    def _more(self) -> list[_Opening]:
+        known = self._known
+        return [_Opening(known, [open_rays(known.lens, one, counts) for one in known.sources]) for counts in FINER]
+
+    def replace(self, found: Builds, number: int) -> None:
+        """Write the figures of one build over those of the form."""
+        try:
+            waves = self._write(found, number, self._few)
+            smooth = map(_smooth, self._form.on_sphere, waves)
+            for opening in () if all(smooth) else self._more:
+                before = found.rms_waves[number].copy()
+                self._write(found, number, opening)
+                if (np.abs(found.rms_waves[number] - before) <= SETTLED * before).all():
+                    break
+        except GeometryError:
+            for values in (found.rms_waves, found.strehl, found.boresight_um, found.mtf):
+                values[number] = np.nan
+            return
+        if self._form.patterns:
+            change = [field.polynomials(one.phase) for field, one in zip(self._form.fields, waves, strict=True)]
+            stretch = np.einsum("e,efx->fx", found.errors[number], self._known.stretch)
+            self._form.contrast(np.stack(change)[None], stretch[None], found.mtf[number : number + 1])
+
+    def _write(self, found: Builds, number: int, opening: _Opening) -> list[_Waves]:
+        """Write all figures but the contrast, by the rays of an opening, and return its waves."""
+        waves = self._set(found.errors[number], opening)
+        quality = [_quality(one, rays) for one, rays in zip(waves, opening.fine, strict=True)]
+        found.rms_waves[number], found.strehl[number] = np.transpose(quality)
+        each = zip(waves, opening.still, strict=True)
+        found.boresight_um[number] = [one.reached.chief_um - still.chief_um for one, still in each]
+        return waves
+
+    def _set(self, errors: np.ndarray, opening: _Opening) -> list[_Waves]:
+        """Return the waves once the compensators in ``errors`` are set, which they nearly are."""
+        waves, places = opening.waves(errors), self._places
+        if not places:
+            return waves
+        by_place = [opening.slopes(waves, errors, place) for place in places]
+        slopes = [np.stack([one.wavefront for one in field]) for field in zip(*by_place, strict=True)]
+        each = list(zip(slopes, waves, opening.fine, strict=True))
+        normal = sum(slope * rays.share @ slope.T for slope, _, rays in each)
+        step = -np.linalg.solve(normal, sum(slope @ (rays.share * one.wavefront) for slope, one, rays in each))
+        errors[list(places)] += step
+        of_phase = [np.stack([one.phase for one in field]) for field in zip(*by_place, strict=True)]
+        return [
+            _Waves(one.reached, one.phase + step @ phase, one.wavefront + step @ slope)
+            for one, phase, slope in zip(waves, of_phase, slopes, strict=True)
+        ]
+
+
+def _smooth(form: FieldForm, waves: _Waves) -> bool:
+    """Return whether the form's polynomials describe how a wavefront differs from the lens's."""
+    change = waves.wavefront - form.still
+    rest = change - form.polynomials(waves.wavefront) @ form.terms
+    return bool(form.mean_square(rest) <= SMOOTH**2 * form.mean_square(waves.wavefront))
+
+
+def _quality(waves: _Waves, rays: OpenRays) -> tuple[float, float]:
+    """Return the RMS and the Strehl ratio, as `Builds` has it."""
+    rms = float(np.sqrt(max(rays.share @ waves.wavefront**2, 0.0)))
+    if rms > SUMMED_RMS:
+        return rms, float(np.exp(-((2 * np.pi * rms) ** 2)))
+    return rms, float(abs(rays.weight @ np.exp(2j * np.pi * waves.phase)) ** 2)

@@ -1,0 +1,129 @@
+"""The Strehl ratio: the peak of the continuous picture, whatever samples show, against dense sums over the pupil."""
+
+import numpy as np
+import pytest
+from numpy.polynomial.legendre import leggauss
+
+import p2sf
+from p2sf.lensfile.library import find_lens
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf.methods import render
+from p2sf.psf.pixel_integrals import render_integrated
+from p2sf.psf.seidel import seidel_psf
+from p2sf.raytrace.pencil import pencil
+from p2sf.request import Request, set_up
+from tests.support.waves import waves
+
+SHARP = [("double_gauss_28", 11.0, 7.0), ("cooke_triplet", 16.0, 0.0), ("petzval", 11.0, 3.0)]  # f-number, field
+
+
+def setup_of(name: str, f_number: float, field_deg: float):
+    setup = set_up(find_lens(name), Request(f_number=f_number, field_deg=field_deg))
+    return setup.lens, setup.source
+
+
+def disc(radii: int = 40, directions: int = 96) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    node, weight = leggauss(radii)
+    radius, angle = np.meshgrid(
+        np.sqrt((1 + node) / 2), (np.arange(directions) + 0.5) * (2 * np.pi / directions), indexing="ij"
+    )
+    return (
+        (radius * np.sin(angle)).ravel(),
+        (radius * np.cos(angle)).ravel(),
+        np.repeat(weight / 2 / directions, directions),
+    )
+
+
+def brightest(amplitude, fx, fy, around, step) -> float:
+    """Return the largest |Σ amplitude·exp(2πi f·x)|² over a grid of 41 × 41 points about a place."""
+    aside = step * np.arange(-20, 21)
+    x, y = (np.exp(2j * np.pi * np.outer(place + aside, f)) for place, f in zip(around, (fx, fy), strict=True))
+    return float((np.abs((y * amplitude) @ x.T) ** 2).max())
+
+
+@pytest.mark.parametrize("place", SHARP, ids=str)
+@pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens"])
+def test_it_does_not_depend_on_the_pixel(place, method):
+    lens, source = setup_of(*place)
+    found = [render(lens, source, method, pixels, pixel_um) for pixels, pixel_um in ((64, 0.25), (32, 0.9), (17, 3.1))]
+    for psf in found[1:]:
+        assert psf.strehl == pytest.approx(found[0].strehl, rel=2e-4)  # traced: a fit to 1e-3 waves between samples
+        assert psf.peak_um == pytest.approx(found[0].peak_um, abs=0.02)
+
+
+@pytest.mark.parametrize("place", SHARP, ids=str)
+@pytest.mark.parametrize("method", ["fitted", "traced", "huygens"])
+def test_it_is_the_largest_value_of_a_dense_sum_of_exact_rays(place, method):
+    lens, source = setup_of(*place)
+    xi, eta, share = disc()
+    rays = pencil(lens, source, xi, eta)
+    weight, wavelength = share * rays.amplitude, float(source.wavelength_um)
+    amplitude = weight / weight.sum() * np.exp(2j * np.pi * rays.phase)
+    fx, fy = (np.asarray(rays.index) * k / wavelength for k in (rays.kx, rays.ky - rays.chief_ky))
+    psf = render(lens, source, method, 32, 0.9)
+    truth = brightest(amplitude, fx, fy, psf.peak_um, 0.02)  # µm: what a grid misses of a peak is below 1e-4
+    assert psf.strehl == pytest.approx(truth, rel=2e-3 if method == "fitted" else 2e-4)
+
+
+@pytest.mark.parametrize("six", [(0.3, 0.5, -0.2, 0.1, 0.0, -0.3), (0.0, 0.9, 0.0, 0.0, 0.0, 0.0)])
+def test_of_six_coefficients_it_is_that_of_the_definition(six):
+    c = waves(*six)
+    psf, (xi, eta, share) = seidel_psf(c, 33, 1.7), disc()
+    scale = -float(c.reduced_slope) / float(c.wavelength_um)  # the field is ΣP·exp(−i2πn′u′(ξx + ηy)/λ)
+    amplitude = share * np.exp(2j * np.pi * np.asarray(wavefront(c, xi, eta)))
+    assert psf.strehl == pytest.approx(brightest(amplitude, scale * xi, scale * eta, psf.peak_um, 0.02), rel=2e-4)
+    several = seidel_psf(waves(*(np.array([value, 0.5 * value]) for value in six)), 33, 1.7)
+    assert several.strehl[0] == pytest.approx(psf.strehl, rel=1e-6) and several.peak_um.shape == (2, 2)
+
+
+@pytest.mark.parametrize("part", [0.76, 0.92, 0.94, 0.96])
+def test_of_two_lobes_it_is_the_higher_one_though_samples_meet_the_lower_one_better(part):
+    """Samples up to λ/4NA apart show the lower lobe brighter; the peak was 7 % too low."""
+    c, (xi, eta, share) = waves(0.682, 0.610, -1.947, 0.0, 0.0, 0.891), disc()
+    scale = -float(c.reduced_slope) / float(c.wavelength_um)
+    amplitude = share * np.exp(2j * np.pi * np.asarray(wavefront(c, xi, eta)))
+    dense = np.linspace(-15, 15, 301)
+    x, y = (np.exp(2j * np.pi * np.outer(dense, scale * k)) for k in (xi, eta))
+    truth = float((np.abs((y * amplitude) @ x.T) ** 2).max())
+    assert seidel_psf(c, 75, part / (4 * abs(scale))).strehl == pytest.approx(truth, rel=3e-3)
+
+
+def test_pixels_that_gather_light_have_the_same_one():
+    lens, source = setup_of(*SHARP[0])
+    sampled, gathered = render(lens, source, "traced", 32, 0.5), render_integrated(lens, source, "traced", 16, 4.0)
+    assert gathered.integrated and not sampled.integrated
+    assert gathered.strehl == pytest.approx(sampled.strehl, rel=2e-4)
+    assert gathered.over_unaberrated.max() < 0.9 * gathered.strehl  # the mean over a pixel
+
+
+def test_of_a_wavefront_on_a_grid_it_is_that_of_a_perfect_pupil_beside_the_samples():
+    """A tilt moves the peak between samples and takes nothing from it: half a wave over the radius, 0.61 Airy radii."""
+    axis = (2 * np.arange(256) + 1 - 256) / 256
+    psf = p2sf.psf_of_opd(0.13 * axis[:, None] * np.ones(256), na=0.1, wavelength_nm=550)
+    assert psf.strehl == pytest.approx(1, abs=1e-6)
+    assert np.hypot(*psf.peak_um) == pytest.approx(0.13 * 0.55 / 0.1, rel=1e-3)
+    assert psf.values.max() * psf.sum_over_peak < 0.999
+
+
+@pytest.mark.parametrize(("defocus", "piston"), [(3.0, 0.0), (2.0, 30.0)])
+def test_of_a_wavefront_on_a_grid_it_is_within_one_period_of_its_picture(defocus, piston):
+    """What is opaque has no slope: its zeros beside a wave at the rim once sent the search thousands of µm aside."""
+    axis = (2 * np.arange(128) + 1 - 128) / 128
+    opd = defocus * (axis**2 + axis[:, None] ** 2) + piston
+    opd[np.hypot(axis, axis[:, None]) > 1] = np.nan
+    psf = p2sf.psf_of_opd(opd, na=0.1, wavelength_nm=500, pixels=64)
+    lit = np.isfinite(opd)
+    eta, xi = (k[lit] for k in np.meshgrid(axis, axis, indexing="ij"))
+    dense = np.linspace(-20, 20, 201)
+    x, y = (np.exp(2j * np.pi * np.outer(dense, 0.2 * k)) for k in (xi, eta))
+    truth = (np.abs((y * np.exp(2j * np.pi * opd[lit])) @ x.T) ** 2).max() / lit.sum() ** 2
+    assert psf.strehl == pytest.approx(truth, rel=0.03)  # whose rim has no parts of cells
+    assert psf.strehl >= psf.over_unaberrated.max() * (1 - 1e-9)
+    assert np.hypot(*psf.peak_um) < 20
+
+
+@pytest.mark.filterwarnings("ignore::p2sf.P2SFWarning")
+def test_a_single_lit_cell_is_equally_bright_everywhere():
+    for lit in (np.ones((1, 1)), np.arange(9).reshape(3, 3) == 4):
+        psf = p2sf.psf_of_opd(0 * lit, na=0.1, wavelength_nm=500, amplitude=1.0 * lit, pixels=1)
+        assert psf.strehl == pytest.approx(1) and psf.peak_um == (0, 0)

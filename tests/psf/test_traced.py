@@ -1,0 +1,76 @@
+"""The traced method: exact rays, interpolated over the pupil, against stored witnesses and the reference."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import Cancelled, SamplingError
+from p2sf.psf.compare import r_squared
+from p2sf.psf.fitted import fitted_psf
+from p2sf.psf.huygens import first_counts, huygens_psf, ray_waves
+from p2sf.psf.smooth_pupil import interpolated_waves
+from p2sf.psf.traced import traced_psf
+from tests.support.reference import LENSES, cases
+
+
+@pytest.mark.parametrize("name", LENSES)
+def test_traced_equals_the_witness(name):
+    for lens, source, pixel, stored in cases(name):
+        settled, preview = (traced_psf(lens, source, 32, pixel, quality) for quality in ("settled", "preview"))
+        assert r_squared(settled.values, stored) >= 0.9999
+        assert r_squared(preview.values, stored) >= 0.999
+
+
+def test_clipped_rays_take_the_references_nodes():
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    clip = True
+    traced, reference = (
+        traced_psf(lens, source, 32, pixel, "settled", clip),
+        huygens_psf(lens, source, 32, pixel, clip=clip),
+    )
+    assert r_squared(traced.values, reference.values) > 0.9999
+
+
+@pytest.mark.parametrize("quality", ["settled", "preview"])
+def test_rays_one_by_one_can_be_stopped(quality):
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
+    with pytest.raises(Cancelled):
+        traced_psf(lens, source, 32, pixel, quality, True, cancelled=lambda: True)
+
+
+@pytest.mark.parametrize("name", LENSES)
+def test_a_few_rays_tell_what_all_would(name):
+    """Phase, direction and light at every node, interpolated and traced: within the bound seen on the rim."""
+    for lens, source, pixel, _ in cases(name):
+        reach = 23 * pixel
+        counts = first_counts(lens, source, reach, False)
+        few = interpolated_waves(lens, source, counts, reach)
+        if few is None:
+            continue
+        every = ray_waves(lens, source, counts, reach, False).waves
+        spread = np.abs(every.amplitude).max()
+        assert np.abs(few.waves.amplitude - every.amplitude).max() < 2 * np.pi * 2e-4 * spread
+        assert np.abs(few.waves.fx - every.fx).max() * reach < 2e-4
+
+
+@pytest.mark.parametrize("method", [fitted_psf, traced_psf])
+def test_a_blur_beyond_all_nodes_is_refused_in_words(method):
+    lens, source, _, _ = next(cases("double_gauss_28"))
+    with pytest.raises(SamplingError) as refused:
+        method(lens, source, 64, 1e4)
+    assert refused.value.message.values["width"] == pytest.approx(64e4)
+
+
+def test_some_hundred_rays_do():
+    lens, source, pixel, _ = list(cases("double_gauss_28"))[1]
+    assert traced_psf(lens, source, 32, pixel).rays < 300
+
+
+@pytest.mark.parametrize("name", ["cooke_triplet", "double_gauss_28", "eye_navarro"])
+def test_all_light_is_the_sum_of_a_picture_that_holds_it(name):
+    """The share of the light in a window so wide that what is outside is small: it tends to 1 as 1/width."""
+    lens, source, pixel, _ = next(cases(name))
+    shares = [traced_psf(lens, source, count, pixel).energy for count in (64, 128, 256, 512)]
+    outside = 1 - np.array(shares)
+    assert (outside > 0).all() and (np.diff(outside) < 0).all()
+    # The wings behind a sharp edge fall as the cube of the distance, so that twice the width leaves half of the light.
+    assert 2 * shares[3] - shares[2] == pytest.approx(1, abs=2e-3)
