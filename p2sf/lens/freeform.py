@@ -21,9 +21,15 @@ from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms
 Monomials = dict[tuple[int, int], float]  # coefficients by the exponents of x and y
 
 
+@dataclass(frozen=True)
 class Freeform(Shape):
-    """A shape that is not of revolution; its mean over all azimuths has even powers of r only."""
+    """A shape that is not of revolution; its mean over all azimuths has even powers of r only.
 
+    ``coefficients``, mm, are of polynomials of x and y over ``normalisation_mm``.
+    """
+
+    coefficients: tuple[float, ...]
+    normalisation_mm: float
     endings = frozenset((".toml", ".zmx", ".seq"))
 
     def __getstate__(self) -> dict:
@@ -61,9 +67,8 @@ def xy_exponents(count: int) -> tuple[tuple[int, int], ...]:
 
 @dataclass(frozen=True)
 class XYPolynomial(Freeform):
-    """Terms a₁x + a₂y + a₃x² + a₄xy + a₅y² + a₆x³ + … of x and y over ``normalisation_mm``; ``coefficients`` in mm."""
+    """Terms a₁x + a₂y + a₃x² + a₄xy + a₅y² + a₆x³ + … of x and y over the normalisation radius."""
 
-    coefficients: tuple[float, ...]
     normalisation_mm: float = 1.0
     most: ClassVar[int] = 230
     """Terms up to degree 20."""
@@ -131,7 +136,7 @@ def _whole_degrees(count: int) -> int:
 
 
 class ZernikeSag(Freeform):
-    """Zernike's polynomials of x and y over ``normalisation_mm``; ``coefficients`` from the first, piston, mm."""
+    """Zernike's polynomials of x and y over the normalisation radius; coefficients from the first, piston."""
 
     order: ClassVar[ZernikeOrder]
     most: ClassVar[int]
@@ -209,20 +214,18 @@ class ZernikeSag(Freeform):
         listed = {(each.n, each.m): each for each in zernike_terms(cls.order, cls.most)}
         numbers = {listed[key].number: value / cls._norm(listed[key]) for key, value in terms.items() if value}
         count = max(numbers, default=1)
-        return cls(tuple(numbers.get(place, 0.0) for place in range(1, count + 1)), normalisation_mm)  # type: ignore[call-arg]  # the dataclasses below
+        return cls(tuple(numbers.get(place, 0.0) for place in range(1, count + 1)), normalisation_mm)
 
     def scaled(self, factor: float) -> Self:
         """Return the shape ``factor`` times as large."""
         numbers = tuple(a * factor for a in self.coefficients)
-        return type(self)(numbers, self.normalisation_mm * factor)  # type: ignore[call-arg]  # the dataclasses below
+        return type(self)(numbers, self.normalisation_mm * factor)
 
 
 @dataclass(frozen=True)
 class ZernikeStandardSag(ZernikeSag):
     """Zernike's polynomials in Noll's order, each of unit mean square over the disc (Noll 1976)."""
 
-    coefficients: tuple[float, ...]
-    normalisation_mm: float
     order = "noll"
     most = 231
     kind = "Zernike standard sag"
@@ -237,8 +240,6 @@ class ZernikeStandardSag(ZernikeSag):
 class ZernikeFringeSag(ZernikeSag):
     """Zernike's polynomials in the Fringe order, each 1 at most, on the edge."""
 
-    coefficients: tuple[float, ...]
-    normalisation_mm: float
     order = "fringe"
     most = 37
     kind = "Zernike fringe sag"

@@ -1,6 +1,5 @@
 """The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays (handbook 5.3)."""
 
-from collections.abc import Iterator
 from functools import lru_cache
 from time import perf_counter
 
@@ -12,7 +11,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
-from p2sf.psf.plane_waves import Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
+from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
 from p2sf.pupil.interpolation import on_disc
@@ -26,12 +25,10 @@ from p2sf.threads import one_blas_thread
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "fitted_waves", "psf_of_fit", "summed"]
 
-Counts = tuple[int, int]
-"""Radial and angular node counts of the whole disc."""
 Values = tuple[np.ndarray, np.ndarray, np.ndarray]
 MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
 MOST_NODES = 2**24  # radii × directions: some seconds of work
-MOST_FOR_PEAK = 2**18  # of them where only the peak is looked for
+MOST_FOR_PEAK = 2**18  # of them for the peak alone, which is then looked for in the window only
 PREVIEW = 0.9  # of the settled counts: 1 − R² against the settled sum is below 1e-5
 
 
@@ -56,7 +53,7 @@ def fitted_psf(
 def psf_of_fit(found: FittedPencil, wavelength_um: float, window: Window, quality: str, started: float) -> Psf:
     """Return the PSF that a fit describes in a window; ``started`` is a `perf_counter` reading."""
     counts = counts_of(found, window_reach_um(*window), quality)
-    sampling = words_of(counts, quality)
+    sampling = nodes_in_words(counts, quality)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     error = predicted_error(found.error_waves, "fitted")
     made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance, error)
@@ -79,7 +76,7 @@ def counts_of(found: FittedPencil, reach_um: float, quality: str = "settled") ->
     return counts
 
 
-def words_of(counts: Counts, quality: str) -> Message:
+def nodes_in_words(counts: Counts, quality: str) -> Message:
     """Return in words what is summed."""
     precision = "float64" if quality == "settled" else "float32"
     return Message("{nodes}, {precision}", nodes=disc_words(counts), precision=precision)
@@ -91,9 +88,10 @@ def waves_reaching(found: FittedPencil, reach_um: float) -> Waves | None:
     return fitted_waves(found, counts, reach_um) if counts[0] * counts[1] <= MOST_FOR_PEAK else None
 
 
-def fit_nodes(found: FittedPencil, counts: Counts) -> ClearNodes:
-    """Return nodes over what the mask of a fit leaves open, for a fit without symmetry over both halves."""
-    return _nodes(found.mask, *counts, bool(found.level.skew))
+def open_nodes(mask: PupilMask, counts: Counts, skew: bool) -> ClearNodes:
+    """Return nodes over what a mask leaves open; for a ``skew`` fit, one without symmetry, over both halves."""
+    nodes = mask_nodes(mask, *counts)
+    return nodes.unfolded() if skew else nodes
 
 
 def fitted_waves(
@@ -101,14 +99,13 @@ def fitted_waves(
 ) -> Waves:
     """Return the plane waves of a fit over what its mask leaves open, their amplitudes of unit sum.
 
-    ``passed``: which of `fit_nodes` let light pass, (nodes,); all by default.
+    ``passed``: which of `open_nodes` let light pass, (nodes,); all by default.
     """
-    nodes = fit_nodes(found, counts)
+    nodes = open_nodes(found.mask, counts, bool(found.level.skew))
     if found.mask.clear:
         phase, fx, fy, amplitude = _on_rings(found, counts)
     else:
-        blocks = [values for _, values in _at_nodes(found, nodes, counts)]
-        phase, fx, fy = blocks[0] if len(blocks) == 1 else (np.concatenate(x) for x in zip(*blocks, strict=True))
+        phase, fx, fy = _at_nodes(found, nodes, counts)
         phase = phase + nodes.path_um / found.wavelength_um if found.mask.phased else phase
         amplitude = found.amplitude_at(nodes.xi, nodes.eta)
     weight = nodes.weight * nodes.amplitude * amplitude
@@ -138,7 +135,7 @@ def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "se
     """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
     counts = counts_of(found, window_reach_um(pixels, pixel_um), quality)
     dtype = np.float64 if quality == "settled" else np.float32
-    return fitted_intensity(found, counts, pixels, pixel_um, dtype), words_of(counts, quality)
+    return fitted_intensity(found, counts, pixels, pixel_um, dtype), nodes_in_words(counts, quality)
 
 
 def fitted_intensity(
@@ -149,26 +146,21 @@ def fitted_intensity(
     return fitted_waves(found, counts).intensity(axis, axis, dtype)
 
 
-def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts) -> Iterator[tuple[slice, Values]]:
-    """Yield phase, fx and fy of a fit at its nodes, in blocks: of millions of nodes a basis takes gigabytes."""
+def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts) -> Values:
+    """Return phase, fx and fy of a fit at its nodes, by blocks: of millions of nodes a basis takes gigabytes."""
     orders, skew = found.level.orders, bool(found.level.skew)
     if nodes.xi.size <= MOST_KEPT // 2:
         even, odd = (_kept_basis(orders[flag], *counts, flag, found.mask, skew) for flag in (False, True))
-        yield slice(0, nodes.xi.size), found.on(even, odd)
-        return
+        return found.on(even, odd)
+    blocks = []
     for begin in range(0, nodes.xi.size, MOST_KEPT):
-        some = slice(begin, begin + MOST_KEPT)
-        at = nodes.xi[some], nodes.eta[some]
-        yield some, found.on(basis(orders[0], *at, False), basis(orders[1], *at, True))
+        at = nodes.xi[begin : begin + MOST_KEPT], nodes.eta[begin : begin + MOST_KEPT]
+        blocks.append(found.on(basis(orders[0], *at, False), basis(orders[1], *at, True)))
+    phase, fx, fy = (np.concatenate(column) for column in zip(*blocks, strict=True))
+    return phase, fx, fy
 
 
 @lru_cache(maxsize=16)
 def _kept_basis(order: int, radial: int, angular: int, odd: bool, mask: PupilMask, skew: bool) -> np.ndarray:
-    nodes = _nodes(mask, radial, angular, skew)
+    nodes = open_nodes(mask, (radial, angular), skew)
     return basis(order, nodes.xi, nodes.eta, odd)
-
-
-def _nodes(mask: PupilMask, radial: int, angular: int, skew: bool) -> ClearNodes:
-    """Return nodes over the open pupil, for a fit without symmetry over all of it."""
-    nodes = mask_nodes(mask, radial, angular)
-    return nodes.unfolded() if skew else nodes

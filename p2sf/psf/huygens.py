@@ -20,17 +20,16 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
-from p2sf.psf.plane_waves import Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
+from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.smooth_pupil import (
     PROBE,
-    Counts,
     RayWaves,
     all_reach,
+    coarse_pencil,
+    coarse_points,
     interpolated_waves,
-    probe,
-    probing,
     smooth_blur_um2,
 )
 from p2sf.pupil.mask_nodes import ClearNodes
@@ -45,7 +44,7 @@ from p2sf.threads import for_each, one_blas_thread
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
-MOST_FOR_PEAK = 2**17  # where only the peak is looked for
+MOST_FOR_PEAK = 2**17  # for the peak alone, which is then looked for in the window only
 
 Amplitude = Literal["area", "radiometric"]
 
@@ -200,10 +199,10 @@ def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool) -> Steep
 
     Raises GeometryError where no ray of the coarse pencil passes.
     """
-    if not probing(lens, source).passed.any():
+    if not coarse_pencil(lens, source).passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
     if not clip and all_reach(lens, source):
-        return _in_window(probing(lens, source), *probe(lens.misaligned), reach_um)
+        return _in_window(coarse_pencil(lens, source), *coarse_points(lens.misaligned), reach_um)
     nodes = _nodes_of(lens, source, PROBE, clip)
     rays = rays_through(lens, source, nodes)
     weight = np.where(rays.passed, nodes.weight, 0.0)

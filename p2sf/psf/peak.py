@@ -1,8 +1,11 @@
 """The peak of a continuous picture, which samples miss: its Strehl ratio, whatever the pixel and the window.
 
-The intensity holds no frequency above 2s, s being the highest of the pupil's. Of a non-negative function with a maximum
-M so limited, Bernstein's inequality leaves at least M·cos²(2πs·d) at a distance d from it (Boas 1954, §11.3): what
-a sample can hide is bounded. So samples are climbed from, brightest first, until none left can hide more than is found.
+The intensity holds no frequency above 2s, s being the highest of the pupil's, and is not negative. If M is its maximum,
+it is at least M·cos²(2πs·d) at a distance d from there, d ≤ 1/(4s), since a function bounded by 1 follows a cosine at
+the fastest (Duffin & Schaeffer 1938, of 2I/M − 1). So a sample bounds how high the picture rises beside it,
+and Newton's method starts from the local maxima of the samples, highest first, until no other can lead higher. The
+search is complete but for three savings: a window with a dark border is not looked beyond (DARK), at most MOST_CLIMBS
+maxima are tried, and fewer where a climb is dear (MOST_TERMS).
 """
 
 from collections.abc import Callable
@@ -49,33 +52,30 @@ def peak_of(
     µm, or None where these are too many. The peak is looked for wherever rays land, also beside the window, unless
     that has a dark border or it takes too many waves. A "preview" climbs from the best sample alone.
     """
-    axis = centred_axis(intensity.shape[-1], pixel_um)
-    best = _place(intensity, axis, int(np.argmax(intensity)))
+    axis, brightest = centred_axis(intensity.shape[-1], pixel_um), sampled_peak(intensity, pixel_um)
     if not waves.spread:  # a single wave, equally bright everywhere
-        return sampled_peak(intensity, pixel_um)
+        return brightest
     if quality == "preview":
         few = waves.fx.size <= MOST_IN_PREVIEW
-        return climbed(waves, *best, quality) if few else sampled_peak(intensity, pixel_um)
+        return climb(waves, brightest.x_um, brightest.y_um, quality) if few else brightest
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
     if held and pixel_um * waves.spread * ENOUGH_SAMPLES <= 1 + ROUNDING:
-        return _highest(waves, _hiding(intensity, axis, waves.spread))
+        return _highest(waves, _candidates(intensity, axis, waves.spread))
     wide = waves if hypot(half, half) <= waves.reach_um else reaching(hypot(half, half))
     if wide is None:
         wide, half = waves, waves.reach_um / sqrt(2)
     side = min(MOST_SAMPLES, ceil(2 * half * FINE * waves.spread))
     grid = centred_axis(side, 2 * half / side)
-    starts = _hiding(wide.intensity(grid, grid, np.float32), grid, waves.spread)
-    own = float(intensity.max())
-    return _highest(wide, [(own, *best), *starts] if own > starts[0][0] else starts)
+    starts = _candidates(wide.intensity(grid, grid, np.float32), grid, waves.spread)
+    own = brightest.value, brightest.x_um, brightest.y_um
+    return _highest(wide, [own, *starts] if own[0] > starts[0][0] else starts)
 
 
 def sampled_peak(intensity: np.ndarray, pixel_um: float) -> Peak:
     """Return the brightest of the samples (y, x) of a window."""
-    return Peak(
-        float(intensity.max()),
-        *_place(intensity, centred_axis(intensity.shape[-1], pixel_um), int(np.argmax(intensity))),
-    )
+    index = int(np.argmax(intensity))
+    return Peak(float(intensity.max()), *_place(intensity, centred_axis(intensity.shape[-1], pixel_um), index))
 
 
 def _place(intensity: np.ndarray, axis: np.ndarray, index: int) -> tuple[float, float]:
@@ -83,15 +83,15 @@ def _place(intensity: np.ndarray, axis: np.ndarray, index: int) -> tuple[float, 
     return float(axis[column]), float(axis[row])
 
 
-def _hiding(intensity: np.ndarray, axis: np.ndarray, spread: float) -> list[tuple[float, float, float]]:
-    """Return most that a maximum about a sample can be, x and y, of all samples that can hide the highest one."""
+def _candidates(intensity: np.ndarray, axis: np.ndarray, spread: float) -> list[tuple[float, float, float]]:
+    """Return the bound of a maximum about a sample, x and y, of the samples near which the highest one can be."""
     from scipy.ndimage import maximum_filter
 
     away = min((axis[1] - axis[0]) / sqrt(2), 1 / (8 * spread)) if axis.size > 1 else 0.0
     least = cos(2 * pi * spread * away) ** 2
     lobes = (intensity == maximum_filter(intensity, 3, mode="nearest")) & (intensity >= least * intensity.max())
     indices = np.flatnonzero(lobes)
-    indices = indices[np.argsort(_crests(intensity).ravel()[indices])[::-1]]
+    indices = indices[np.argsort(_parabola_tops(intensity).ravel()[indices])[::-1]]
     return [(float(intensity.ravel()[i]) / least, *_place(intensity, axis, int(i))) for i in indices[:MOST_CLIMBS]]
 
 
@@ -100,32 +100,32 @@ def _border(intensity: np.ndarray) -> float:
     return max(float(line.max()) for line in (intensity[0], intensity[-1], intensity[:, 0], intensity[:, -1]))
 
 
-def _crests(intensity: np.ndarray) -> np.ndarray:
-    """Return how high parabolas through each sample and its neighbours rise; a sample on the border as it is."""
+def _parabola_tops(intensity: np.ndarray) -> np.ndarray:
+    """Return the tops of parabolas through each sample and its neighbours; a sample on the border as it is."""
     intensity = intensity.astype(float)
-    crests, middle = intensity.copy(), intensity[1:-1, 1:-1]
+    tops, middle = intensity.copy(), intensity[1:-1, 1:-1]
     flat = -ROUNDING * float(intensity.max())
     for before, after in ((intensity[:-2, 1:-1], intensity[2:, 1:-1]), (intensity[1:-1, :-2], intensity[1:-1, 2:])):
         bend = np.minimum(before + after - 2 * middle, flat)
-        crests[1:-1, 1:-1] -= (after - before) ** 2 / (8 * bend)
-    return crests
+        tops[1:-1, 1:-1] -= (after - before) ** 2 / (8 * bend)
+    return tops
 
 
 def _highest(waves: Waves, starts: list[tuple[float, float, float]]) -> Peak:
     """Return the highest peak by climbing from each place that can lead higher, the most promising first.
 
-    Of many waves only the brightest few places are climbed from.
+    Of many waves only the most promising few places are tried.
     """
-    highest = climbed(waves, *starts[0][1:])
+    highest = climb(waves, *starts[0][1:])
     for bound, x, y in starts[1 : max(1, MOST_TERMS // waves.fx.size)]:
         if bound <= highest.value:
             continue
-        found = climbed(waves, x, y)
+        found = climb(waves, x, y)
         highest = max(highest, found, key=lambda peak: peak.value)
     return highest
 
 
-def climbed(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:
+def climb(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:
     """Return the maximum about a place; no step goes farther than half of what the pupil resolves."""
     most = 1 / (8 * waves.spread)
     for _ in range(CLIMB_STEPS):

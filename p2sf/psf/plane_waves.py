@@ -13,6 +13,8 @@ from p2sf.pupil.quadrature import nodes_for
 from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.ray_field import Steepness
 
+Counts = tuple[int, int]
+"""Radial and angular node counts of the whole disc."""
 RADIAL_STEP, ANGULAR_STEP = 4, 16  # of node counts, so that nodes that are kept serve the next picture too
 
 
@@ -30,7 +32,7 @@ def window_reach_um(pixels: int, pixel_um: float) -> float:
     return pixel_um * (pixels // 2) * sqrt(2)
 
 
-def counts_for(steepness: Steepness, reach_um: float, share: float = 1.0) -> tuple[int, int]:
+def counts_for(steepness: Steepness, reach_um: float, share: float = 1.0) -> Counts:
     """Return (radial, angular) node counts that carry this phase up to a distance from the chief ray, µm.
 
     ``share``: of the counts of `nodes_for`.
@@ -41,7 +43,7 @@ def counts_for(steepness: Steepness, reach_um: float, share: float = 1.0) -> tup
     return RADIAL_STEP * ceil(radial / RADIAL_STEP), ANGULAR_STEP * ceil(angular / ANGULAR_STEP)
 
 
-def disc_words(counts: tuple[int, int]) -> Message:
+def disc_words(counts: Counts) -> Message:
     """Return (radial, angular) node counts in words."""
     return Message("{radii} radii × {directions} directions", radii=counts[0], directions=counts[1])
 

@@ -5,15 +5,15 @@ direction and light at any nodes follow from it by interpolation; rays on its ri
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.plane_waves import Waves, pupil_amplitude
-from p2sf.pupil.interpolation import on_disc, refined
-from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.psf.plane_waves import Counts, Waves, pupil_amplitude
+from p2sf.pupil.interpolation import interpolate_pupil, on_disc
+from p2sf.pupil.quadrature import disc_axes, disc_nodes
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.vignetting import whole_nodes
@@ -22,9 +22,6 @@ PROBE = 12, 36
 COARSE = PROBE, (20, 64)  # radii and directions of the pencils that others are interpolated from
 CLOSE = 2e-4  # waves, at the rim, where an interpolation errs most: 1 − R² below 1e-6
 STEP = 1e-4  # of the pupil radius and of a radian, for differences: errors of 1e-8, of round-off 1e-11
-
-Counts = tuple[int, int]
-"""Radial and angular node counts of the whole disc."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +35,7 @@ class RayWaves:
 
 
 @lru_cache(maxsize=4)
-def probe(both: bool, counts: Counts = PROBE) -> tuple[np.ndarray, np.ndarray]:
+def coarse_points(both: bool, counts: Counts = PROBE) -> tuple[np.ndarray, np.ndarray]:
     """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest.
 
     ``both`` halves of the disc, or the half ξ > 0.
@@ -56,13 +53,13 @@ def rim_angles(counts: Counts) -> np.ndarray:
 @lru_cache(maxsize=16)
 def all_reach(lens: Lens, source: Source) -> bool:
     """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
-    return bool(probing(lens, source).passed.all())
+    return bool(coarse_pencil(lens, source).passed.all())
 
 
 @lru_cache(maxsize=4)
-def probing(lens: Lens, source: Source, counts: Counts = PROBE) -> Rays:
+def coarse_pencil(lens: Lens, source: Source, counts: Counts = PROBE) -> Rays:
     """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
-    return pencil(lens, source, *probe(lens.misaligned, counts))
+    return pencil(lens, source, *coarse_points(lens.misaligned, counts))
 
 
 def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: float) -> RayWaves | None:
@@ -74,10 +71,10 @@ def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: flo
     if found is None:
         return None
     coarse, sides = found
-    phase, fx, fy, light = on_disc(sides, coarse, counts)
+    phase, fx, fy, field = on_disc(sides, coarse, counts)
     nodes = whole_nodes(counts).unfolded() if lens.misaligned else whole_nodes(counts)
-    amplitude = pupil_amplitude(nodes.weight * light / (nodes.weight @ light), phase)
-    far = _farthest_um(probing(lens, source, coarse))
+    amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
+    far = _farthest_um(coarse_pencil(lens, source, coarse))
     return RayWaves(Waves(amplitude, fx, fy, nodes.even, far, reach_um), counts, 0, sides[0].size)
 
 
@@ -90,15 +87,15 @@ def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
     if found is None:
         return None
     coarse, sides = found
-    radius = np.sqrt((1 + gauss_legendre(coarse[0])[0]) / 2)
-    theta = (np.arange(coarse[1] // 2) + 0.5) * (2 * np.pi / coarse[1])
-    by_radius = refined(sides, coarse, radius + STEP, theta) - refined(sides, coarse, radius - STEP, theta)
-    by_angle = refined(sides, coarse, radius, theta + STEP) - refined(sides, coarse, radius, theta - STEP)
+    radius, theta = disc_axes(*coarse)
+    at = partial(interpolate_pupil, sides, coarse)
+    by_radius = at(radius + STEP, theta) - at(radius - STEP, theta)
+    by_angle = at(radius, theta + STEP) - at(radius, theta - STEP)
     turn = by_radius[1] * by_angle[2] - by_radius[2] * by_angle[1]
     area = np.abs(turn) / (4 * STEP**2 * np.tile(np.repeat(radius, theta.size), sides.shape[1]))
     nodes = whole_nodes(coarse).unfolded() if lens.misaligned else whole_nodes(coarse)
-    light = refined(sides, coarse, radius, theta)[3]
-    return float(nodes.weight @ (light**2 / area) / (np.pi * (nodes.weight @ light) ** 2))
+    field = at(radius, theta)[3]
+    return float(nodes.weight @ (field**2 / area) / (np.pi * (nodes.weight @ field) ** 2))
 
 
 def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.ndarray] | None:
@@ -106,11 +103,11 @@ def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.nda
     if not mask_seen(lens, source).clear:
         return None
     for coarse in COARSE:
-        rays = probing(lens, source, coarse)
+        rays = coarse_pencil(lens, source, coarse)
         if not rays.passed.all():
             return None
         sides = np.stack([rays.phase, rays.fx, rays.fy, rays.amplitude]).reshape(4, 2 if lens.misaligned else 1, -1)
-        if _missed_on_rim(sides, coarse, max(_farthest_um(rays), reach_um)) <= CLOSE:
+        if _rim_error(sides, coarse, max(_farthest_um(rays), reach_um)) <= CLOSE:
             return coarse, sides
     return None
 
@@ -119,8 +116,8 @@ def _farthest_um(rays: Rays) -> float:
     return float(np.hypot(rays.x_um, rays.y_um).max())
 
 
-def _missed_on_rim(sides: np.ndarray, coarse: Counts, reach_um: float) -> float:
+def _rim_error(sides: np.ndarray, coarse: Counts, reach_um: float) -> float:
     """Return by how many waves rays on the rim, where an interpolation errs most, are missed at a distance."""
     exact = sides[..., coarse[0] * coarse[1] // 2 :].reshape(4, -1)
-    phase, fx, fy, _ = np.abs(refined(sides, coarse, np.ones(1), rim_angles(coarse)) - exact).max(1)
+    phase, fx, fy, _ = np.abs(interpolate_pupil(sides, coarse, np.ones(1), rim_angles(coarse)) - exact).max(1)
     return float(phase + (fx + fy) * reach_um)

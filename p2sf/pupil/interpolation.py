@@ -11,10 +11,10 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from p2sf.conventions import protected
-from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.pupil.quadrature import disc_axes, gauss_legendre
 
 
-def interpolated(
+def interpolate(
     values: np.ndarray, counts: tuple[int, int], rho: np.ndarray, theta: np.ndarray, odd: bool = False
 ) -> np.ndarray:
     """Return a function known at the nodes of `disc_nodes(*counts)` at radii × angles, (…, radii·angles).
@@ -26,38 +26,31 @@ def interpolated(
     along = values.reshape(*values.shape[:-1], radial, angular // 2) @ analysis
     across = np.moveaxis(along, -1, -2)  # (…, harmonics, radii)
     at_odd = harmonics % 2 == 1
-    polynomial, here = _polynomials(radial, tuple(rho.tolist())), _radii(radial)
-    refined = np.empty((*across.shape[:-1], rho.size))
-    refined[..., ~at_odd, :] = across[..., ~at_odd, :] @ polynomial
-    refined[..., at_odd, :] = (across[..., at_odd, :] / here) @ polynomial * rho
+    polynomial, (here, _) = _polynomials(radial, tuple(rho.tolist())), disc_axes(*counts)
+    by_harmonic = np.empty((*across.shape[:-1], rho.size))
+    by_harmonic[..., ~at_odd, :] = across[..., ~at_odd, :] @ polynomial
+    by_harmonic[..., at_odd, :] = (across[..., at_odd, :] / here) @ polynomial * rho
     wave = np.sin if odd else np.cos
-    found: np.ndarray = np.moveaxis(refined, -1, -2) @ wave(np.outer(harmonics, theta))
+    found: np.ndarray = np.moveaxis(by_harmonic, -1, -2) @ wave(np.outer(harmonics, theta))
     return found.reshape(*values.shape[:-1], -1)
 
 
-def refined(sides: np.ndarray, coarse: tuple[int, int], radius: np.ndarray, theta: np.ndarray) -> np.ndarray:
-    """Return phase, fx, fy and light, (4, points), at radii × angles from those at coarse nodes, (4, sides, nodes).
+def interpolate_pupil(sides: np.ndarray, coarse: tuple[int, int], radius: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """Return phase, fx, fy and amplitude, (4, points), at radii × angles from those at coarse nodes, (4, sides, nodes).
 
     All but fx are even in ξ if there is one side; two are the halves ξ > 0 and, mirrored, ξ < 0.
     """
     inside = sides[..., : coarse[0] * coarse[1] // 2]
     if sides.shape[1] == 1:
-        return np.stack([interpolated(x, coarse, radius, theta, odd=k == 1) for k, x in enumerate(inside[:, 0])])
-    even = interpolated((inside[:, 0] + inside[:, 1]) / 2, coarse, radius, theta)
-    odd = interpolated((inside[:, 0] - inside[:, 1]) / 2, coarse, radius, theta, odd=True)
+        return np.stack([interpolate(x, coarse, radius, theta, odd=k == 1) for k, x in enumerate(inside[:, 0])])
+    even = interpolate((inside[:, 0] + inside[:, 1]) / 2, coarse, radius, theta)
+    odd = interpolate((inside[:, 0] - inside[:, 1]) / 2, coarse, radius, theta, odd=True)
     return np.concatenate([even + odd, even - odd], axis=1)
 
 
 def on_disc(sides: np.ndarray, coarse: tuple[int, int], counts: tuple[int, int]) -> np.ndarray:
-    """Return `refined` at the nodes of `disc_nodes(*counts)`, with two sides at those of both halves."""
-    radius = np.sqrt((1 + gauss_legendre(counts[0])[0]) / 2)
-    theta = (np.arange(counts[1] // 2) + 0.5) * (2 * np.pi / counts[1])
-    return refined(sides, coarse, radius, theta)
-
-
-@lru_cache(maxsize=8)
-def _radii(radial: int) -> np.ndarray:
-    return protected(np.sqrt((1 + gauss_legendre(radial)[0]) / 2))
+    """Return `interpolate_pupil` at the nodes of `disc_nodes(*counts)`, with two sides at those of both halves."""
+    return interpolate_pupil(sides, coarse, *disc_axes(*counts))
 
 
 @lru_cache(maxsize=8)

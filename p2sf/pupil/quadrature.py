@@ -52,6 +52,13 @@ class _Cached(Generic[Nodes]):
         return (self._make if first * second > MOST_KEPT else self._known)(first, second)
 
 
+@lru_cache(maxsize=32)
+def disc_axes(radial: int, angular: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the radii, (radial,), and the angles from +η over half a turn, (angular/2,), of `disc_nodes`."""
+    theta = (np.arange(angular // 2) + 0.5) * (2 * pi / angular)
+    return protected(np.sqrt((1 + gauss_legendre(radial)[0]) / 2)), protected(theta)
+
+
 @_Cached
 def disc_nodes(radial: int, angular: int) -> DiscNodes:
     """Return the half-disc nodes of Gauss–Legendre in ρ² times ``angular`` directions around the whole circle.
@@ -66,11 +73,9 @@ def disc_nodes(radial: int, angular: int) -> DiscNodes:
             radial=radial,
             angular=angular,
         )
-    square, weight = gauss_legendre(radial)
-    rho = np.sqrt((1 + square) / 2)
-    theta = (np.arange(angular // 2) + 0.5) * (2 * pi / angular)
+    rho, theta = disc_axes(radial, angular)
     xi, eta = np.outer(rho, np.sin(theta)), np.outer(rho, np.cos(theta))
-    share = np.repeat(weight / angular, angular // 2)
+    share = np.repeat(gauss_legendre(radial)[1] / angular, angular // 2)
     return DiscNodes(protected(xi.ravel()), protected(eta.ravel()), protected(share))
 
 

@@ -29,7 +29,8 @@ def sum_plane_waves(
     ``amplitude``, ``kx``, ``ky``: (…, nodes), broadcast; ``x``, ``y``: 1-D, in units of 1/k. ``even``: the nodes
     are one half of a set that is even in kx (folded weights), so the x kernel is a cosine and only |x| matters.
     Precision follows ``kx`` (float32 or float64). On evenly spaced axes, more than MOST_PRODUCTS nodes × samples are
-    summed by a non-uniform FFT, to NUFFT_ERROR of the largest sum that these amplitudes could have.
+    summed by a non-uniform FFT, to NUFFT_ERROR of the largest sum that these amplitudes could have, in float64 and of
+    more than MANY_SAMPLES samples to COARSE_ERROR.
     """
     amplitude, kx, ky = np.asarray(amplitude), np.asarray(kx), np.asarray(ky)
     x, y = (np.asarray(axis, dtype=kx.dtype) for axis in (x, y))

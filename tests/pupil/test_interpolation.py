@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from p2sf.pupil.interpolation import interpolated
+from p2sf.pupil.interpolation import interpolate
 from p2sf.pupil.quadrature import disc_nodes
 
 RHO, THETA = np.array([0.0, 0.2, 0.71, 1.0]), np.linspace(0, np.pi, 7)
@@ -22,7 +22,7 @@ def test_polynomials_within_its_degree_are_met(odd):
         return xi * (0.5 + eta**6 - xi**2 * eta**4) if odd else even
 
     nodes = disc_nodes(4, 16)
-    found = interpolated(function(nodes.xi, nodes.eta), (4, 16), RHO, THETA, odd)
+    found = interpolate(function(nodes.xi, nodes.eta), (4, 16), RHO, THETA, odd)
     np.testing.assert_allclose(found, at_points(function), atol=2e-14)
 
 
@@ -33,6 +33,6 @@ def test_errors_of_a_smooth_function_fall_geometrically():
     errors = []
     for counts in ((6, 16), (10, 28), (14, 40)):
         nodes = disc_nodes(*counts)
-        found = interpolated(function(nodes.xi, nodes.eta), counts, RHO, THETA)
+        found = interpolate(function(nodes.xi, nodes.eta), counts, RHO, THETA)
         errors.append(np.abs(found - at_points(function)).max())
     assert errors[1] < 0.05 * errors[0] and errors[2] < 0.05 * errors[1]

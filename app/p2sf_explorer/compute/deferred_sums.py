@@ -119,17 +119,17 @@ def node_count(request: SumRequest, fitted: FittedPencil | None) -> float:
     """
     if request.six is not None:
         return coefficient_nodes(request.six, request.window, mask_seen(request.lens, request.source))
-    return 0.0 if fitted is None else fit_nodes(fitted, request.window)
+    return 0.0 if fitted is None else fit_node_count(fitted, request.window)
 
 
-def fit_nodes(fitted: FittedPencil, window: tuple[int, float]) -> float:
+def fit_node_count(fitted: FittedPencil, window: tuple[int, float]) -> float:
     """Return how many nodes carry the phase of a fit over a window, the mirror half not counted."""
     return prod(counts_for(fitted.steepness, window_reach_um(*window))) / (1 + fitted.mask.even)
 
 
 def coefficient_nodes(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> float:
     """Return how many nodes carry the phase of six coefficients behind a mask over a window."""
-    return fit_nodes(as_fit(six, mask), window)
+    return fit_node_count(as_fit(six, mask), window)
 
 
 def seconds(method: str, nodes: float, samples: int) -> float:

@@ -25,7 +25,7 @@ from p2sf_explorer.compute.deferred_sums import (
     SumRequest,
     by_rays,
     coefficient_nodes,
-    fit_nodes,
+    fit_node_count,
     impossible,
     most_samples,
     seconds,
@@ -320,10 +320,10 @@ def quickly(task: Task, window: Window) -> bool:
     """
     if task.first_fit is None:
         return False
-    if seconds("fitted", fit_nodes(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
+    if seconds("fitted", fit_node_count(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
         return False
     if task.fitted.error_waves > FAR:
-        few = seconds("traced", fit_nodes(task.fitted, window), window[0]) < QUICK_SECONDS
+        few = seconds("traced", fit_node_count(task.fitted, window), window[0]) < QUICK_SECONDS
         return few and all_reach(task.setup.lens, task.setup.source)
     return True
 

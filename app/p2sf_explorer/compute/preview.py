@@ -10,7 +10,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.psf.fitted import counts_of, fit_nodes, fitted_waves, psf_of_fit
+from p2sf.psf.fitted import counts_of, fitted_waves, open_nodes, psf_of_fit
 from p2sf.psf.picture import Origin, psf_of_waves
 from p2sf.psf.plane_waves import disc_words, window_reach_um
 from p2sf.psf.result import Psf
@@ -127,7 +127,7 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
     """
     fitted, setup, reach = best_fit(traced), traced.setup, window_reach_um(pixels, pixel_um)
     counts = counts_of(fitted, reach, "preview")
-    nodes = fit_nodes(fitted, counts)
+    nodes = open_nodes(fitted.mask, counts, bool(fitted.level.skew))
     passed = pencil(setup.lens, setup.source, nodes.xi, nodes.eta, clip=True).passed
     if not passed.any():
         raise GeometryError(CLIPPED)

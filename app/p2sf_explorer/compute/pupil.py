@@ -116,8 +116,8 @@ def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False
 
 
 def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -> Samples:
-    """Return samples of the wavefront that `pupil_of` shows; over the whole pupil they stand at `fit_nodes`."""
-    nodes = fit_nodes(quality)
+    """Return samples of the wavefront that `pupil_of` shows; over the whole pupil they stand at `zernike_nodes`."""
+    nodes = zernike_nodes(quality)
     whole = ClearNodes(nodes.xi, nodes.eta, nodes.weight, 1.0)
     if not exact:
         return whole, np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta)), None
@@ -346,15 +346,15 @@ def _shade(mask: PupilMask, count: int) -> np.ndarray | None:
     return np.minimum(amplitude / (float(amplitude[inside].max()) or 1.0), 1.0)
 
 
-def fit_nodes(quality: str) -> DiscNodes:
+def zernike_nodes(quality: str) -> DiscNodes:
     """Return the pupil points of the rays that the terms are fitted to."""
     return disc_nodes(*RAYS[quality])
 
 
 @lru_cache(maxsize=2)
 def projection(quality: str) -> np.ndarray:
-    """Return the matrix from waves at `fit_nodes` to the terms: their means over the disc, (terms, nodes)."""
-    nodes = fit_nodes(quality)
+    """Return the matrix from waves at `zernike_nodes` to the terms: their means over the disc, (terms, nodes)."""
+    nodes = zernike_nodes(quality)
     return basis(ORDERS[quality], nodes.xi, nodes.eta) * nodes.weight
 
 
