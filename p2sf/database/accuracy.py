@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
-from math import inf, isfinite, isinf
+from math import inf, isinf
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.paraxial.pupils import Stop
+from p2sf.paraxial.seidel import without_coefficients
 from p2sf.psf.methods import seidel_error
 from p2sf.psf.prediction import CAUTION, USELESS, predicted_error
 from p2sf.raytrace.fit import behind, judging_rays
@@ -164,7 +165,7 @@ def _error(database: Database, lens: Lens, source: Source) -> float:
         found = replace(database.fit_at(source), residual_waves=0.0, map_residual=0.0, amplitude_residual=0.0)
         return predicted_error(behind(found, judges).error_waves, "fitted")
     six = database.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
-    return seidel_error(lens, source, six) if isfinite(six.w40) else inf
+    return seidel_error(lens, source, six)
 
 
 def build_by(
@@ -185,7 +186,8 @@ def build_by(
         )
     if method == "fitted":
         return build_fitted(lens, space, stop)
-    if method == "auto" and (lens.misaligned or space.field_x_slopes is not None):
+    refused = lens.misaligned or space.field_x_slopes is not None
+    if method == "auto" and (refused or (interpolant == "exact" and without_coefficients(lens))):
         return build_fitted(lens, space, stop)
     six = build_database(lens, space, interpolant, stop)
     if method == "seidel" or interpolant != "exact" or accuracy(six, lens).worst <= 1 - TOLERANCE:

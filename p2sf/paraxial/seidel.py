@@ -17,6 +17,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.properties import PROPERTIES
 from p2sf.lens.shapes import Diffraction
+from p2sf.messages import Message
 from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
@@ -128,16 +129,27 @@ def chromatic_sums(
 
 
 def check_seidel(lens: Lens) -> None:
-    """Raise GeometryError for what of a surface no wavefront of fourth order describes: odd terms, a freeform."""
+    """Raise GeometryError for a lens that no wavefront of fourth order describes."""
+    if reason := without_coefficients(lens):
+        raise GeometryError(reason)
+
+
+@lru_cache(maxsize=64)
+def without_coefficients(lens: Lens) -> Message | None:
+    """Return what of a lens no wavefront of fourth order describes, odd terms or a freeform; None where there is none.
+
+    What six coefficients refuse, "auto" does not choose them for.
+    """
     for number, surface in enumerate(lens.surfaces, 1):
         for each in PROPERTIES:
             if reason := each.unseen(getattr(surface, each.name)):
-                raise GeometryError(
+                return Message(
                     "surface {surface} {reason}, for which there are no Seidel sums and no six coefficients; choose "
                     "the method fitted, traced or huygens",
                     surface=number,
                     reason=reason,
                 )
+    return None
 
 
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:

@@ -14,7 +14,7 @@ from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
-from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
+from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, without_coefficients
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
@@ -130,7 +130,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     steep, mask = steepness(rays, xi, eta), mask_seen(lens, source)
     judges = None if mask.clear else judging_rays(lens, source, mask)
-    seidel = _seidel_error(c, (xi, eta, weight), rays, judges, mask) if np.isfinite(c.w40) else inf
+    seidel = _seidel_error(c, (xi, eta, weight), rays, judges, mask) if without_coefficients(lens) is None else inf
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
@@ -156,7 +156,12 @@ def _by_rays(tried: Choice, error: float) -> Choice:
 
 
 def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
-    """Return the predicted 1 − R² of six coefficients ``c``; infinite where rays are lost, which they cannot know."""
+    """Return the predicted 1 − R² of six coefficients ``c``; infinite where they do not know what rays do.
+
+    That is where rays are lost, and for a lens that `without_coefficients` names.
+    """
+    if without_coefficients(lens):
+        return inf
     xi, eta, weight = level_rays(levels_for(lens)[0])
     try:
         rays = pencil(lens, source, xi, eta)

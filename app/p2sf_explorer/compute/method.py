@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
-from p2sf.paraxial.seidel import Coefficients, check_seidel
+from p2sf.paraxial.seidel import Coefficients, without_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.geometric import geometric_psf, main_reach_um
 from p2sf.psf.result import Psf
@@ -209,15 +208,6 @@ def rendered(
     task = Task(state, setup, method, why, least, cache)
     picture = moving(task, quality) if quality == "preview" else resting(task)
     return replace(picture, refused=refused) if refused else picture
-
-
-def without_coefficients(lens: Lens) -> Message | None:
-    """Return why a lens has no six coefficients, None where it has."""
-    try:
-        check_seidel(lens)
-    except GeometryError as error:
-        return error.message
-    return None
 
 
 def resting(task: Task) -> Rendered:
