@@ -121,7 +121,8 @@ class FrequencyPupil:
         The light's centroid along y, µm from the chief ray: the mean landing point, weighted by the energy of the
         waves, the square of their amplitude.
     spot : RayMoments
-        Centroid of the rays and their RMS distance from it, weighted by the light that each carries, µm.
+        Centroid of the exact rays and their RMS distance from it, weighted by the light that each carries, µm; those of
+        the description alone where there is no lens to trace, or a phase in the stop.
     residual_waves : float
         RMS error of the phase, also of the method's description of it; that of the density counts as a phase of 1/2π
         of it.
@@ -362,7 +363,7 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
     found = behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
-    return found if mask.phased else replace(found, spot=_spot_of(landing(lens, source, clip), turn_deg))
+    return with_spot(found, lens, source, clip, turn_deg)
 
 
 def _check_reach(lens: Lens, source: Source) -> None:
@@ -374,6 +375,15 @@ def _check_reach(lens: Lens, source: Source) -> None:
             "move the source to a distance the lens is made for, or stop the lens down",
             percent=100 * share,
         )
+
+
+def with_spot(
+    pupil: FrequencyPupil, lens: Lens, source: Source, clip: bool = False, turn_deg: float = 0.0
+) -> FrequencyPupil:
+    """Return the pupil with the figures of the spot diagram; its own behind a phase, which bends rays."""
+    if pupil.mask.phased:
+        return pupil
+    return replace(pupil, spot=_spot_of(landing(lens, source, clip), turn_deg))
 
 
 def _spot_of(found: Landing, turn_deg: float) -> RayMoments:

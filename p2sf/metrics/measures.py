@@ -17,12 +17,19 @@ from p2sf.arguments import number_list
 from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import RequestError
+from p2sf.errors import GeometryError, RequestError
 from p2sf.lens.lens import Lens, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of
-from p2sf.metrics.frequency_pupil import FrequencyPupil, pupil_of_coefficients, pupil_of_fit, pupil_of_rays, turned
+from p2sf.metrics.frequency_pupil import (
+    FrequencyPupil,
+    pupil_of_coefficients,
+    pupil_of_fit,
+    pupil_of_rays,
+    turned,
+    with_spot,
+)
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.methods import choose, seidel_error
@@ -82,8 +89,8 @@ class Energy:
     """The share of all light within each radius, µm, of its centroid, both (n,).
 
     ``centroid_um``: along y from the chief ray, ``centroid_x_um`` along x, 0 of an even pupil. ``radius_50_um``,
-    ``radius_80_um``: what holds half and 80 % of all light. ``rms_um``: RMS distance of the rays from their own
-    centroid, weighted by the light of each as in a spot diagram; that of waves is infinite behind any hard edge.
+    ``radius_80_um``: what holds half and 80 % of all light. ``rms_um``: RMS distance of the exact rays from
+    their own centroid, that of the spot diagram, by every method; that of waves is infinite behind any hard edge.
     ``departure``: of a blur too large for a sum of waves it is that of landing points, the geometric limit, and this is
     how far from waves it may lie; above ROADS_AGREE it is not to be trusted so far. 0 for waves.
     ``predicted_error``: the most that a share is predicted to differ from that of exact rays.
@@ -190,14 +197,20 @@ def pupil_of(
         check_image(six)
         return pupil_of_six(lens, source, six, turn_deg), method
     if method == "fitted":
-        return pupil_of_fit(fit(lens, source), turn_deg), method
+        return with_spot(pupil_of_fit(fit(lens, source), turn_deg), lens, source, turn_deg=turn_deg), method
     return pupil_of_rays(lens, source, clip, turn_deg), method
 
 
 def pupil_of_six(lens: Lens, source: Source, six: Coefficients, turn_deg: float = 0.0) -> FrequencyPupil:
     """Return the pupil of six coefficients of a lens, with what they are predicted to miss of its exact rays."""
     missed = sqrt(seidel_error(lens, source, six) / SAFETY["seidel"]) / (2 * np.pi)
-    return replace(pupil_of_coefficients(six, mask_seen(lens, source), turn_deg), residual_waves=missed)
+    pupil = replace(pupil_of_coefficients(six, mask_seen(lens, source), turn_deg), residual_waves=missed)
+    if lens.misaligned:  # the six are those of the aligned lens
+        return pupil
+    try:
+        return with_spot(pupil, lens, source, turn_deg=turn_deg)
+    except GeometryError:  # no ray arrives, which the six cannot know
+        return pupil
 
 
 def _predicted(parts: "Parts") -> float:
