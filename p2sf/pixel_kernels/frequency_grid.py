@@ -202,7 +202,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     forms = found[:, 0], found[:, 1], xi, amplitude_of, found[:, first:]
     unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
     sizes = energy, unknown, left, unknown
-    return PupilStack(order, radius, *forms, *sizes, "fitted", level.numbers, skew=bool(level.skew)), excess
+    return PupilStack(order, radius, *forms, *sizes, "fitted", level.numbers), excess
 
 
 def _middle(frequency: np.ndarray, clear: np.ndarray) -> np.ndarray:

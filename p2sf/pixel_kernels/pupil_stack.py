@@ -21,7 +21,7 @@ FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % 
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
 FORMS = "phase", "eta", "xi", "weight", "rims"
-SHARED = "order", "method", "numbers", "mask", "skew"
+SHARED = "order", "method", "numbers", "mask"
 SIZES = "radius", "energy", "reach_um", "residual_waves", "wavelength_um"
 
 
@@ -34,8 +34,8 @@ class FrequencyPupil:
     (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
     ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
     ``mask``: what stands in the pupil besides, as the source sees it; its path makes waves by ``wavelength_um``, which
-    is negative where the phase counts as W does. ``skew``: of a lens without symmetry; all forms then have all even
-    terms, and behind them all odd ones, in the axes of the sensor.
+    is negative where the phase counts as W does. Of a lens without symmetry all forms have all even terms, and behind
+    them all odd ones.
     """
 
     order: int
@@ -52,7 +52,6 @@ class FrequencyPupil:
     method: str
     numbers: int
     mask: PupilMask = CLEAR
-    skew: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +72,6 @@ class PupilStack:
     method: str
     numbers: int
     mask: PupilMask = CLEAR
-    skew: bool = False
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -90,24 +88,32 @@ class PupilStack:
         values: dict[str, Any] = {name: getattr(self, name)[chosen] for name in (*FORMS, *SIZES)}
         return replace(self, **values)
 
+    @property
+    def symmetric(self) -> bool:
+        """Return whether the forms have only the terms of their symmetry about the plane of the field."""
+        return self.phase.shape[-1] == len(terms(self.order))
+
     def of_order(self, order: int) -> "PupilStack":
-        """Return the same pupils with zeros for the terms up to a higher order, which come last."""
-        lacking = len(terms(order)) - len(terms(self.order))
-        lacking_odd = len(terms(order, True)) - len(terms(self.order, True))
-        wider: dict[str, Any] = {
-            name: _widened(getattr(self, name), lacking) for name in ("phase", "eta", "weight", "rims")
-        }
-        if self.skew:
-            own = len(terms(self.order))
-            for name in FORMS:
-                even, odd = np.split(getattr(self, name), [own], axis=-1)
-                wider[name] = np.concatenate([_widened(even, lacking), _widened(odd, lacking_odd)], axis=-1)
-            return replace(self, order=order, **wider)
-        return replace(self, order=order, xi=_widened(self.xi, lacking_odd), **wider)
+        """Return the same pupils with zeros for the terms up to a higher order, which come last among their kind."""
+        if order == self.order:
+            return self
+        wider: dict[str, Any] = {name: _widened(getattr(self, name), order, self.order) for name in FORMS}
+        return replace(self, order=order, **wider)
 
 
-def _widened(form: np.ndarray, lacking: int) -> np.ndarray:
-    return np.pad(form, [(0, 0)] * (form.ndim - 1) + [(0, lacking)]) if form.shape[-1] and lacking else form
+def _halves(form: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the coefficients of a form's even and of its odd terms; none of those that its symmetry forbids."""
+    even = len(terms(order)) if form.shape[-1] != len(terms(order, True)) else 0
+    return form[..., :even], form[..., even:]
+
+
+def _widened(form: np.ndarray, order: int, narrower: int) -> np.ndarray:
+    """Return a form of a narrower order with zeros for the terms up to another."""
+    wider: list[np.ndarray] = []
+    for half, odd in zip(_halves(form, narrower), (False, True), strict=True):
+        lacking = len(terms(order, odd)) - len(terms(narrower, odd)) if half.shape[-1] else 0
+        wider.append(np.pad(half, [(0, 0)] * (half.ndim - 1) + [(0, lacking)]))
+    return np.concatenate(wider, axis=-1)
 
 
 def stacked(pupils: Sequence[FrequencyPupil | PupilStack]) -> PupilStack:
@@ -138,7 +144,7 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
     they come back there, and would let light through that does not exist.
     """
-    at = _terms_at(pupils.order, pupils.skew)
+    at = _terms_at(pupils.order, pupils.symmetric)
     (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
         (form @ across, form @ along)
         for form, (across, along) in zip((pupils.phase, pupils.eta, pupils.xi), at.slopes, strict=True)
@@ -180,7 +186,7 @@ def cutting_rims(pupils: PupilStack) -> np.ndarray:
     """Return which surfaces' rims clip any part of any of the pupils, (surfaces,)."""
     if not pupils.rims.size:
         return np.zeros(pupils.rims.shape[1], bool)
-    at = _terms_at(pupils.order, pupils.skew)
+    at = _terms_at(pupils.order, pupils.symmetric)
     inside = (pupils.eta @ at.even) ** 2 + (pupils.xi @ at.odd) ** 2 <= 1
     nearest = np.where(inside[:, None], pupils.rims @ at.even, np.inf).min(2)
     cutting: np.ndarray = (nearest < SURELY_CLEAR).any(0)
@@ -201,17 +207,15 @@ class _TermsAt:
 
 
 @lru_cache(maxsize=16)
-def _terms_at(order: int, skew: bool) -> _TermsAt:
-    if skew:
-        xi, eta, weight = whole_disc(*REACH_NODES)
-        every = np.concatenate([basis(order, xi, eta, odd=flag) for flag in (False, True)])
-        of_even, of_odd = (gradient(order, xi, eta, odd=flag) for flag in (False, True))
-        slopes = np.concatenate([of_even[0], of_odd[0]]), np.concatenate([of_even[1], of_odd[1]])
-        return _TermsAt(every, every, weight, (slopes, slopes, slopes))
-    nodes = disc_nodes(*REACH_NODES)
-    even, odd = (basis(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
-    slopes, slopes_odd = (gradient(order, nodes.xi, nodes.eta, odd=flag) for flag in (False, True))
-    return _TermsAt(even, odd, nodes.weight, (slopes, slopes, slopes_odd))
+def _terms_at(order: int, symmetric: bool) -> _TermsAt:
+    half = disc_nodes(*REACH_NODES)
+    xi, eta, weight = (half.xi, half.eta, half.weight) if symmetric else whole_disc(*REACH_NODES)
+    even, odd = (basis(order, xi, eta, odd=flag) for flag in (False, True))
+    of_even, of_odd = (gradient(order, xi, eta, odd=flag) for flag in (False, True))
+    if symmetric:
+        return _TermsAt(even, odd, weight, (of_even, of_even, of_odd))
+    every, slopes = np.concatenate([even, odd]), tuple(map(np.concatenate, zip(of_even, of_odd, strict=True)))
+    return _TermsAt(every, every, weight, (slopes, slopes, slopes))
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,33 +240,29 @@ class Turned:
 def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
     """Return the pupils of fields ``angles`` (pupils,) radians from +y towards +x: θ becomes θ − angle in every term.
 
-    Rotation needs no interpolation: it turns cosine terms into sine terms of the same order. Those of a lens without
-    symmetry stand in the axes of the sensor and are not turned.
+    Rotation needs no interpolation: it turns cosine terms into sine terms of the same order, and the other way round.
     """
-    if pupils.skew:
-        own, cutting = len(terms(pupils.order)), pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1)
-        phase, eta, xi, weight, *rims = (
-            _plain(pupils.order, form[:, :own], form[:, own:]) if form.size else None
-            for form in (pupils.phase, pupils.eta, pupils.xi, pupils.weight, *cutting)
-        )
-        assert phase is not None and eta is not None and xi is not None
-        behind = pupils.mask, pupils.wavelength_um, 0 * angles
-        return Turned(pupils.radius, phase, eta, xi, weight, np.array(rims), *behind)
-    even, odd = _harmonics(pupils.order)
-    keep = even > 0  # the odd terms are the even ones without m = 0, in the same order
-    cosine, sine = np.cos(np.multiply.outer(angles, even)), np.sin(np.multiply.outer(angles, even[keep]))
-    cosine_odd, sine_odd = np.cos(np.multiply.outer(angles, odd)), np.sin(np.multiply.outer(angles, odd))
-    from_xi = np.zeros_like(cosine)
-    from_xi[:, keep] = -pupils.xi * sine_odd
-    phase = _plain(pupils.order, pupils.phase * cosine, pupils.phase[:, keep] * sine)
-    eta = _plain(pupils.order, pupils.eta * cosine, pupils.eta[:, keep] * sine)
-    xi = _plain(pupils.order, from_xi, pupils.xi * cosine_odd)
-    weight, *rims = (
-        _plain(pupils.order, form * cosine, form[:, keep] * sine) if form.size else None
-        for form in (pupils.weight, *pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1))
-    )
-    behind = pupils.mask, pupils.wavelength_um, angles
-    return Turned(pupils.radius, phase, eta, xi, weight, np.array(rims), *behind)
+    phase, eta, xi = (_rotated(pupils.order, form, angles) for form in (pupils.phase, pupils.eta, pupils.xi))
+    weight = _rotated(pupils.order, pupils.weight, angles) if pupils.weight.size else None
+    cutting = pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1)
+    rims = np.array([_rotated(pupils.order, form, angles) for form in cutting])
+    return Turned(pupils.radius, phase, eta, xi, weight, rims, pupils.mask, pupils.wavelength_um, angles)
+
+
+def _rotated(order: int, form: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Return a form, (pupils, terms), rotated by angles, as coefficients c[i, j] of uⁱvʲ, (pupils, i, j)."""
+    harmonic = _harmonics(order)
+    paired = harmonic > 0  # the odd terms are the even ones without m = 0, in the same order
+    phases = np.multiply.outer(angles, harmonic)
+    (cosine, sine), (even, odd) = (np.cos(phases), np.sin(phases)), _halves(form, order)
+    new_even, new_odd = np.zeros_like(cosine), np.zeros((len(angles), np.count_nonzero(paired)))
+    if even.size:
+        new_even += even * cosine
+        new_odd += even[:, paired] * sine[:, paired]
+    if odd.size:
+        new_even[:, paired] -= odd * sine[:, paired]
+        new_odd += odd * cosine[:, paired]
+    return _plain(order, new_even, new_odd)
 
 
 def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
@@ -273,10 +273,9 @@ def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
 
 
 @lru_cache(maxsize=16)
-def _harmonics(order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return m of every even and every odd term."""
-    even, odd = (np.array([m for _, m in terms(order, flag)]) for flag in (False, True))
-    return even, odd
+def _harmonics(order: int) -> np.ndarray:
+    """Return m of every even term."""
+    return np.array([m for _, m in terms(order)])
 
 
 @lru_cache(maxsize=16)
