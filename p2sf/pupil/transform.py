@@ -61,12 +61,14 @@ def _nufft(
     sets = [np.broadcast_to(array, shape).reshape(-1, shape[-1]) for array in (amplitude, kx, ky)]
     steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
     middle = float(x[x.size // 2]), float(y[y.size // 2])  # where Fourier mode 0 is
-    fields = np.empty((len(sets[0]), y.size, x.size), complex)
+    # Even sums over half the nodes, as the mean of the other half's mirror image: Fourier modes need an odd number.
+    mirrored = even and middle[0] == 0 and x.size > 1
+    fields = np.empty((len(sets[0]), y.size, x.size | 1 if mirrored else x.size), complex)
     exact = kx.dtype == np.float64 and x.size * y.size <= MANY_SAMPLES
     settings = {"eps": max(NUFFT_ERROR[kx.dtype], 0.0 if exact else COARSE_ERROR), "isign": 1, "nthreads": 1}
     settings["upsampfac"] = 2.0 if exact else 1.25
     for field, weight, across, up in zip(fields, *sets, strict=True):
-        if even:
+        if even and not mirrored:
             weight, across, up = np.tile(weight / 2, 2), np.concatenate([across, -across]), np.tile(up, 2)
         if any(middle):
             weight = weight * np.exp(2j * np.pi * (across * middle[0] + up * middle[1]))
@@ -74,6 +76,8 @@ def _nufft(
         # Single precision gains nothing: its Fourier transforms are no faster.
         transform = finufft.nufft2d1 if len(turns) == 2 else finufft.nufft1d1
         transform(*turns, weight.astype(complex), out=field if len(turns) == 2 else field.ravel(), **settings)
+    if mirrored:
+        fields = (fields[..., : x.size] + fields[..., ::-1][..., : x.size]) / 2
     return fields.astype(np.result_type(kx.dtype, np.complex64), copy=False).reshape(*shape[:-1], y.size, x.size)
 
 
