@@ -19,7 +19,8 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
+from p2sf.psf.peak import peak_of
+from p2sf.psf.picture import Origin, Window, psf_from_intensity, resolved
 from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
@@ -78,11 +79,14 @@ def huygens_psf(
     pupil = fit(lens, source) if amplitude == "radiometric" else None
     if tolerance is None:
         found = one_pass(lens, source, window, clip, cancelled, pupil)
+        axis = centred_axis(*window)
+        intensity = found.waves.intensity(axis, axis, np.float32)
         sampling = sampling_of(lens, found, clip, Message("one pass in float32"))
         error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
         made = Origin("huygens", 0, _nodes(found.counts), sampling, started, None, error)
     else:
-        found, reached, rays = _settle(lens, source, window, clip, tolerance, _Watch(progress, cancelled), pupil)
+        watch = _Watch(progress, cancelled)
+        found, intensity, reached, rays = _settle(lens, source, window, clip, tolerance, watch, pupil)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = sampling_of(lens, found, clip, None if reached <= tolerance else short)
         made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
@@ -94,7 +98,8 @@ def huygens_psf(
     def reaching(reach_um: float) -> Waves | None:
         return waves_reaching(lens, source, reach_um, clip, pupil)
 
-    return psf_of_waves(found.waves, window, source.wavelength_um, blur, made, reaching, quality)
+    peak = peak_of(intensity, pixel_um, found.waves, reaching, quality)
+    return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
 
 
 def blur_um2(lens: Lens, source: Source, clip: bool = False, pupil: FittedPencil | None = None) -> float | None:
@@ -148,8 +153,8 @@ def _settle(
     tolerance: float,
     watch: "_Watch",
     pupil: FittedPencil | None,
-) -> tuple[RayWaves, float, int]:
-    """Return (plane waves, agreement, rays traced) once two successive node counts agree."""
+) -> tuple[RayWaves, np.ndarray, float, int]:
+    """Return (plane waves, their intensity, agreement, rays traced) once two successive node counts agree."""
     axis, reach = centred_axis(*window), window_reach_um(*window)
     counts = first_counts(lens, source, reach, clip)
     watch.expect(_nodes(counts) + _nodes(_raised(counts)))
@@ -163,7 +168,7 @@ def _settle(
         reached = float(np.linalg.norm(after - before) / np.linalg.norm(after))
         if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
             watch.finish()
-            return found, reached, rays
+            return found, after, reached, rays
         before = after
         watch.expect(_nodes(_raised(counts)))
 

@@ -85,14 +85,21 @@ def _place(intensity: np.ndarray, axis: np.ndarray, index: int) -> tuple[float, 
 
 def _candidates(intensity: np.ndarray, axis: np.ndarray, spread: float) -> list[tuple[float, float, float]]:
     """Return the bound of a maximum about a sample, x and y, of the samples near which the highest one can be."""
-    from scipy.ndimage import maximum_filter
-
     away = min((axis[1] - axis[0]) / sqrt(2), 1 / (8 * spread)) if axis.size > 1 else 0.0
     least = cos(2 * pi * spread * away) ** 2
-    lobes = (intensity == maximum_filter(intensity, 3, mode="nearest")) & (intensity >= least * intensity.max())
-    indices = np.flatnonzero(lobes)
-    indices = indices[np.argsort(_parabola_tops(intensity).ravel()[indices])[::-1]]
+    indices = np.flatnonzero((intensity == _brightest_about(intensity)) & (intensity >= least * intensity.max()))
+    indices = indices[np.argsort(_parabola_tops(intensity, indices))[::-1]]
     return [(float(intensity.ravel()[i]) / least, *_place(intensity, axis, int(i))) for i in indices[:MOST_CLIMBS]]
+
+
+def _brightest_about(intensity: np.ndarray) -> np.ndarray:
+    """Return the largest value among each sample and its eight neighbours: along rows, then along columns."""
+    brightest = intensity
+    for _ in range(2):
+        before, brightest = brightest.T, brightest.T.copy(order="K")
+        np.maximum(brightest[1:], before[:-1], out=brightest[1:])
+        np.maximum(brightest[:-1], before[1:], out=brightest[:-1])
+    return brightest
 
 
 def _border(intensity: np.ndarray) -> float:
@@ -100,14 +107,20 @@ def _border(intensity: np.ndarray) -> float:
     return max(float(line.max()) for line in (intensity[0], intensity[-1], intensity[:, 0], intensity[:, -1]))
 
 
-def _parabola_tops(intensity: np.ndarray) -> np.ndarray:
-    """Return the tops of parabolas through each sample and its neighbours; a sample on the border as it is."""
-    intensity = intensity.astype(float)
-    tops, middle = intensity.copy(), intensity[1:-1, 1:-1]
-    flat = -ROUNDING * float(intensity.max())
-    for before, after in ((intensity[:-2, 1:-1], intensity[2:, 1:-1]), (intensity[1:-1, :-2], intensity[1:-1, 2:])):
+def _parabola_tops(intensity: np.ndarray, indices: np.ndarray) -> np.ndarray:
+    """Return the tops of parabolas through samples and their neighbours, and samples on the border as they are.
+
+    ``indices``: (n,) flat ones.
+    """
+    values, (rows, columns) = intensity.ravel(), intensity.shape
+    row, column = np.divmod(indices, columns)
+    inside = (0 < row) & (row < rows - 1) & (0 < column) & (column < columns - 1)
+    tops, inner, flat = values[indices].astype(float), indices[inside], -ROUNDING * float(intensity.max())
+    middle = tops[inside]
+    for step in (columns, 1):
+        before, after = values[inner - step].astype(float), values[inner + step].astype(float)
         bend = np.minimum(before + after - 2 * middle, flat)
-        tops[1:-1, 1:-1] -= (after - before) ** 2 / (8 * bend)
+        tops[inside] -= (after - before) ** 2 / (8 * bend)
     return tops
 
 
