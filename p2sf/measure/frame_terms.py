@@ -11,12 +11,12 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
-from p2sf.measure.lens_pupil import clear_part, lens_nodes
+from p2sf.measure.lens_pupil import clear_part
 from p2sf.measure.perturbation import perturbation, perturbed, unit_of
 from p2sf.measure.point_model import Optics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import turned
-from p2sf.measure.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, lens_nodes, paraxial_nodes
 from p2sf.paraxial.pupils import with_fixed_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map

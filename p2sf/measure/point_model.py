@@ -2,10 +2,9 @@
 
 The field is E(x) = Σ w·exp(i2π(W + f·(x − s))) over pupil nodes, the light |E|² on the average over each pixel. With
 b_k = ∂W/∂c_k, ∂|E|²/∂c_k = 2Re(E*·i2πΣ w·b_k·exp(…)): one more sum over the same waves per number. A shift s is the
-term −f, a number m of the map the term x·∂f/∂m. The nodes lie in rows of equal fy, so that each sum is two products.
+term −f, a number m of the map the term x·∂f/∂m. The sums go by a grid of frequencies (`scattered_sum`).
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import ceil, inf, pi
 
@@ -15,11 +14,10 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
 from p2sf.measure.pupil_model import turned
 from p2sf.measure.pupil_nodes import PupilNodes
-from p2sf.measure.scattered_sum import ScatteredNodes, grid_rows
+from p2sf.measure.scattered_sum import ScatteredNodes
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.quadrature import gauss_legendre
 
-SCATTERED = 2  # times the rows of a grid: from so many scattered nodes on, the grid is faster
 DTYPE = np.complex64  # errors of 1e-6 of the peak, where noise is hardly below 1e-3
 
 
@@ -99,26 +97,6 @@ def wave(cycles: np.ndarray) -> np.ndarray:
     return out
 
 
-@dataclass(frozen=True, eq=False)
-class Block:
-    """Nodes in rows of equal fy, or scattered ones on a grid, with the waves of rows and columns."""
-
-    some: slice
-    size: tuple[int, int]
-    up: np.ndarray
-    across: np.ndarray
-    scattered: ScatteredNodes | None = None
-
-    def summed(self, values: np.ndarray) -> np.ndarray:
-        """Return the sums of plane waves with these values, (terms, nodes), as (y points, terms · x points)."""
-        if self.scattered is not None:
-            laid = self.scattered.on_grid(values)
-        else:
-            laid = values.reshape(-1, *self.size).transpose(1, 0, 2)
-        field: np.ndarray = self.up @ (laid @ self.across).reshape(len(laid), -1)
-        return field
-
-
 class PixelSum:
     """Sums over the nodes of one pupil on one window of (y, x) pixels; the kernels are computed once."""
 
@@ -126,50 +104,18 @@ class PixelSum:
         self.nodes, self.shape, self.optics = nodes, shape, optics
         (self.y, share), (self.x, _) = (pixel_points(count, optics, parts or optics.parts) for count in shape)
         self.share = share.astype(np.float32)
-        self.blocks = [self._block(size, some) for size, some in self._sizes()]
+        self.waves = ScatteredNodes(nodes.fx, nodes.fy, self.x, self.y)
         # Of all the light, a pixel's part: ∫|E|²dx = ⟨A²⟩/⟨A⟩²/(π·cycles²) for weights of unit sum (Parseval).
         self.scale = pi * (optics.cycles * optics.pixel_um) ** 2 / nodes.spreading
-
-    def _sizes(self) -> Iterator[tuple[tuple[int, int], slice]]:
-        """Yield rows and columns of each group of nodes in rows, and where they lie."""
-        start = 0
-        for rows, columns in self.nodes.blocks:
-            yield (rows, columns), slice(start, start + rows * columns)
-            start += rows * columns
-
-    def _block(self, size: tuple[int, int], some: slice) -> Block:
-        fx, fy = self.nodes.fx[some], self.nodes.fy[some]
-        if size[1] == 1 and size[0] > SCATTERED * grid_rows(fy, self.y):
-            scattered = ScatteredNodes(fx, fy, self.x, self.y)
-            return Block(some, size, scattered.up, scattered.across, scattered)
-        up = self._waves(fy.reshape(size)[:, 0], self.y)
-        return Block(some, size, np.ascontiguousarray(up.T), self._waves(fx.reshape(size), self.x))
-
-    def _waves(self, cycles: np.ndarray, places: np.ndarray) -> np.ndarray:
-        """Return exp(i2π·f·x), (*f, x), as the wave at each pixel times that from there to its parts."""
-        first = places.reshape(-1, self.share.size)
-        pixels, parts = (wave(np.multiply.outer(cycles, at)) for at in (first[:, 0], first[0] - first[0, 0]))
-        waves: np.ndarray = pixels[..., None] * parts[..., None, :]
-        return waves.reshape(*cycles.shape, places.size)
 
     def fields(self, phase: np.ndarray, terms: np.ndarray) -> np.ndarray:
         """Return Σ w·exp(i2π·phase)·(1, terms…)·wave, (y points, 1 + terms, x points); ``terms`` (terms, nodes)."""
         amplitude = wave(phase) * self.nodes.weight.astype(np.float32)
-        total: np.ndarray | None = None
-        for block in self.blocks:
-            here, parts = amplitude[block.some], terms[:, block.some]
-            field = block.summed(np.concatenate([here[None], here * parts]))
-            total = field if total is None else total + field
-        assert total is not None
-        return total.reshape(self.y.size, len(terms) + 1, self.x.size)
+        return self.waves.summed(np.concatenate([amplitude[None], amplitude * terms]))
 
     def many(self, pupils: np.ndarray) -> np.ndarray:
         """Return the light of many fields exp(i2π·phase), (pupils, nodes), as (pupils, y, x)."""
-        weighted = pupils * self.nodes.weight.astype(np.float32)
-        field: np.ndarray | float = 0.0
-        for block in self.blocks:
-            field = field + block.summed(weighted[:, block.some])
-        field = np.asarray(field).reshape(self.y.size, len(pupils), self.x.size)
+        field = self.waves.summed(pupils * self.nodes.weight.astype(np.float32))
         light: np.ndarray = self.scale * self.binned(field.real**2 + field.imag**2)
         return light
 

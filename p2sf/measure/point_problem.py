@@ -5,18 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.measure.lens_pupil import model_nodes
 from p2sf.measure.point_model import Optics, SpectralSum
 from p2sf.measure.pupil_model import PupilModel
-from p2sf.measure.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
-from p2sf.pupil.mask import mask_slopes
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
+from p2sf.pupil.mask import PupilMask, mask_slopes
 from p2sf.pupil.mask_nodes import ClearNodes
 
 PER_FRAME = 4  # x and y of the point, all of its light, background
 # A map that moves pupil points along the rim's inside, areas unchanged, leaves every PSF as it is; what is known of
 # maps decides: they differ from the paraxial one by a few per cent of the NA.
 MAP_DEVIATION = 0.05
-FOLDED = 1e6  # standard deviations
 WAVES_SCALE = 0.3  # how far a step may go at first
 MARGIN = 1.15  # of the wavefront's slope, which a fit may raise
 
@@ -114,8 +112,13 @@ class Problem:
         slope = max(self._slope(unknowns), 0.5 * self.optics.cycles * self.half_um)
         self.counts, self._at = self._counts(MARGIN * slope), np.empty(0)
         if not self.model.mapped:
-            optics = self.optics
-            self._take(paraxial_nodes(self.counts, optics.cycles, optics.mask, optics.wavelength_um, self.clear))
+            self._take(paraxial_nodes(self.counts, *self._pupil))
+
+    @property
+    def _pupil(self) -> tuple[float, PupilMask, float, ClearNodes | None, float]:
+        """Return NA/λ, mask, wavelength, the nodes that rims leave open, and azimuth, as nodes are asked for."""
+        optics = self.optics
+        return optics.cycles, optics.mask, optics.wavelength_um, self.clear, self.azimuth
 
     def needs_more(self, unknowns: np.ndarray) -> bool:
         """Return whether the wavefront has become too steep for its nodes."""
@@ -167,10 +170,7 @@ class Problem:
             return self._found
         if self.model.mapped:
             numbers = unknowns[: self.numbers]
-            nodes = model_nodes(self.model, numbers, self.optics, self.azimuth, self.counts, self.clear)
-            if nodes is None:  # a step that no pupil follows: refused, as it makes all worse
-                return np.full_like(self._found[0], FOLDED), self._found[1]
-            self._take(nodes)
+            self._take(mapped_nodes(self.model, numbers, self.counts, *self._pupil))
         rest, slopes = [], []
         for number, (data, root) in enumerate(zip(self.data, self.root, strict=True)):
             _, _, flux, background = self.frame(unknowns, number)

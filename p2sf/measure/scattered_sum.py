@@ -1,8 +1,8 @@
-"""Nodes that lie in no rows, such as those at the edges of masks and rims, put on a grid of spatial frequencies.
+"""The plane waves of pupil nodes, put on a grid of spatial frequencies.
 
 A plane wave of any frequency is nearly a sum of those of the nearest frequencies of a grid, divided by a function of
 the place: the non-uniform Fourier transform (Dutt and Rokhlin 1993), here with the kernel exp(β(√(1 − z²) − 1)) of
-Barnett, Magland and af Klinteberg (2019). Sums then cost what those of rows do, however many nodes there are.
+Barnett, Magland and af Klinteberg (2019). A sum over the grid is two products of matrices.
 """
 
 import numpy as np
@@ -33,24 +33,18 @@ class ScatteredNodes:
         ends = np.arange(fx.size + 1) * WIDTH**2
         self.matrix = csc_array((shares.ravel(), cells.ravel(), ends), shape=(self.shape[0] * self.shape[1], fx.size))
 
-    def on_grid(self, values: np.ndarray) -> np.ndarray:
-        """Return (terms, nodes) as (rows, terms, columns) of the grid."""
-        laid = self.matrix @ np.ascontiguousarray(values.T)
-        return np.ascontiguousarray(laid.reshape(*self.shape, -1).transpose(0, 2, 1))
-
-
-def grid_rows(frequency: np.ndarray, place: np.ndarray) -> int:
-    """Return how many frequencies the grid of an axis has, about."""
-    return int(np.ptp(frequency) / _spacing(place)) + WIDTH + 1
-
-
-def _spacing(place: np.ndarray) -> float:
-    return float(1 / (2 * FINER * (np.abs(place).max() or 1.0)))
+    def summed(self, values: np.ndarray) -> np.ndarray:
+        """Return the sums of plane waves with these values, (terms, nodes), as (y, terms, x)."""
+        parts = np.ascontiguousarray(values.T, np.complex64).view(np.float32)  # a real matrix times real columns
+        laid = (self.matrix @ parts).view(np.complex64).reshape(*self.shape, -1)
+        rows = np.ascontiguousarray(laid.transpose(0, 2, 1)) @ self.across
+        field: np.ndarray = self.up @ rows.reshape(len(rows), -1)
+        return field.reshape(len(field), *rows.shape[1:])
 
 
 def _spread(frequency: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the waves of an axis's grid, (places, grid), each node's grid points and their shares, (nodes, WIDTH)."""
-    step = _spacing(place)
+    step = float(1 / (2 * FINER * (np.abs(place).max() or 1.0)))
     low = float(frequency.min()) - step * WIDTH / 2
     at = (frequency - low) / step
     first = np.ceil(at - WIDTH / 2).astype(int)

@@ -13,9 +13,8 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.frame_terms import chief_rays
-from p2sf.measure.lens_pupil import lens_nodes
 from p2sf.measure.point_model import Optics, PixelSum
-from p2sf.measure.pupil_nodes import counts_for
+from p2sf.measure.pupil_nodes import counts_for, lens_nodes
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
 

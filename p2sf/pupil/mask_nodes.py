@@ -100,30 +100,6 @@ def _kept_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes:
     return shaded_nodes(mask, xi, eta, area, mask.even)
 
 
-def edge_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
-    """Return nodes over what vanes and blades cover of the disc outside the obscuration; None where there are none.
-
-    Their weights are negative shares of the disc's area: added to those of the disc less the obscuration, they leave
-    what the mask leaves open. So little of the disc lies there that a sum node by node costs little.
-    """
-    return (_kept_covered if radial * angular <= MOST_KEPT else _kept_covered.__wrapped__)(mask, radial, angular)
-
-
-@lru_cache(maxsize=16)
-def _kept_covered(mask: PupilMask, radial: int, angular: int) -> ClearNodes | None:
-    pieces = [_segments(mask, radial, angular)] if mask.iris else []
-    for angle in mask.vane_angles:
-        pieces += _vane(mask, angle, radial)
-    if mask.even:
-        pieces = [(xi, eta, 2 * area) for xi, eta, area in pieces if xi.mean() > 0]
-    if not pieces:
-        return None
-    xi, eta, area = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    amplitude = protected(mask.amplitude(xi, eta)) if mask.shaded else 1.0
-    path = protected(mask.path_um(xi, eta)) if mask.phased else 0.0
-    return ClearNodes(protected(xi), protected(eta), protected(area), float(-area.sum()), amplitude, path, mask.even)
-
-
 def shaded_nodes(mask: PupilMask, xi: np.ndarray, eta: np.ndarray, area: np.ndarray, even: bool) -> ClearNodes:
     """Return nodes with signed shares of the disc's area, and with the mask's amplitude and path."""
     kept = area != 0
@@ -154,14 +130,6 @@ def _sectors(mask: PupilMask, radial: int, angular: int) -> Piece:
     theta, step = _directions(mask, angular)
     outer = outline_radius(mask, theta)
     return _polar(theta, step, np.minimum(mask.obscuration, outer), outer, radial)
-
-
-def _segments(mask: PupilMask, radial: int, angular: int) -> Piece:
-    """Return nodes over what the blades cover outside the obscuration, with negative areas."""
-    theta, step = _directions(mask, angular)
-    inner = np.maximum(mask.obscuration, outline_radius(mask, theta))
-    xi, eta, area = _polar(theta, step, np.minimum(inner, 1.0), np.ones_like(theta), radial)
-    return xi, eta, -area
 
 
 def _directions(mask: PupilMask, angular: int) -> tuple[np.ndarray, np.ndarray]:

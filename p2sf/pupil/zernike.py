@@ -143,10 +143,10 @@ def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[lis
 
 def evaluate(form: list[list[float]], square: np.ndarray, eta: np.ndarray) -> np.ndarray:
     """Return Σ c[b][a]·squareᵃ·ηᵇ by Horner's rule, the fastest way to evaluate a fit at new points."""
-    return evaluate_in_eta([in_square(column, square) for column in form], eta)
+    return _in_eta([_in_square(column, square) for column in form], eta)
 
 
-def evaluate_in_eta(parts: Sequence[FloatOrArray], eta: np.ndarray) -> np.ndarray:
+def _in_eta(parts: Sequence[FloatOrArray], eta: np.ndarray) -> np.ndarray:
     """Return Σ parts[b]·ηᵇ, each part an array or a number."""
     last = parts[-1]
     value: np.ndarray = last.copy() if isinstance(last, np.ndarray) else last * np.ones_like(eta)
@@ -156,7 +156,7 @@ def evaluate_in_eta(parts: Sequence[FloatOrArray], eta: np.ndarray) -> np.ndarra
     return value
 
 
-def in_square(column: list[float], square: np.ndarray) -> FloatOrArray:
+def _in_square(column: list[float], square: np.ndarray) -> FloatOrArray:
     """Return Σ column[a]·squareᵃ; a plain number if there is only column[0]."""
     if len(column) == 1:
         return column[0]

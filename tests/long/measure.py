@@ -9,11 +9,9 @@ the whole way from the picture: points are found, cut out and fitted. Every tabl
 
 import sys
 from dataclasses import dataclass
-from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
-from unittest.mock import patch
 
 import numpy as np
 
@@ -24,7 +22,6 @@ from p2sf.io.photo_files import write_photo
 from p2sf.lens.lens import with_f_number, with_mask, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
-from p2sf.measure import point_model
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_terms import F_NUMBER, FIELD, FOCUS, FrameModel, lens_optics
 from p2sf.measure.listings import read_listing
@@ -259,7 +256,7 @@ def frames(trials: int, seed: int, columns: int = 9, rows: int = 7, size_mm: tup
 
 
 def masked() -> None:
-    """Print what a point's light and its derivatives take behind masks and rims, with a grid and node by node."""
+    """Print what a point's light and its derivatives take behind masks and rims."""
     clear = with_f_number(find_lens("cooke_triplet"), 4.0)
     spider = PupilMask(obscuration=0.3, vanes=3, vane_width=0.05)
     iris = with_mask(clear, PupilMask(blades=7))
@@ -268,17 +265,12 @@ def masked() -> None:
         optics = lens_optics(lens, np.inf, 0.55, 3.45)
         pupil = FrameModel(optics, 6.0, lens=lens, clip=name == "rims").pupils(3.0, 5.0, 70.0)[0]
         columns = np.concatenate([pupil.terms, -pupil.nodes.fx[None], -pupil.nodes.fy[None]]).astype(np.float32)
-        took = []
-        for scattered in (point_model.SCATTERED, inf):
-            with patch.object(point_model, "SCATTERED", scattered):
-                made = PixelSum(pupil.nodes, (41, 41), optics)
-            began = process_time()
-            for _ in range(TIMED):
-                made.light_and_slopes(pupil.phase, columns)
-            took.append((process_time() - began) / TIMED)
-        print(
-            f"{name}: {pupil.nodes.xi.size} nodes, {1000 * took[0]:.0f} ms, node by node {1000 * took[1]:.0f} ms of CPU"
-        )
+        made = PixelSum(pupil.nodes, (41, 41), optics)
+        began = process_time()
+        for _ in range(TIMED):
+            made.light_and_slopes(pupil.phase, columns)
+        took = (process_time() - began) / TIMED
+        print(f"{name}: {pupil.nodes.xi.size} nodes, {1000 * took:.0f} ms of CPU")
 
 
 def misaligned(trials: int, seed: int) -> None:

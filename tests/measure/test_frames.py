@@ -19,12 +19,12 @@ from p2sf.measure.as_built import left_out, lens_as_built, write_as_built
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
 from p2sf.measure.frame_fit import FrameFit, PointSum, fit_frame
 from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
-from p2sf.measure.lens_pupil import lens_nodes
 from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import measured, read_measurement, write_measurement
 from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import find_points, in_grid, window_half, window_of
+from p2sf.measure.pupil_nodes import lens_nodes
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
 from p2sf.paraxial.seidel import coefficients
@@ -60,7 +60,7 @@ def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimut
     """
     source, shift = Source(field_deg=14.0), (0.7, -0.4)
     found = fit(triplet, source)
-    nodes = lens_nodes(found, azimuth, (64, 64))
+    nodes = lens_nodes(found, azimuth, (40, 160))
     waves = -found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
     optics = lens_optics(triplet, np.inf, source.wavelength_um, PITCH)
     light = PixelSum(nodes, (25, 25), optics).light(waves - nodes.fx * shift[0] - nodes.fy * shift[1])

@@ -9,13 +9,13 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_terms import lens_optics
-from p2sf.measure.lens_pupil import clear_part, lens_nodes
+from p2sf.measure.lens_pupil import clear_part
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import fit_point
 from p2sf.measure.point_model import Optics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
 from p2sf.measure.pupil_model import pupil_model
-from p2sf.measure.pupil_nodes import PupilNodes, has_twin, mapped_nodes, paraxial_nodes
+from p2sf.measure.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, paraxial_nodes
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike import basis
@@ -53,9 +53,8 @@ def test_scattered_nodes_are_summed_as_one_by_one():
     radius, angle = np.sqrt(rng.uniform(0, 1, count)), rng.uniform(0, 2 * np.pi, count)
     xi, eta, weight = radius * np.cos(angle), radius * np.sin(angle), rng.uniform(-0.3, 0.7, count)
     fx, fy, waves = NA / WAVE * xi, NA / WAVE * eta + 0.05, 2 * eta**3 + xi**2
-    nodes = PupilNodes(fx, fy, xi, eta, weight / weight.sum(), np.zeros(count), ((count, 1),))
+    nodes = PupilNodes(fx, fy, xi, eta, weight / weight.sum(), np.zeros(count))
     made = PixelSum(nodes, (21, 31), Optics(NA, WAVE, PIXEL))
-    assert made.blocks[0].scattered is not None
     found = made.fields(waves, xi[None].astype(np.float32))
     one = nodes.weight * np.exp(2j * np.pi * (waves + np.multiply.outer(made.y, fy)))
     across = np.exp(2j * np.pi * np.multiply.outer(fx, made.x))
@@ -66,7 +65,7 @@ def test_scattered_nodes_are_summed_as_one_by_one():
 @MASKS
 def test_light_behind_a_mask_is_that_of_a_plain_sum(mask):
     six = pupil_model("seidel")
-    nodes = paraxial_nodes((48, 48), NA / WAVE, mask, WAVE)
+    nodes = paraxial_nodes((24, 64), NA / WAVE, mask, WAVE)
     light = PixelSum(nodes, (11, 11), Optics(NA, WAVE, PIXEL, 0.0, mask)).light(
         SIX @ six.waves(nodes.xi, nodes.eta) + nodes.waves
     )
@@ -80,7 +79,7 @@ def test_light_of_a_pupil_map_behind_a_mask_is_that_of_a_plain_sum(mask):
     waves = rng.normal(0, 0.1, len(model.wave_names))
     maps = model.paraxial_map + rng.normal(0, 0.01, len(model.map_names))
     numbers = np.concatenate([waves, maps])
-    nodes = mapped_nodes(model, numbers, (48, 48), NA / WAVE, mask, WAVE)
+    nodes = mapped_nodes(model, numbers, (24, 64), NA / WAVE, mask, WAVE)
     light = PixelSum(nodes, (11, 11), Optics(NA, WAVE, PIXEL, 0.0, mask)).light(
         waves @ model.waves(nodes.xi, nodes.eta) + nodes.waves
     )
@@ -113,7 +112,7 @@ def test_light_of_a_lens_behind_a_mask_is_that_of_its_rays(mask, azimuth_deg):
     lens = with_mask(with_f_number(find_lens("cooke_triplet"), 5.0), mask)
     source, azimuth = Source(field_deg=8.0), np.deg2rad(azimuth_deg)
     found = fit(lens, source)
-    light = light_along_the_field(lens_nodes(found, azimuth, (48, 48)), found, azimuth)
+    light = light_along_the_field(lens_nodes(found, azimuth, (24, 64)), found, azimuth)
     plain = masked_sum(lens, source, mask.turned(-azimuth_deg), 11, PIXEL, 600)
     assert light == pytest.approx(plain, abs=2e-3 * plain.max())
 
@@ -124,22 +123,22 @@ def test_rims_end_the_pupil_in_the_field_s_direction(mask, azimuth_deg):
     lens, azimuth = with_mask(find_lens("cooke_triplet"), mask), np.deg2rad(azimuth_deg)
     source = Source(field_deg=20.0, azimuth_deg=azimuth_deg)
     found = fit(lens, Source(field_deg=20.0))
-    clear = clear_part(lens, source, (64, 64))
-    light = light_along_the_field(lens_nodes(found, azimuth, (64, 64), clear), found, azimuth)
+    clear = clear_part(lens, source, (32, 88))
+    light = light_along_the_field(lens_nodes(found, azimuth, (32, 88), clear), found, azimuth)
     plain = masked_sum(lens, Source(field_deg=20.0), mask.turned(-azimuth_deg), 11, PIXEL, 400, clip=True)
     assert light == pytest.approx(plain, abs=5e-3 * plain.max())
-    whole = light_along_the_field(lens_nodes(found, azimuth, (64, 64)), found, azimuth)
+    whole = light_along_the_field(lens_nodes(found, azimuth, (32, 88)), found, azimuth)
     assert np.abs(whole - plain).max() > 0.05 * plain.max()
 
 
 def test_rims_that_end_nothing_leave_the_disc_as_it_is():
-    assert clear_part(find_lens("cooke_triplet"), Source(), (32, 32)) is None
+    assert clear_part(find_lens("cooke_triplet"), Source(), (16, 44)) is None
 
 
 @MASKS
 def test_all_light_behind_a_mask_is_one(mask):
     """What misses a window of 100 pixels of λ/2NA is diffracted by the edges; points across a pixel err by 2e-3."""
-    nodes = paraxial_nodes((96, 96), NA / WAVE, mask, WAVE)
+    nodes = paraxial_nodes((80, 280), NA / WAVE, mask, WAVE)
     light = PixelSum(nodes, (100, 100), Optics(NA, WAVE, 2.2, mask=mask)).light(nodes.waves)
     assert 0.96 < light.sum() < 1.002
 

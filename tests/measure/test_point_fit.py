@@ -123,7 +123,7 @@ def test_a_field_along_x_turns_the_picture():
 
 def test_pixels_average_what_points_sample():
     """Against 15 × 15 points in every pixel, whose midpoint sum errs by 1e-3 of the curvature."""
-    nodes = paraxial_nodes((64, 64), OPTICS.cycles)
+    nodes = paraxial_nodes((32, 88), OPTICS.cycles)
     phase = SIX @ pupil_model("seidel").waves(nodes.xi, nodes.eta)
     light = PixelSum(nodes, (9, 9), OPTICS).light(phase)
     fine = PixelSum(nodes, (135, 135), Optics(0.125, 0.55, 2.2 / 15, fill=0.0)).light(phase)
@@ -149,7 +149,7 @@ def test_two_foci_give_the_coefficients_with_their_signs(seed):
 def test_what_explains_each_of_two_pictures_is_tried_where_nothing_explains_both():
     """Starts from both together end in a minimum of 2.5 times the noise; a search of all kinds takes 2 s."""
     six, rng, foci = np.array([1.658, 0.091, -0.226, -2.541]), np.random.default_rng(1), (0.0, 1.5)
-    nodes = paraxial_nodes((80, 80), OPTICS.cycles)
+    nodes = paraxial_nodes((40, 112), OPTICS.cycles)
     waves, square = six @ pupil_model("seidel").waves(nodes.xi, nodes.eta), nodes.xi**2 + nodes.eta**2
     light = PixelSum(nodes, (40, 40), OPTICS).light
     found = fit_point([picture_of(light(waves + focus * square), rng, focus) for focus in foci], OPTICS)
