@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     )
     from p2sf.errors import P2SFError, P2SFWarning
     from p2sf.io.psf_plot import draw_psf
-    from p2sf.lens.lens import Lens, with_mask
+    from p2sf.lens.lens import Lens, with_absorption, with_mask
     from p2sf.lens.source import Source
     from p2sf.notebook_widget import widget
     from p2sf.paraxial.positions import lens_at
@@ -66,6 +66,7 @@ __all__ = [
     "render",
     "tradeoff",
     "widget",
+    "with_absorption",
     "with_mask",
     "zernike",
 ]
@@ -80,6 +81,7 @@ _ELSEWHERE = {
     "Sensor": "p2sf.scene.sensor",
     "Source": "p2sf.lens.source",
     "lens_at": "p2sf.paraxial.positions",
+    "with_absorption": "p2sf.lens.lens",
     "with_mask": "p2sf.lens.lens",
     "draw_psf": "p2sf.io.psf_plot",
     "psf_of_opd": "p2sf.psf.from_opd",

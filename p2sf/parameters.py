@@ -45,6 +45,7 @@ PARAMETERS = {
         Parameter("f_number", "f-number"),
         Parameter("stop", "Stop"),
         Parameter("aim", "Rays fill"),
+        Parameter("absorption", "Absorption"),
         Parameter("method", "Method"),
         Parameter("tolerance", "the tolerance"),
         Parameter("clip", "Clip at rims"),

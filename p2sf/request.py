@@ -12,7 +12,16 @@ import numpy as np
 from p2sf.arguments import check_fields
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.errors import GlassError, RequestError
-from p2sf.lens.lens import Aperture, Lens, indices, with_aim, with_f_number, with_mask, with_sensor
+from p2sf.lens.lens import (
+    Aperture,
+    Lens,
+    indices,
+    with_absorption,
+    with_aim,
+    with_f_number,
+    with_mask,
+    with_sensor,
+)
 from p2sf.lens.source import Source, check_one
 from p2sf.messages import Message, ParameterName
 from p2sf.parameters import check_angle, check_distance, check_finite, check_positive, unit_behind
@@ -80,6 +89,8 @@ class Request:
         Take the stop from the file, or let the narrowest rim decide (auto).
     aim
         Fill the rim of the real stop with exact rays, or the paraxial entrance pupil.
+    absorption
+        Take from the rays what the media absorb whose catalogue (AGF) states their internal transmittance.
     obscuration
         Radius of a dark disc in the middle of the stop, as a share of the rim's, 0 to 0.99.
     vanes
@@ -115,6 +126,7 @@ class Request:
     f_number: float | None = None
     stop: StopChoice = "file"
     aim: AimChoice | None = None
+    absorption: bool | None = None
     obscuration: float | None = None
     vanes: int | None = None
     vane_width: float | None = None
@@ -173,6 +185,7 @@ def set_up(lens: Lens, request: Request) -> Setup:
     except GlassError as error:
         raise _of_the_request(error, request) from None
     lens = with_mask(lens, mask_of(lens, request))
+    lens = lens if request.absorption is None else with_absorption(lens, request.absorption)
     placed = with_sensor(aimed(_opened(lens, request.f_number), request.aim), sensor_position(lens, request))
     used, stop = _stopped(placed, request, wavelength)
     return with_field(Setup(used, Source(request.depth_mm, 0.0, wavelength), stop, lens), request)

@@ -77,6 +77,8 @@ class CameraOptions:
         Take the stop from the file, or let the narrowest rim for an object at infinity decide (auto).
     aim
         Fill the rim of the real stop with exact rays, or the paraxial entrance pupil.
+    absorption
+        Take from the rays what the media absorb whose catalogue (AGF) states their internal transmittance.
     """
 
     zoom: float | str | None = None
@@ -86,6 +88,7 @@ class CameraOptions:
     f_number: float | None = None
     stop: StopChoice = "file"
     aim: AimChoice | None = None
+    absorption: bool | None = None
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """`p2sf psf FILE.npz`: a PSF looked up in a database, without the lens."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,15 +25,9 @@ if TYPE_CHECKING:
 
     Database = ExactDatabase | GridDatabase | FittedDatabase
 
-FROM_THE_LENS = {
-    "object_height_mm": None,
-    "zoom": None,
-    "focus_position": None,
-    "focus_mm": None,
-    "f_number": None,
-    "stop": "file",
-    "aim": None,
-}
+OF_THE_SOURCE = ("depth_mm", "field_deg", "field_x_deg", "image_height_mm", "wavelength_nm", "sensor_shift_um")
+FROM_THE_LENS = {field.name: field.default for field in fields(Request) if field.name not in OF_THE_SOURCE}
+"""What only the lens could answer, so that a new parameter is refused and not ignored."""
 
 
 def is_database(name: str) -> bool:

@@ -14,6 +14,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import CatalogueEntry, find_entry
 from p2sf.glass.dispersion import LINES_UM, Values, refractive_index
+from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.messages import Message
 
 Range = tuple[float, float] | None
@@ -33,6 +34,12 @@ class Medium(Protocol):
 
     def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the refractive index in the shape of ``wavelength_um``; GlassError outside the data's range."""
+
+
+def transmittance_of(medium: Medium) -> InternalTransmittance | None:
+    """Return the ``transmittance`` of a medium; None where it has none, and so nothing is known of its absorption."""
+    found: InternalTransmittance | None = getattr(medium, "transmittance", None)
+    return found
 
 
 @dataclass(frozen=True)
@@ -146,6 +153,11 @@ class ShiftedIndex:
     def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the shifted index; GlassError outside the medium's range."""
         return np.asarray(self.medium.index(wavelength_um) + self.shift)
+
+    @property
+    def transmittance(self) -> InternalTransmittance | None:
+        """Return that of the medium."""
+        return transmittance_of(self.medium)
 
 
 @lru_cache(maxsize=256)

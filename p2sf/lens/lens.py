@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_fields, checked
 from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.glass.media import AIR, MIRROR, Medium
+from p2sf.glass.media import AIR, MIRROR, Medium, transmittance_of
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
-from p2sf.lens.properties import PROPERTIES, turned_breaks
+from p2sf.lens.properties import BY_NAME, PROPERTIES, turned_breaks
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
@@ -220,6 +220,8 @@ class Lens:
         (see `p2sf.lens_at`).
     sensor_before : tuple of Placement
         Tilt and decentre of the sensor, relative to its place behind the last surface.
+    absorption : bool
+        Whether rays lose the light that media absorb behind the first surface, as far as their catalogues say.
 
     Raises
     ------
@@ -242,6 +244,7 @@ class Lens:
     mask: PupilMask = CLEAR
     positions: "Positions | None" = None
     sensor_before: tuple[Placement, ...] = ()
+    absorption: bool = False
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -324,10 +327,23 @@ class Lens:
         return not all(placement.idle for placement in placements)
 
     @cached_property
-    def shading_surface(self) -> int | None:
-        """Return the first surface, from 1, whose transmission changes with the height; None where none does."""
-        passed = (surface.transmission for surface in self.surfaces)
-        return next((number for number, one in enumerate(passed, 1) if one and one.per_mm2), None)
+    def absorbs(self) -> tuple[bool, ...]:
+        """Return for every medium whether light is lost in it; that of the object does not belong to the lens."""
+        known = (self.absorption and transmittance_of(medium) is not None for medium in self.media[1:])
+        return False, *known
+
+    @cached_property
+    def shading(self) -> Message | None:
+        """Return what takes more light from some parts of the pupil than from others; None where nothing does."""
+        for number, surface in enumerate(self.surfaces, 1):
+            if reason := BY_NAME["transmission"].unseen(surface.transmission):
+                return Message("surface {surface} {reason}", surface=number, reason=reason)
+        if any(self.absorbs):
+            return Message(
+                "the medium behind surface {surface} absorbs light along paths of different lengths",
+                surface=self.absorbs.index(True),
+            )
+        return None
 
     @cached_property
     def motions(self) -> tuple[Motion, ...]:
@@ -371,6 +387,12 @@ def with_f_number(lens: Lens, f_number: float) -> Lens:
 def with_aim(lens: Lens, aim: Aim) -> Lens:
     """Return the same lens with its pupil filled as ``aim`` says; GeometryError for an unknown one."""
     return lens if lens.aim == aim else replace(lens, aim=aim)
+
+
+@checked
+def with_absorption(lens: Lens, absorption: bool = True) -> Lens:
+    """Return the same lens with the light that its media absorb taken from its rays, or left to them."""
+    return lens if lens.absorption == absorption else replace(lens, absorption=absorption)
 
 
 @checked
@@ -449,6 +471,17 @@ def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
     for number, (medium, direction) in enumerate(zip(media, lens.directions, strict=True)):
         rows[number] = known[id(medium)] if direction > 0 else -known[id(medium)]
     return rows
+
+
+def absorptions(lens: Lens, wavelength_um: FloatOrArray) -> list[FloatOrArray] | None:
+    """Return what every medium absorbs, per mm, in the shape of ``wavelength_um``; None for a lens that absorbs none.
+
+    The share that passes a length is exp(−absorption·length).
+    """
+    if not any(lens.absorbs):
+        return None
+    known = [transmittance_of(medium) if lost else None for medium, lost in zip(lens.media, lens.absorbs, strict=True)]
+    return [0.0 if one is None else one.absorption(wavelength_um) for one in known]
 
 
 def surface_power(

@@ -62,10 +62,10 @@ def straightened(lens: Lens) -> Lens:
 
 def averaged(lens: Lens) -> Lens:
     """Return the lens as paraxial rays see it: with the mean over all azimuths of every shape, and without shading."""
-    if lens.shading_surface is None and all(s.shape is None or s.shape.radial for s in lens.surfaces):
+    if lens.shading is None and all(s.shape is None or s.shape.radial for s in lens.surfaces):
         return lens
     surfaces = tuple(replace(s, shape=s.shape and s.shape.mean, transmission=None) for s in lens.surfaces)
-    return replace(lens, surfaces=surfaces)
+    return replace(lens, surfaces=surfaces, absorption=False)
 
 
 def folding(placement: Placement) -> dict[str, tuple[Placement, ...]]:

@@ -23,7 +23,7 @@ PARAMETER: dict[Kind, str] = {"zoom": "zoom", "focus": "focus_position"}
 Address = tuple[int, str, int]
 """Where a number of a lens is: surface from 0 (−1: the lens itself), field, place in the field's tuple."""
 WHOLE = -1
-KEPT = ("name", "title", "source", "comment", "character", "aim", "mask")
+KEPT = ("name", "title", "source", "comment", "character", "aim", "mask", "absorption")
 """Fields of a lens that are the same at every position; columns have their defaults."""
 PLAIN: dict[str, Any] = {field.name: field.default for field in fields(Lens) if field.name in (*KEPT, "positions")}
 

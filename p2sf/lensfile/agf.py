@@ -11,11 +11,14 @@ from numpy.typing import ArrayLike
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import LINES_UM
 from p2sf.glass.media import checked_wavelength
+from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lensfile.source_text import LensText, number, read_source, whole
 from p2sf.messages import Message
 
 COEFFICIENTS = 12
-Entry = dict[str, tuple[int, list[str]]]  # NM, CD and LD of a glass: the line and its words
+MOST_PASSED = 1.01  # of the light: what measurements of a clear glass may state, and is taken for all of it
+ONCE, REPEATED = ("NM", "CD", "LD"), "IT"
+Entry = dict[str, list[tuple[int, list[str]]]]  # these of a glass: every line and its words
 
 
 def schott(c: Sequence[float], w: np.ndarray) -> np.ndarray:
@@ -122,7 +125,8 @@ def refractive_index(formula: int, coefficients: Sequence[float], wavelength_um:
 class FormulaGlass:
     """A glass by AGF formula number and coefficients (λ in µm), valid inside ``range_um``.
 
-    ``listed_nd`` is the index the catalogue prints beside them, a check on the coefficients.
+    ``listed_nd`` is the index the catalogue prints beside them, a check on the coefficients. ``transmittance``: what
+    it passes, where the catalogue has IT lines.
     """
 
     name: str
@@ -130,6 +134,7 @@ class FormulaGlass:
     coefficients: tuple[float, ...]
     range_um: tuple[float, float]
     listed_nd: float | None = field(default=None, compare=False)
+    transmittance: InternalTransmittance | None = None
 
     @property
     def label(self) -> str:
@@ -173,10 +178,12 @@ def read_agf_text(source: LensText) -> Catalogue:
         if words and words[0] == "NM":
             _store(glasses, entry, source)
             entry = {}
-        if words and words[0] in ("NM", "CD", "LD"):
-            entry[words[0]] = (line, words[1:])
+        if words and words[0] in ONCE:
+            entry[words[0]] = [(line, words[1:])]
+        elif words and words[0] == REPEATED:
+            entry.setdefault(REPEATED, []).append((line, words[1:]))
         elif words and last == "CD" and _looks_like_a_number(words[0]):
-            entry["CD"][1].extend(words)  # some makers' files wrap the coefficients
+            entry["CD"][0][1].extend(words)  # some makers' files wrap the coefficients
             continue
         last = words[0] if words else ""
     _store(glasses, entry, source)
@@ -189,7 +196,7 @@ def _store(glasses: dict[str, FormulaGlass], entry: Entry, source: LensText) -> 
     """Add the glass whose lines have been collected; of several entries of one name the first counts."""
     if "NM" not in entry:
         return
-    line, words = entry["NM"]
+    line, words = entry["NM"][0]
     if len(words) < 2:
         raise source.error("a glass needs a name and a formula number (NM name formula …); complete it", line)
     formula = whole(words[1], Message("formula number"), source, line)
@@ -201,7 +208,8 @@ def _store(glasses: dict[str, FormulaGlass], entry: Entry, source: LensText) -> 
             formula=formula,
         )
     listed = number(words[3], Message("listed nd"), source, line) if len(words) > 3 else None
-    glass = FormulaGlass(words[0], formula, _coefficients(entry, source, line), _range(entry, source, line), listed)
+    coefficients, limits = _coefficients(entry, source, line), _range(entry, source, line)
+    glass = FormulaGlass(words[0], formula, coefficients, limits, listed, _transmittance(entry, source))
     glasses.setdefault(words[0].upper(), glass)
 
 
@@ -210,14 +218,14 @@ def _looks_like_a_number(word: str) -> bool:
 
 
 def _coefficients(entry: Entry, source: LensText, name_line: int) -> tuple[float, ...]:
-    line, words = entry.get("CD", (name_line, []))
+    line, words = entry.get("CD", [(name_line, [])])[0]
     if not words:
         raise source.error("the glass has no coefficients (CD line); complete it", line)
     return tuple(number(word, Message("coefficient"), source, line) for word in words[:COEFFICIENTS])
 
 
 def _range(entry: Entry, source: LensText, name_line: int) -> tuple[float, float]:
-    line, words = entry.get("LD", (name_line, []))
+    line, words = entry.get("LD", [(name_line, [])])[0]
     if len(words) < 2:
         raise source.error("the glass has no wavelength range (LD line); complete it", line)
     low, high = (number(word, Message("wavelength"), source, line) for word in words[:2])
@@ -229,6 +237,23 @@ def _range(entry: Entry, source: LensText, name_line: int) -> tuple[float, float
             high=high,
         )
     return low, high
+
+
+def _transmittance(entry: Entry, source: LensText) -> InternalTransmittance | None:
+    """Return what the IT lines of a glass state; one that is not complete states nothing."""
+    records = []
+    for line, words in entry.get(REPEATED, ()):
+        if len(words) < 3:
+            continue
+        what = Message("wavelength"), Message("internal transmittance"), Message("thickness")
+        wave, share, thickness = (number(*pair, source, line) for pair in zip(words, what, strict=False))
+        record = wave, min(share, 1.0) if share <= MOST_PASSED else share, thickness
+        try:
+            InternalTransmittance((record,))
+        except GlassError as error:
+            raise source.error(error.message, line) from None
+        records.append(record)
+    return InternalTransmittance(tuple(records)) if records else None
 
 
 def nd_and_vd(glass: FormulaGlass) -> tuple[float, float]:

@@ -6,6 +6,7 @@ stop_surface = 1                 # from 1; left out, the narrowest rim is the st
 fields_deg = [0, 5]              # chief-ray angle at the entrance pupil
 wavelengths_nm = [486.1327, 587.5618, 656.2725]
 object_medium = "air"
+absorption = true                # rays lose what the media of catalogues absorb; left out: false
 
 [aperture]                       # exactly one: stop_semi_diameter, entrance_pupil_diameter, f_number
 f_number = 8
@@ -55,8 +56,8 @@ from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_mask
-from p2sf.lens.positions import Axis, alone
+from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_absorption, with_mask
+from p2sf.lens.positions import KEPT, Axis, alone
 from p2sf.lensfile.columns import KINDS as RINGS
 from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
 from p2sf.lensfile.source_text import digits, read_text, write_text
@@ -89,17 +90,14 @@ def lens_to_toml(lens: Lens) -> str:
     """
     lens = lens if as_in_columns(lens) else alone(lens)
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
-    head = _joined(axes, [_head(replace(column, **_texts_of(lens))) for column in columns])
+    same = {name: getattr(lens, name) for name in KEPT}
+    head = _joined(axes, [_head(replace(column, **same)) for column in columns])
     rings = "".join(axis_text(axis, text_of, list_text) for axis in axes)
     opening = joined(axes, lens.aperture.kind, [digits(column.aperture.value) for column in columns])
     aperture = f"\n[aperture]\n{lens.aperture.kind} = {opening}\n"
     surfaces = [_surface_text(lens, columns, number) for number in range(1, len(lens.surfaces) + 1)]
     pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
     return head + rings + aperture + (f"\n[pupil]\n{pupil}" if pupil else "") + "".join(surfaces)
-
-
-def _texts_of(lens: Lens) -> dict[str, Any]:
-    return {key: getattr(lens, key) for key in TEXTS}
 
 
 def _head(lens: Lens) -> tuple[_Line, ...]:
@@ -116,6 +114,7 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
         _Line("wavelengths_nm", list_text(lens.wavelengths_nm)),
         _Line("object_medium", medium_text(lens.object_medium), '"air"'),
         _Line("sensor_before", placements_text(lens.sensor_before), "[]"),
+        _Line("absorption", str(lens.absorption).lower(), "false"),
     )
 
 
@@ -137,7 +136,10 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
 
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
-TOP = (*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "aperture", "pupil", "surface")
+TOP = (
+    *(*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "absorption"),
+    *("aperture", "pupil", "surface"),
+)
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 
@@ -172,6 +174,7 @@ def _plain(top: Table) -> Lens:
     texts = {key: top.string(key) for key in TEXTS}
     texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
     lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
+    lens = with_absorption(lens, top.flag("absorption"))
     lens = _placed(top, lens, scale)
     _check_wavelengths(top, lens)
     return lens

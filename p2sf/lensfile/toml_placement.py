@@ -60,10 +60,7 @@ def _placement(table: Table, scale: float, known: tuple[str, ...]) -> Placement:
     table.check_keys(known)
     x, y, z = (scale * value for value in _three(table, "decentre", FINITE))
     across, up, along = (scale * value for value in _three(table, "pivot", FINITE))
-    first = table.values.get("tilt_first", False)
-    if not isinstance(first, bool):
-        table.fail("tilt_first is {found}; write true or false", "tilt_first", found=shown(first))
-    return Placement(x, y, z, *_three(table, "tilt_deg", ANGLE), first, (across, up, along))
+    return Placement(x, y, z, *_three(table, "tilt_deg", ANGLE), table.flag("tilt_first"), (across, up, along))
 
 
 def _three(table: Table, key: str, rule: Constraint) -> tuple[float, float, float]:

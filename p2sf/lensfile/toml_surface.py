@@ -16,6 +16,7 @@ from p2sf.glass.media import (
     ShiftedIndex,
     TabulatedIndex,
 )
+from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Surface, scaled
 from p2sf.lens.shape_types import SHAPES
@@ -76,10 +77,15 @@ def medium_text(medium: Medium) -> str:
         return f"{{ glass = {medium_text(medium.medium)}, shift = {digits(medium.shift)} }}"
     if isinstance(medium, FormulaGlass):
         numbers = f"coefficients = {list_text(medium.coefficients)}, range_um = {list_text(medium.range_um)}"
-        return f"{{ agf_formula = {medium.formula}, {numbers}, name = {text_of(medium.name)} }}"
+        passed = "" if medium.transmittance is None else f", {_transmittance_text(medium.transmittance)}"
+        return f"{{ agf_formula = {medium.formula}, {numbers}, name = {text_of(medium.name)}{passed} }}"
     raise LensFileError(
         "medium {name} cannot be written to a file; give an index, a glass name or nd and vd", name=medium.label
     )
+
+
+def _transmittance_text(passed: InternalTransmittance) -> str:
+    return f"internal_transmittance = [{', '.join(map(list_text, passed.records))}]"
 
 
 def _shape_text(shape: Shape | None) -> str:

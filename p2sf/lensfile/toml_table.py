@@ -10,18 +10,20 @@ from typing import Any, NoReturn, TypeGuard
 
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import Medium, parse_medium
+from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lensfile.agf import COEFFICIENTS, DIRECT, SQUARED, FormulaGlass
 from p2sf.lensfile.source_text import digits
 from p2sf.messages import Message
 
-KEYS = {"agf_formula", "coefficients", "range_um", "name"}
+KEYS, PASSED = {"agf_formula", "coefficients", "range_um", "name"}, "internal_transmittance"
 
 
 def read_medium(value: object) -> Medium:
     """Return the medium of a lens file's value; GlassError.
 
     In addition to what `glass.parse_medium` reads, ``{agf_formula = 2, coefficients = […], range_um = [low, high],
-    name = "…"}`` is a glass of an AGF catalogue with its dispersion formula, so that the file is self-contained.
+    name = "…"}`` is a glass of an AGF catalogue with its dispersion formula, so that the file is self-contained;
+    ``internal_transmittance = [[µm, share, mm], …]`` are its IT lines.
     """
     if isinstance(value, dict) and "agf_formula" in value:
         return _formula_glass(value)
@@ -29,7 +31,7 @@ def read_medium(value: object) -> Medium:
 
 
 def _formula_glass(table: dict[str, Any]) -> FormulaGlass:
-    if set(table) != KEYS or not isinstance(table["name"], str):
+    if set(table) - {PASSED} != KEYS or not isinstance(table["name"], str):
         raise GlassError("glass has the keys {names}; write {known}", names=tuple(table), known=tuple(sorted(KEYS)))
     name, formula, coefficients, limits = (table[key] for key in ("name", "agf_formula", "coefficients", "range_um"))
     if type(formula) is not int or (formula not in DIRECT and formula not in SQUARED):
@@ -44,7 +46,22 @@ def _formula_glass(table: dict[str, Any]) -> FormulaGlass:
             name=name,
             limits=str(limits),
         )
-    return FormulaGlass(name, formula, tuple(map(float, coefficients)), (float(limits[0]), float(limits[1])))
+    numbers, ends = tuple(map(float, coefficients)), (float(limits[0]), float(limits[1]))
+    return FormulaGlass(name, formula, numbers, ends, transmittance=_transmittance(table))
+
+
+def _transmittance(table: dict[str, Any]) -> InternalTransmittance | None:
+    records = table.get(PASSED)
+    if records is None:
+        return None
+    if not (isinstance(records, list) and all(_numbers(record) and len(record) == 3 for record in records)):
+        raise GlassError(
+            "{key} of {name} is {records}; write a list of [wavelength in µm, share, thickness in mm]",
+            key=PASSED,
+            name=table["name"],
+            records=str(records),
+        )
+    return InternalTransmittance(tuple((float(wave), float(share), float(mm)) for wave, share, mm in records))
 
 
 def _numbers(values: object) -> TypeGuard[list[float]]:
@@ -134,6 +151,13 @@ class Table:
         value = self.values.get(key)
         if value is not None and (isinstance(value, bool) or not isinstance(value, int)):
             self.fail("{name} is {found}; write a whole number", key, name=key, found=shown(value))
+        return value
+
+    def flag(self, key: str) -> bool:
+        """Return true or false; false where the key is absent."""
+        value = self.values.get(key, False)
+        if not isinstance(value, bool):
+            self.fail("{name} is {found}; write true or false", key, name=key, found=shown(value))
         return value
 
     def medium(self, key: str) -> Medium:

@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import number_list
-from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, RequestError
-from p2sf.lens.lens import Lens, lens_range_um
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of
@@ -33,7 +32,7 @@ from p2sf.metrics.frequency_pupil import (
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.methods import choose, seidel_error
-from p2sf.psf.polychromatic import chief_places_um
+from p2sf.psf.polychromatic import bands_through, chief_places_um
 from p2sf.psf.prediction import SAFETY
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.mask import CLEAR
@@ -230,8 +229,7 @@ def parts_of(
     if spectrum is None:
         pupil, used = pupil_of(lens, source, method, clip, turn_deg)
         return [PupilPart(pupil)], used
-    known = lens_range_um(lens)
-    waves, xyz = bands(spectrum, COLOURS, *((known,) if known else ()))
+    waves, xyz = bands_through(lens, source, spectrum, COLOURS)
     share, (right, up) = xyz[:, 1] / xyz[:, 1].sum(), chief_places_um(lens, source, waves)
     aside, shifts = turned(right, up, turn_deg)
     found = []

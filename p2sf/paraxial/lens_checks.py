@@ -6,6 +6,7 @@ from math import inf, isfinite, sqrt
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.positions import steps_between
 from p2sf.messages import Message
@@ -18,13 +19,15 @@ AIR_LIKE = 1.01  # an index up to which a medium is a gas
 def lens_checks(lens: Lens) -> tuple[Message, ...]:
     """Return a warning for each rim that its surface cannot have, for glass inside out, and if no surface bends light.
 
-    Of a zoom between its columns also for each medium, and whatever else is not interpolated.
+    Also for absorption of which nothing is known; of a zoom between its columns for each medium, and whatever else is
+    not interpolated.
 
     Raises GlassError for a reference wavelength outside a glass's data.
     """
     rims = (_rim_beyond_its_sphere(number, surface) for number, surface in enumerate(lens.surfaces, 1))
     shapes = (_rim_beyond_its_shape(number, surface) for number, surface in enumerate(lens.surfaces, 1))
-    found = (*rims, *shapes, _stop_beyond_its_sphere(lens), *_negative_glass(lens), _nothing_bends(lens))
+    media = (*_negative_glass(lens), _nothing_bends(lens), _unknown_absorption(lens))
+    found = (*rims, *shapes, _stop_beyond_its_sphere(lens), *media)
     return (*(warning for warning in found if warning), *steps_between(lens))
 
 
@@ -101,4 +104,17 @@ def _nothing_bends(lens: Lens) -> Message | None:
     return Message(
         "every medium of this lens has the index {index:g}, so no surface bends light; name its glasses",
         index=float(index[0]),
+    )
+
+
+def _unknown_absorption(lens: Lens) -> Message | None:
+    """Return a warning for media that count as clear, where absorption is asked for, since no one says what they do."""
+    media = zip(lens.media, lens.absorbs, strict=True)
+    unknown = dict.fromkeys(medium.label for medium, lost in [*media][1:] if not lost and medium != AIR)
+    if not (lens.absorption and unknown):
+        return None
+    return Message(
+        "absorption is on, but no internal transmittance is known of {glasses}, which absorb nothing here; import the "
+        "lens with their catalogues in the AGF format",
+        glasses=tuple(unknown),
     )

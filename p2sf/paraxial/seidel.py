@@ -17,7 +17,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.properties import PROPERTIES
 from p2sf.lens.shapes import Diffraction
-from p2sf.messages import Message
+from p2sf.messages import Message, ParameterName
 from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
@@ -149,6 +149,13 @@ def without_coefficients(lens: Lens) -> Message | None:
                     surface=number,
                     reason=reason,
                 )
+    if lens.shading:
+        return Message(
+            "{shading}, for which there are no six coefficients; choose the method fitted, traced or huygens, or leave "
+            "{parameter} off",
+            shading=lens.shading,
+            parameter=ParameterName("absorption"),
+        )
     return None
 
 

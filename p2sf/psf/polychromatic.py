@@ -20,11 +20,13 @@ from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, suitable_pixel_um
 from p2sf.pupil.mask_nodes import throughput
-from p2sf.raytrace.pencil import Sources, pencil
+from p2sf.raytrace.pencil import Sources, pencil, rays_through
+from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import one_blas_thread
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
 MOST = 400
+PASSING = 6, 20  # nodes over the pupil, across which absorption changes slowly
 TRIED = 9  # wavelengths from which the width of a window is chosen
 
 Renderer = Callable[[Lens, Source, int, float], Psf]
@@ -82,7 +84,7 @@ def colour_psf(
             "{count} wavelengths for a colour PSF; give a whole number from 1 to {most}", count=count, most=MOST
         )
     make = method if callable(method) else by_method(method)
-    wavelengths, weights = bands(spectrum, count, *_limits(lens))
+    wavelengths, weights = bands_through(lens, source, spectrum, count)
     aside, shifts = chief_places_um(lens, source, wavelengths)
     made = [make(lens, replace(source, wavelength_um=float(wave)), *window) for wave in wavelengths]
     each = zip(made, shares(lens, source, made), shifts / window[1], aside / window[1], strict=True)
@@ -101,7 +103,7 @@ def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: in
     """
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     check_focus(own)
-    waves, _ = bands(spectrum, TRIED, *_limits(lens))
+    waves, _ = bands_through(lens, source, spectrum, TRIED)
     if not np.isfinite(own.w40):
         each = [whole_pixel_um(lens, replace(source, wavelength_um=float(wave)), pixels) for wave in waves]
         return float(np.max(each + 2 * np.abs(chief_places_um(lens, source, waves)).max(0) / pixels))
@@ -115,9 +117,22 @@ def by_method(method: str) -> Renderer:
     return lambda lens, source, pixels, pixel_um: render(lens, source, method, pixels, pixel_um)
 
 
-def _limits(lens: Lens) -> tuple[tuple[float, float], ...]:
+def bands_through(lens: Lens, source: Source, spectrum: Spectrum, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the `bands` of a spectrum within the data of all glasses, weighted by what media pass of each, ΣY = 1."""
     known = lens_range_um(lens)
-    return (known,) if known else ()
+    waves, weights = bands(spectrum, count, *((known,) if known else ()))
+    if any(lens.absorbs):
+        weights = weights * [[_passed(lens, replace(source, wavelength_um=float(wave)))] for wave in waves]
+        weights /= weights[:, 1].sum()
+    return waves, weights
+
+
+def _passed(lens: Lens, source: Source) -> float:
+    """Return the share of the light that enters the pupil which surfaces and media pass."""
+    nodes = pupil_nodes(lens, source, PASSING)
+    rays = rays_through(lens, source, nodes)
+    light, entering = rays.share * rays.light, rays.share * rays.launch * np.square(rays.mask)
+    return float(light.sum() / entering.sum())
 
 
 def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:

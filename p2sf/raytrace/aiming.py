@@ -178,12 +178,8 @@ def pupil_rays(
 
 def _check_aim(lens: Lens) -> None:
     """Raise GeometryError for an aim that takes the pupil of a misaligned or shading lens for an even disc."""
-    if lens.aim == "paraxial" and lens.shading_surface:
-        raise GeometryError(
-            "surface {surface} passes a share of light that changes with the height, which the paraxial pupil takes "
-            "for even; aim at the stop",
-            surface=lens.shading_surface,
-        )
+    if lens.aim == "paraxial" and lens.shading:
+        raise GeometryError("{shading}, which the paraxial pupil takes for even; aim at the stop", shading=lens.shading)
     if lens.misaligned and lens.aim == "paraxial":
         raise GeometryError(
             "parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop",

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, indices
+from p2sf.lens.lens import Lens, absorptions, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
 from p2sf.raytrace.ideal import bend_ideally, object_point
@@ -148,19 +148,24 @@ def run(
     ``first`` > 1 goes on with a beam whose last surface was the one before it.
     ``rims``, one per surface, mm, clip the beam. ``visit(number)`` is called on every surface and on the sensor, which
     counts as the surface behind the last; without it, planes between equal media are skipped.
+    What media absorb is taken from `Beam.transmission`.
     The beam is given in the axes of the lens, ends in those of its last surface or the sensor, and ``visit`` finds it
     in those of the surface.
     """
+    absorbed = absorptions(lens, beam.wavelength_um)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         _onward(beam, lens, first - 1, index)
         for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
-            idle = surface.bare and rims is None and visit is None
+            idle = surface.bare and rims is None and visit is None and absorbed is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
-                _cross(beam, lens, index, number, rims, visit)
+                _cross(beam, lens, index, number, rims, visit, absorbed)
             if number != last:
                 _onward(beam, lens, number, index)
         if last is None:
+            path = beam.path.copy() if absorbed else beam.path
             to_plane(beam, index[-1])
+            if absorbed:
+                _absorb(beam, absorbed[-1], path, index[-1])
             if visit:
                 visit(len(lens.surfaces) + 1)
     return beam
@@ -185,10 +190,14 @@ def _cross(
     number: int,
     rims: np.ndarray | None,
     visit: Callable[[int], None] | None,
+    absorbed: list[FloatOrArray] | None,
 ) -> None:
     """Carry a beam to a surface, clip it there, and refract it."""
     surface, before, after = lens.surfaces[number - 1], index[number - 1], index[number]
+    path = beam.path.copy() if absorbed else beam.path
     normal = meet(beam, surface, before, number)
+    if absorbed:
+        _absorb(beam, absorbed[number - 1], path, before)
     if visit:
         visit(number)
     if rims is not None:
@@ -203,6 +212,15 @@ def _cross(
         diffract(beam, normal, surface.diffraction, after, number)
     elif not _same(before, after):
         refract(beam, normal, before, after, number)
+
+
+def _absorb(beam: Beam, absorption: FloatOrArray, path: np.ndarray, index: FloatOrArray) -> None:
+    """Take from a beam what a medium absorbs, per mm, from where its optical paths were ``path`` (Beer–Lambert).
+
+    Lengths have the sign of paths, so that a plane from which rays run back in the medium takes nothing.
+    """
+    if np.any(absorption):
+        beam.transmission = beam.transmission * np.exp(absorption * (path - beam.path) / np.abs(index))
 
 
 def _same(before: FloatOrArray, after: FloatOrArray) -> bool:

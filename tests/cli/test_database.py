@@ -185,6 +185,8 @@ def test_bad_files_and_questions_are_one_sentence(refused, file, tmp_path):
     assert "is not a P2SF stack" in refused("database", "info", tmp_path)
     assert "depth 100 mm is outside this database" in refused("psf", file, "--depth-mm", 100)
     assert "--f-number needs the lens" in refused("psf", file, "--f-number", 4)
+    assert "--obscuration needs the lens" in refused("psf", file, "--obscuration", 0.3)
+    assert "--absorption needs the lens" in refused("psf", file, "--no-absorption")
     assert "leave them out" in refused("psf", file, "--method", "huygens")
     assert "33 samples a side" in refused("export", file, "--to", "iset", "--pixels", 33)
     assert "choose a name that ends in .npz" in refused("database", "build", "tessar", "-o", tmp_path / "a.zarr")

@@ -82,7 +82,8 @@ def _in_columns(before: Lens, after: Lens) -> Lens:
     for name in set(changes(before, after)) - {"surfaces", *KEPT}:
         for place in _edited_places(positions, [getattr(column, name) for column in columns], None):
             columns[place] = replace(columns[place], **{name: getattr(after, name)})
-    return with_columns(before, tuple(columns))
+    same = {name: getattr(after, name) for name in changes(before, after) if name in KEPT}
+    return with_columns(replace(before, **same), tuple(columns))
 
 
 def changes(before: Any, after: Any) -> tuple[str, ...]:

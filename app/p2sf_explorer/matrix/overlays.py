@@ -5,18 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees, vergence
 from p2sf.errors import P2SFError
-from p2sf.lens.lens import Lens, lens_range_um
+from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
 from p2sf.metrics.measures import COLOURS, PupilPart, mtf_of
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import pupils
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.pixel_kernels.sensor_points import sensor_map
-from p2sf.psf.polychromatic import chief_shifts_um
+from p2sf.psf.polychromatic import bands_through, chief_shifts_um
 from p2sf.raytrace.field_curves import heights
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest, measured_parts
@@ -183,8 +182,8 @@ def of_colours(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
     for number, nm in enumerate(request.wavelengths, 1):
         lines += pair(contrast_at(at_wavelength(state, nm), x), number, names[number - 1])
         yield number / (2 * len(names)), Overlay(x, tuple(lines), MTF_AXES, names)
-    setup, known = paraxial_setup(state), lens_range_um(request.lens)
-    waves, xyz = bands(spectrum, request.count, *((known,) if known else ()))
+    setup = paraxial_setup(state)
+    waves, xyz = bands_through(setup.lens, setup.source, spectrum, request.count)
     shifts = chief_shifts_um(setup.lens, setup.source, waves)
     shares = xyz[:, 1] / xyz[:, 1].sum()
     parts: list[PupilPart] = []

@@ -11,12 +11,14 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication, QFileDialog, QMenu, QWidget
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import with_absorption
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compute.autofocus import best_shift_um
+from p2sf_explorer.compute.editing import edited_state
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.compute.setup import prescription, with_lens
 from p2sf_explorer.files.opening import KINDS, Refusal, opened, refusal
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.saving import ask_save_lens
@@ -128,6 +130,7 @@ class Actions(QObject):
             Command("Export a set of PSFs…", self.ask_set, ("Ctrl+Alt+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
             Command(NO_MASK, lambda: store.update(**CLEAR_PUPIL), (), "Lens"),
+            Command("Absorption of the glasses: on or off", self.absorb, (), "Lens"),
             Command("Pupil as the lens file has it", lambda: store.update(**dict.fromkeys(MASK)), (), "Lens"),
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
@@ -179,6 +182,13 @@ class Actions(QObject):
     def autofocus(self) -> bool:
         """Move the sensor to the smallest RMS wavefront."""
         return self.attempt(lambda: self._store.update(sensor_shift_um=best_shift_um(self._store.state)))
+
+    def absorb(self) -> bool:
+        """Take from the rays what glasses absorb, or leave it to them, as an edit of the lens."""
+        state = self._store.state
+        lens = prescription(state)
+        other = with_absorption(lens, not lens.absorption)
+        return self.attempt(lambda: self._store.replace(edited_state(state, other)))
 
     def save(self, path: str, picture_of: QWidget | None = None) -> bool:
         """Write a snapshot by the ending of its name, its state beside it."""

@@ -3,6 +3,7 @@
 import pytest
 
 from p2sf.errors import GeometryError
+from p2sf.lens.lens import with_absorption
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import as_in_columns, lens_at
@@ -24,6 +25,14 @@ def typed(state: State, number: int, column: str, text: str) -> State:
 
 def columns(state: State):
     return prescription(state).positions.lenses
+
+
+def test_absorption_is_of_the_lens_and_not_of_a_column():
+    """Between columns too, and once more it is as in the file."""
+    lens = prescription(at(40.0))
+    state = edited_state(at(40.0), with_absorption(lens))
+    assert prescription(state).absorption and prescription(changed(state, zoom=35.0)).absorption
+    assert not prescription(edited_state(state, with_absorption(prescription(state), False))).absorption
 
 
 def test_a_space_that_varies_is_edited_in_its_column():

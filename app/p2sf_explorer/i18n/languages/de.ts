@@ -56,6 +56,8 @@
 <message><source>A − B, share of the higher peak</source><translation>A − B, Anteil der höheren Spitze</translation></message>
 <message><source>A4 A6 … (mm⁻³ mm⁻⁵ …)</source><translation>A4 A6 … (mm⁻³ mm⁻⁵ …)</translation></message>
 <message><source>Aberrations</source><translation>Aberrationen</translation></message>
+<message><source>Absorption</source><translation>Absorption</translation></message>
+<message><source>Absorption of the glasses: on or off</source><translation>Absorption der Gläser: an oder aus</translation></message>
 <message><source>Accept substitutes</source><translation>Ersatz annehmen</translation></message>
 <message><source>Accuracy</source><translation>Genauigkeit</translation></message>
 <message><source>Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens).</source><translation>Genauigkeit: R² = 1 − Σ(Referenz − PSF)²/Σ(Referenz − Mittel)² gegen eine auskonvergierte Summe verfolgter Strahlen (Huygens).</translation></message>
@@ -283,6 +285,8 @@
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand. Die Strehl-Zahl ist |Mittel von exp(2πiW)|² der Phase W im Fokus, ohne Konstante und Verkippung.</translation></message>
+<message><source>internal transmittance</source><translation>Reintransmissionsgrad</translation></message>
+<message><source>internal transmittance {share:g} of {thickness:g} mm at {wavelength:g} µm; give a share from 0 to 1, a positive thickness and a positive wavelength</source><translation>Reintransmissionsgrad {share:g} von {thickness:g} mm bei {wavelength:g} µm; einen Anteil von 0 bis 1, eine positive Dicke und eine positive Wellenlänge angeben</translation></message>
 <message><source>its transmission</source><translation>ihre Durchlässigkeit</translation></message>
 <message><source>passes a share of light that changes with the height</source><translation>lässt je nach Höhe verschieden viel Licht durch</translation></message>
 <message><source>rays are lost</source><translation>Strahlen gehen verloren</translation></message>
@@ -848,6 +852,7 @@
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What is adjusted in every lens at assembly so that the mean square of the wavefronts of all fields is smallest.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What whole numbers of the picture mean; automatic takes 8 bits for sRGB</source><translation>Was ganze Zahlen des Bildes bedeuten; automatisch gelten 8 Bit als sRGB</translation></message>
+<message><source>absorption is on, but no internal transmittance is known of {glasses}, which absorb nothing here; import the lens with their catalogues in the AGF format</source><translation>die Absorption ist an, aber von {glasses} ist kein Reintransmissionsgrad bekannt, sie absorbieren hier nichts; das Objektiv mit ihren Katalogen im AGF-Format einlesen</translation></message>
 <message><source>automatic</source><translation>automatisch</translation></message>
 <message><source>measuring, {percent} %, {left} s left</source><translation>misst, {percent} %, noch {left} s</translation></message>
 <message><source>no numbers: what the model leaves is {chi2:.3g} times the variance of the noise, and {most:g} is the most. Try more numbers; check f-number, wavelength, pixel and stated noise, state the gain of bright points, and see that the picture is linear and sharp, and the points much smaller than a pixel</source><translation>keine Zahlen: das Modell lässt das {chi2:.3g}-Fache der Varianz des Rauschens übrig, höchstens das {most:g}-Fache darf es sein. Versuchen Sie mehr Zahlen; prüfen Sie Blendenzahl, Wellenlänge, Pixel und das angegebene Rauschen, geben Sie bei hellen Punkten die Verstärkung an, und sehen Sie nach, ob das Bild linear und unverwackelt ist und die Punkte viel kleiner als ein Pixel sind</translation></message>
@@ -877,10 +882,11 @@
 <message><source>surface {surface} has even terms beside its shape ({kind}), or that of a higher degree than a CODE V file holds; save as TOML</source><translation>Fläche {surface} ({kind}) hat gerade Glieder daneben oder einen höheren Grad, als eine CODE-V-Datei fasst; als TOML speichern</translation></message>
 <message><source>surface {surface} has even terms or diffraction beside its shape ({kind}), for which Zemax has no line; save as TOML</source><translation>Fläche {surface} ({kind}) hat gerade Glieder oder Beugung daneben, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} is tilted, decentred or not of revolution, and {what} supports only rotational symmetry; {remedy}</source><translation>Fläche {surface} ist gekippt, dezentriert oder keine Rotationsfläche, und {what} kennt nur Rotationssymmetrie; {remedy}</translation></message>
-<message><source>surface {surface} passes a share of light that changes with the height, which the paraxial pupil takes for even; aim at the stop</source><translation>Fläche {surface} lässt je nach Höhe verschieden viel Licht durch, was die paraxiale Pupille für gleichmäßig nimmt; auf die Blende zielen</translation></message>
+<message><source>surface {surface} {reason}</source><translation>Fläche {surface} {reason}</translation></message>
 <message><source>surface {surface} {reason}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} {reason}, wofür es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface}: a file that ends in {ending} cannot express {what}; save as TOML</source><translation>Fläche {surface}: {what} lässt sich in einer Datei mit der Endung {ending} nicht ausdrücken; als TOML speichern</translation></message>
 <message><source>surface {surface}: transmission {vertex:g} with {slope:g} per mm²; give a share from 0 to 1 and a finite number</source><translation>Fläche {surface}: Durchlässigkeit {vertex:g} mit {slope:g} je mm²; einen Anteil von 0 bis 1 und eine endliche Zahl angeben</translation></message>
+<message><source>the medium behind surface {surface} absorbs light along paths of different lengths</source><translation>das Medium hinter Fläche {surface} absorbiert Licht auf verschieden langen Wegen</translation></message>
 <message><source>the surface is not of revolution, which no even terms describe; keep its shape</source><translation>die Fläche ist keine Rotationsfläche, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
 <message><source>the thickness behind it</source><translation>die Dicke dahinter</translation></message>
 <message><source>transmission {vertex:g} + {slope:g} mm⁻²·h²</source><translation>Durchlässigkeit {vertex:g} + {slope:g} mm⁻²·h²</translation></message>
@@ -1968,7 +1974,6 @@
 <message><source>tilt x, surface {where}</source><translation>Verkippung x, Fläche {where}</translation></message>
 <message><source>tilt y of the sensor</source><translation>Kippung y des Sensors</translation></message>
 <message><source>tilt y, surface {where}</source><translation>Verkippung y, Fläche {where}</translation></message>
-<message><source>tilt_first is {found}; write true or false</source><translation>tilt_first ist {found}; true oder false schreiben</translation></message>
 <message><source>tilts and decentres of Misalign ×{factor}, rays and those of the file as they are</source><translation>die von Dejustieren ×{factor}, Strahlen und Datei wie sie sind</translation></message>
 <message><source>tilts and decentres ×{factor}, rays as they are</source><translation>Kippungen usw. ×{factor}, Strahlen wie sie sind</translation></message>
 <message><source>tilts as they are</source><translation>Kippungen wie sie sind</translation></message>
@@ -2132,6 +2137,7 @@
 <message><source>{key} is {given}; give a number, without quotes</source><translation>{key} ist {given}; eine Zahl angeben, ohne Anführungszeichen</translation></message>
 <message><source>{key} is {given}; give numbers in brackets, such as [530, 560]</source><translation>{key} ist {given}; Zahlen in Klammern angeben wie [530, 560]</translation></message>
 <message><source>{key} is {given}; write true or false, without quotes</source><translation>{key} ist {given}; true oder false schreiben, ohne Anführungszeichen</translation></message>
+<message><source>{key} of {name} is {records}; write a list of [wavelength in µm, share, thickness in mm]</source><translation>{key} von {name} ist {records}; eine Liste von [Wellenlänge in µm, Anteil, Dicke in mm] schreiben</translation></message>
 <message><source>{kind} has its columns at {places}; give finite numbers that ascend</source><translation>{kind} hat seine Spalten bei {places}; endliche, aufsteigende Zahlen angeben</translation></message>
 <message><source>{kind} has two columns of one name: {names}; rename one</source><translation>{kind} hat zwei Spalten eines Namens: {names}; eine umbenennen</translation></message>
 <message><source>{kind} has {columns} columns at {places} places; give at least two, and one place for each</source><translation>{kind} hat {columns} Spalten an {places} Orten; mindestens zwei angeben, und für jede einen Ort</translation></message>
@@ -2179,6 +2185,7 @@
 <message><source>{name} is {found}; write a text in quotation marks</source><translation>{name} ist {found}; einen Text in Anführungszeichen schreiben</translation></message>
 <message><source>{name} is {found}; write a whole number</source><translation>{name} ist {found}; eine ganze Zahl schreiben</translation></message>
 <message><source>{name} is {found}; write one value for each of the {count} columns of {kind}</source><translation>{name} ist {found}; für jede der {count} Spalten von {kind} einen Wert schreiben</translation></message>
+<message><source>{name} is {found}; write true or false</source><translation>{name} ist {found}; true oder false schreiben</translation></message>
 <message><source>{name} is {found}; write {{ key = value, … }}</source><translation>{name} ist {found}; {{ key = value, … }} schreiben</translation></message>
 <message><source>{name} is {found}; {remedy}</source><translation>{name} ist {found}; {remedy}</translation></message>
 <message><source>{name} is {value}; give {kind}</source><translation>{name} ist {value}; {kind} angeben</translation></message>
@@ -2333,6 +2340,8 @@
 <message><source>{r} λ with tilt</source><translation>{r} λ mit Verkippung</translation></message>
 <message><source>{sampling}; the aligned lens, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
 <message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
+<message><source>{shading}, for which there are no six coefficients; choose the method fitted, traced or huygens, or leave {parameter} off</source><translation>{shading}, wofür es keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen oder {parameter} aus lassen</translation></message>
+<message><source>{shading}, which the paraxial pupil takes for even; aim at the stop</source><translation>{shading}, was die paraxiale Pupille für gleichmäßig nimmt; auf die Blende zielen</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
 <message><source>{share} % ± {error} % keep {limit}</source><translation>{share} % ± {error} % halten {limit}</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
