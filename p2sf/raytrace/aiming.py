@@ -33,6 +33,7 @@ ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that t
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
 FINE = (15, (9, 34)), (21, (12, 46))  # orders and nodes of maps that may stand for aiming
+GUESS = 27, (16, 60)  # of the map from which many rays take one step where none stands for aiming
 NEARLY = 1e-6  # of the pupil's radius: a map that is farther off is not exact at the next order either
 WEIGHT_ERROR = 1e-5  # the most that a launch weight by a map may be off, on the rim
 RIM_RAYS = 9  # by which maps are judged
@@ -41,6 +42,7 @@ SEARCH_RADII, SEARCH_POINTS = 4.0, 33  # of the paraxial pupil, where the chief 
 RIDGE = 1e-12  # added to the normal equations, so that they can be solved however the points lie
 FEW = 24  # rays, below which a map costs more than the steps of Newton's method it saves
 MANY = 512  # rays, from which on a map that need not be confirmed ray by ray costs less than a Newton step
+VERY_MANY = 1024  # rays, more than any map is laid through, that are guessed by that of GUESS
 
 Nodes: TypeAlias = np.ndarray  # (ray,)
 Point: TypeAlias = tuple[np.ndarray, np.ndarray]  # x and y, mm
@@ -445,10 +447,14 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
-    """Return entrance points from which Newton's method starts: by the pupil map, or for few rays by first order."""
+    """Return entrance points from which Newton's method starts: by a pupil map, or for few rays by first order."""
     chief = _chief_aim(lens, source, enter, stop) if lens.misaligned else None
+    known = stop is None and isinstance(source, Source)
+    fine = _guessing_map(lens, source) if known and xi.size >= VERY_MANY else None
+    if fine is not None:
+        x, y, _ = fine.at(xi, eta)
+        return x, y
     if xi.size >= FEW:
-        known = stop is None and isinstance(source, Source)
         found = _cached_rough_map(lens, source) if known else _rough_map(lens, enter, chief)
         if found is not None:
             x, y = StopMap.of(ROUGH_ORDER, *found, symmetric=not lens.misaligned).at(xi, eta)
@@ -554,6 +560,12 @@ def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
         if not off <= NEARLY:
             break
     return None
+
+
+@lru_cache(maxsize=16)
+def _guessing_map(lens: Lens, source: Source) -> StopMap | None:
+    """Return a map through aimed rays, close enough for one step of Newton's method; None where rays are lost."""
+    return _map_through_rays(lens, source, *GUESS)[0]
 
 
 def _map_through_rays(

@@ -200,6 +200,23 @@ def test_a_map_of_higher_order_aims_where_the_first_does_not():
     assert np.asarray(many.launch)[some] == pytest.approx(np.asarray(few.launch), abs=aiming.WEIGHT_ERROR)
 
 
+@pytest.mark.parametrize(("name", "angle"), [("petzval", 7.0), ("fast_gauss_f14", 22.0)])
+def test_many_rays_beyond_any_map_take_one_step(name, angle):
+    """Where no map stands for aiming, the guess of rays within 0.9 of the rim needs no second step, and few agree."""
+    lens, nodes = find_lens(name), disc_nodes(40, 90)
+    source, inside = Source(inf, np.tan(np.deg2rad(angle)), 0.5875618), np.hypot(nodes.xi, nodes.eta) < 0.9
+    xi, eta = nodes.xi[inside], nodes.eta[inside]
+    assert xi.size >= aiming.VERY_MANY and aiming._stop_map(lens, source, aiming.AIM_ERROR) is None
+    enter, some = entrance(lens, source), slice(0, None, 7)
+    many, few = pupil_rays(lens, source, xi, eta), pupil_rays(lens, source, xi[some], eta[some])
+    guess = aiming._guess(lens, source, enter, None, xi, eta)
+    enough = aiming._move_mm(enter, aiming.AIM_ERROR)
+    assert np.hypot(guess[0] - many.x, guess[1] - many.y).max() < enough
+    off = np.hypot(many.x[some] - few.x, many.y[some] - few.y)
+    assert off.max() < 2 * aiming.AIM_ERROR * float(enter.radius[0])
+    assert np.asarray(many.launch)[some] == pytest.approx(np.asarray(few.launch), abs=aiming.WEIGHT_ERROR)
+
+
 def test_a_pupil_of_a_millionth_of_a_millimetre_is_aimed():
     lens = replace(find_lens("double_gauss_28"), aperture=Aperture("stop_semi_diameter", 1e-6), aim="stop")
     rays = pencil(lens, Source(inf, 0.1, 0.55), *disc(20))
