@@ -61,6 +61,7 @@ def huygens_psf(
     cancelled: Callable[[], bool] | None = None,
     clip: bool = False,
     amplitude: Amplitude = "area",
+    quality: str = "settled",
 ) -> Psf:
     """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
 
@@ -69,7 +70,8 @@ def huygens_psf(
     the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
     fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. ``amplitude``
     "area" gives each ray the field of its cell's area in the entrance pupil, as other programs do; "radiometric" the
-    root of that times the cell's area over direction cosines, which conserves the energy of each cell. Threads
+    root of that times the cell's area over direction cosines, which conserves the energy of each cell. ``quality``: of
+    the search for the peak (`peak_of`). Threads
     (`p2sf.threads`) share the rays, and the sum does not depend on their number. Raises
     GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
     radiometric amplitude is refused.
@@ -93,7 +95,6 @@ def huygens_psf(
     blur = None
     if tolerance is not None and resolved(found.waves.spread, pixel_um):
         blur = blur_um2(lens, source, clip, pupil)
-    quality = "preview" if tolerance is None else "settled"
 
     def reaching(reach_um: float) -> Waves | None:
         return waves_reaching(lens, source, reach_um, clip, pupil)

@@ -270,7 +270,7 @@ def _by_tracing(lens: Lens, source: Source, method: str, window: tuple[int, floa
         return traced_psf(lens, source, *window, quality, clip)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
     if method == "huygens":
-        return huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip)
+        return huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip, quality=quality)
     if method == "gaussian":
         return gaussian_psf(huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip))
     raise RequestError(

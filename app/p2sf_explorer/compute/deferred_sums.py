@@ -94,7 +94,7 @@ def by_rays(request: SumRequest, quality: str = "settled", cancelled: Callable[[
     if request.six is not None:
         return by_coefficients(request, request.six, quality)
     if request.method == "huygens":
-        return huygens_psf(lens, source, *window, None, cancelled=cancelled, clip=request.clip)
+        return huygens_psf(lens, source, *window, None, cancelled=cancelled, clip=request.clip, quality=quality)
     if request.method == "traced":
         return traced_psf(lens, source, *window, quality, cancelled=cancelled, clip=request.clip)
     from p2sf.psf.methods import render
