@@ -21,13 +21,13 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import FEWEST_ACROSS, ClearNodes, Piece, circle_exit, ring_count, shaded_nodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
+from p2sf.raytrace.clear_radius import Standing, clear_radius
 from p2sf.raytrace.pencil import hexapolar
-from p2sf.raytrace.surface import Status, ended_at, in_hole
+from p2sf.raytrace.surface import Status, circle_room, ended_at
 from p2sf.raytrace.trace import lens_rims, run
 
 SEARCH_RINGS = 24
 SCAN = 384  # directions around the whole circle in which corners are looked for
-BISECTIONS = 36  # the pupil radius to 2e-11
 SECTIONS = 16  # of the interval of a corner in one step: so few rays cost no more than one
 CORNER_STEPS = 4  # its direction to 3e-7: the radius is continuous there, and the sum good to the square
 FEWEST_PER_ARC = 8
@@ -58,10 +58,10 @@ class Region:
         """Return whether the half ξ < 0 is the mirror image of the other."""
         return self.mask.even and not self.lens.misaligned
 
-    def holds(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return which points of the iris lie in the region, and what ends it at the others."""
+    def holds(self, xi: np.ndarray, eta: np.ndarray) -> Standing:
+        """Return which points of the iris lie in the region, how far as `clear_radius` has it, and what ends others."""
         rays = pupil_rays(self.lens, self.source, xi, eta)
-        beam, shaded = start(rays), {}
+        beam, shaded = start(rays), dict[int, np.ndarray]()
         beam.exempt = 0
         rims = lens_rims(self.lens, keep_stop=False) if self.clip else None
         solid = replace(self.lens, surfaces=tuple(replace(s, inner_radius=0.0) for s in self.lens.surfaces))
@@ -69,15 +69,15 @@ class Region:
         def visit(number: int) -> None:
             if number in self.within:
                 surface = self.lens.surfaces[number - 1]
-                shaded[number] = in_hole(beam, surface.inner_radius, surface.rim)
+                shaded[number] = circle_room(beam, surface.inner_radius, surface.rim)
 
         run(solid, beam, rays.index, rims, visit=visit)
         passed, label = beam.status == Status.PASSED, ended_at(beam.status, beam.failed_surface)
-        for number in self.within:
-            if number != OBSCURATION:
-                label = np.where(passed & ~shaded[number], LEFT_HOLE + number, label)
-                passed = passed & shaded[number]
-        return passed, label
+        room = np.asarray(beam.clearance)
+        for number, inside in shaded.items():
+            label = np.where(passed & ~(inside > 0), LEFT_HOLE + number, label)
+            passed, room = passed & (inside > 0), np.fmin(room, inside)
+        return passed, np.where(passed == (room >= 0), room, np.nan), label
 
     def limit(
         self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray
@@ -100,14 +100,12 @@ class Region:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return how far inner points lie from the region's edge along directions, and what ends it there."""
         outer, label = self.limit(xi, eta, sine, cosine)
-        whole, ended = self.holds(xi + outer * sine, eta + outer * cosine)
-        low, high = np.zeros_like(outer), outer.copy()
-        for _ in range(0 if whole.all() else BISECTIONS):
-            middle = (low + high) / 2
-            held, why = self.holds(xi + middle * sine, eta + middle * cosine)
-            low, high = np.where(held, middle, low), np.where(held, high, middle)
-            ended = np.where(held, ended, why)
-        return np.where(whole, outer, low), np.where(whole, label, ended)
+
+        def standing(radius: np.ndarray, some: np.ndarray) -> Standing:
+            return self.holds(xi[some] + radius * sine[some], eta[some] + radius * cosine[some])
+
+        radius, ended = clear_radius(standing, outer)
+        return radius, np.where(radius == outer, label, ended)
 
 
 @dataclass(frozen=True)
@@ -223,7 +221,7 @@ def _centre(region: Region) -> tuple[float, float] | None:
 
 def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     """Return which points of the disc lie in the region, the iris and the obscuration included."""
-    held, _ = region.holds(xi, eta)
+    held = region.holds(xi, eta)[0]
     for edge in region.mask.edges:
         held = held & edge.lies_inside(xi, eta)
     if OBSCURATION in region.within:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
 
 import numpy as np
@@ -58,6 +58,7 @@ class Rays:
     ``path``: optical path to the sensor less the chief ray's, mm. ``status``, ``failed_surface``: as in `Trace`.
     Of the chief ray: ``chief_x``, ``chief_y`` mm on the sensor, ``chief_kx``, ``chief_ky``, ``chief_kz``. ``index``: of
     image space. Of a misaligned lens all are in the sensor's own axes, turned with the source's azimuth.
+    ``clearance``: the least room they have had inside the rims that clip, a share of those, as in `Beam`.
     ``crossings``: where the rays meet surfaces, if asked for (`reaching_by_surfaces`).
     """
 
@@ -83,6 +84,7 @@ class Rays:
     transmission: FloatOrArray = 1.0
     mask: FloatOrArray = 1.0
     mask_path_um: FloatOrArray = 0.0
+    clearance: FloatOrArray = inf
     crossings: Crossings | None = None
 
     @cached_property
@@ -187,7 +189,7 @@ class Rays:
 
 
 PER_RAY = (
-    *("xi", "eta", "share", "launch", "transmission", "mask", "mask_path_um"),
+    *("xi", "eta", "share", "launch", "transmission", "mask", "mask_path_um", "clearance"),
     *("dx", "dy", "kx", "ky", "kz", "path", "status", "failed_surface"),
 )
 
@@ -323,6 +325,7 @@ def _relative_to_chief(
         chief_x=chief_x,
         chief_kx=chief_kx,
         transmission=_but_last(beam.transmission),
+        clearance=_but_last(beam.clearance),
     )
 
 

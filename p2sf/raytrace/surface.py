@@ -8,6 +8,7 @@ place, which is what makes thousands of rays fast; none leaves this folder.
 """
 
 from enum import IntEnum
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -53,7 +54,8 @@ class Beam:
 
     ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that an operation on all
     components is one call. The last ``exempt`` rays pass every rim. ``wavelength_um`` broadcasts against (…, ray).
-    ``transmission``: the share of energy that surfaces have passed.
+    ``transmission``: the share of energy that surfaces have passed. ``clearance``: the least room that rays have had
+    inside rims, as `rooms` has it, below 0 where one stopped them.
     ``source``: the point (X, Y, Z, W) at (X, Y, Z)/W in the axes of the lens, mm, where all rays come from, if known.
     """
 
@@ -66,6 +68,7 @@ class Beam:
         self.status = np.zeros(place.shape[1:], np.int8)
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
         self.exempt = 0
+        self.clearance: FloatOrArray = inf
         self.source: tuple[FloatOrArray, FloatOrArray, FloatOrArray, FloatOrArray] | None = None
         self.wavelength_um = wavelength_um
 
@@ -288,27 +291,34 @@ def _root(
 
 def clip(beam: Beam, radius: float, rim: Rim | None, number: int) -> None:
     """Stop every ray that lands outside the rim of a surface: a circle of ``radius`` mm, or the rectangle it is."""
-    x, y = rim.about_centre(beam.x, beam.y) if rim else (beam.x, beam.y)
-    if rim and rim.half_widths:
-        _stop(beam, np.abs(x) > rim.half_widths[0], Status.CLIPPED_BESIDE, number)
-        _stop(beam, np.abs(y) > rim.half_widths[1], Status.CLIPPED, number)
-    else:
-        _stop(beam, x * x + y * y > radius * radius, Status.CLIPPED, number)
+    for why, room in rooms(beam, radius, rim):
+        _keep_inside(beam, room, why, number)
 
 
 def clip_inside(beam: Beam, radius: float, rim: Rim | None, number: int) -> None:
     """Stop every ray that lands in a hole or a shadow."""
-    _stop(beam, in_hole(beam, radius, rim), Status.CLIPPED, number)
+    _keep_inside(beam, -circle_room(beam, radius, rim), Status.CLIPPED, number)
 
 
-def in_hole(beam: Beam, radius: float, rim: Rim | None) -> np.ndarray:
-    """Return which rays land within ``radius`` mm of the centre of a surface's rim."""
+def rooms(beam: Beam, radius: float, rim: Rim | None) -> tuple[tuple[Status, np.ndarray], ...]:
+    """Return how far inside a rim rays land, as a share of its radius squared or half-widths, and what stops others."""
+    if not (rim and rim.half_widths):
+        return ((Status.CLIPPED, circle_room(beam, radius, rim)),)
+    (x, y), (wide, high) = rim.about_centre(beam.x, beam.y), rim.half_widths
+    return (Status.CLIPPED_BESIDE, (wide - np.abs(x)) / wide), (Status.CLIPPED, (high - np.abs(y)) / high)
+
+
+def circle_room(beam: Beam, radius: float, rim: Rim | None) -> np.ndarray:
+    """Return how far inside a circle of ``radius`` mm about the centre of a rim rays land, a share of its square."""
     x, y = rim.about_centre(beam.x, beam.y) if rim else (beam.x, beam.y)
-    within: np.ndarray = x * x + y * y < radius * radius
-    return within
+    room: np.ndarray = 1 - (x * x + y * y) / (radius * radius)
+    return room
 
 
-def _stop(beam: Beam, lost: np.ndarray, why: Status, number: int) -> None:
+def _keep_inside(beam: Beam, room: np.ndarray, why: Status, number: int) -> None:
+    """Stop every ray that has no room at a rim, and note the least that the others have."""
+    beam.clearance = np.fmin(beam.clearance, room)
+    lost = room < 0
     lost[..., lost.shape[-1] - beam.exempt :] = False
     if lost.any():
         beam.fail(lost, why, number)

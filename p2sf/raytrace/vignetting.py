@@ -20,6 +20,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, changes_of, check_without_holes, holes_of, piece_nodes
+from p2sf.raytrace.clear_radius import Standing, clear_radius
 from p2sf.raytrace.fit import FittedPencil, Gradient, Level, determinant, fit, map_slopes
 from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
 from p2sf.raytrace.seen_mask import mask_seen
@@ -27,7 +28,6 @@ from p2sf.raytrace.surface import ended_at
 
 SEARCH_RINGS = 12
 SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
-BISECTIONS = 36  # the pupil radius to 2e-11
 CORNER_STEPS = 7  # a corner's direction to 6e-11
 FEWEST_PER_ARC = 6
 BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
@@ -159,15 +159,13 @@ def _edge(
     sine, cosine, (aside, up) = np.sin(theta), np.cos(theta), centre
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (up * sine - aside * cosine) ** 2) - (up * cosine + aside * sine)
-    rays = pencil(lens, source, aside + outer * sine, up + outer * cosine, clip)
-    whole, rim = rays.passed, ended_at(rays.status, rays.failed_surface)
-    low, high = np.zeros_like(outer), outer.copy()
-    for _ in range(0 if whole.all() else BISECTIONS):
-        middle = (low + high) / 2
-        rays = pencil(lens, source, aside + middle * sine, up + middle * cosine, clip)
-        low, high = np.where(rays.passed, middle, low), np.where(rays.passed, high, middle)
-        rim = np.where(rays.passed, rim, ended_at(rays.status, rays.failed_surface))
-    return np.where(whole, outer, low), np.where(whole, 0, rim)
+
+    def standing(radius: np.ndarray, some: np.ndarray) -> Standing:
+        rays = pencil(lens, source, aside + radius * sine[some], up + radius * cosine[some], clip)
+        known = rays.passed == (rays.clearance >= 0)
+        return rays.passed, np.where(known, rays.clearance, np.nan), ended_at(rays.status, rays.failed_surface)
+
+    return clear_radius(standing, outer)
 
 
 def pencil_blur(

@@ -1,0 +1,61 @@
+"""How far along directions rays pass, by few of them: how clear of a rim they pass it is smooth, and so has a root."""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+
+BISECTIONS = 36  # the outer radius to 2e-11
+PATIENCE = 18  # steps after which what is left is halved, as rounding may make steps by interpolation short
+
+Standing: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+def clear_radius(
+    standing: Callable[[np.ndarray, np.ndarray], Standing], outer: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return up to which radius along each direction rays pass, at most ``outer``, and what ends them there, 0 if none.
+
+    ``standing(radius, some)`` returns of rays at radii along ``some`` directions, by indices, whether they pass, by how
+    much, which is 0 at the edge and continuous about it, NaN where that is unknown, and what ends those that do not.
+    Rays at 0 pass. Each radius is one at which a ray passed, 2e-11 of the outer one from one at which it did not.
+    """
+    passed, room, label = standing(outer, np.arange(outer.size))
+    radius, ended = outer.copy(), np.where(passed, 0, label)
+    some = np.flatnonzero(~passed)
+    if not some.size:
+        return radius, ended
+    enough = outer[some] * 2.0**-BISECTIONS
+    # The latest point, the other end of its bracket, and the point before these.
+    new = outer[some], room[some], passed[some]
+    other = np.zeros(some.size), standing(np.zeros(some.size), some)[1], ~new[2]
+    part, steps = np.full(some.size, 0.5), 0
+    while some.size:
+        at = new[0] + part * (other[0] - new[0])
+        passed, room, label = standing(at, some)
+        ended[some] = np.where(passed, ended[some], label)
+        same = passed == new[2]
+        before = tuple(np.where(same, a, b) for a, b in zip(new, other, strict=True))
+        other = tuple(np.where(same, b, a) for a, b in zip(new, other, strict=True))
+        new = at, room, passed
+        radius[some] = np.where(passed, at, other[0])
+        left, steps = np.abs(other[0] - at) > enough, steps + 1
+        some, enough = some[left], enough[left]
+        new, other, before = (tuple(column[left] for column in point) for point in (new, other, before))
+        part = _part(new, other, before, enough) if steps < PATIENCE else np.full(some.size, 0.5)
+    return radius, ended
+
+
+def _part(new: Standing, other: Standing, before: Standing, enough: np.ndarray) -> np.ndarray:
+    """Return which part of the bracket to step over, by inverse quadratic interpolation where that is safe, else half.
+
+    Source: Chandrupatla 1997, Advances in Engineering Software 28, 145.
+    """
+    (x1, f1, _), (x2, f2, _), (x3, f3, _) = new, other, before
+    with np.errstate(invalid="ignore", divide="ignore"):
+        place, height = (x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2)
+        safe = (height**2 < place) & ((1 - height) ** 2 < 1 - place)
+        part = f1 / (f1 - f2) * f3 / (f3 - f2) - (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f2 - f3)
+        least = enough / 2 / np.abs(x2 - x1)
+    bounded: np.ndarray = np.clip(np.where(safe, part, 0.5), least, 1 - least)
+    return bounded

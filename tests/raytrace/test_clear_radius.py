@@ -1,0 +1,86 @@
+"""Where rays end along directions: against roots by formula, with kinks, steps and stretches of unknown room."""
+
+from math import inf
+
+import numpy as np
+import pytest
+
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.raytrace.clear_radius import BISECTIONS, clear_radius
+from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.surface import Status
+
+CLOSE = 2.0**-BISECTIONS  # of the outer radius: what the function promises
+ROOTS = np.array([0.03, 0.2, 1 / 3, 0.5, 0.77, 1 - 1e-9])
+
+
+def smooth(radius, root):
+    return 1 - (radius / root) ** 2
+
+
+def kinked(radius, root):
+    """Another rim takes over 0.002 beyond the edge."""
+    return np.minimum(root - radius, 2 * (root - radius) + 0.002)
+
+
+def kinked_at_the_edge(radius, root):
+    return np.minimum(root - radius, 6 * (root - radius))
+
+
+def unknown_outside(radius, root):
+    return np.where(radius > root, np.nan, smooth(radius, root))
+
+
+def unknown(radius, root):
+    return np.full(radius.shape, np.nan)
+
+
+@pytest.mark.parametrize(
+    ("room_of", "most"),
+    [
+        (smooth, 14),
+        (kinked, 20),
+        (kinked_at_the_edge, 2 * BISECTIONS),
+        (unknown_outside, BISECTIONS + 2),
+        (unknown, BISECTIONS + 2),
+    ],
+)
+def test_it_ends_where_the_formula_says(room_of, most):
+    """``most``: calls; a root by interpolation takes few, one without any room a bisection."""
+    calls = []
+
+    def standing(radius, some):
+        calls.append(some.size)
+        passed = radius <= ROOTS[some]
+        return passed, room_of(radius, ROOTS[some]), np.where(passed, 0, some + 5)
+
+    radius, ended = clear_radius(standing, np.ones(ROOTS.size))
+    assert (radius <= ROOTS).all() and (ROOTS - radius <= CLOSE).all()
+    assert ended.tolist() == [5, 6, 7, 8, 9, 10] and len(calls) <= most
+
+
+def test_directions_that_nothing_ends_keep_the_outer_radius():
+    outer = np.array([0.4, 0.9, 1.3])
+
+    def standing(radius, some):
+        return radius <= 0.8, 0.8 - radius, np.full(radius.shape, 7)
+
+    radius, ended = clear_radius(standing, outer)
+    assert radius == pytest.approx([0.4, 0.8, 0.8], abs=2 * CLOSE) and radius[0] == 0.4
+    assert ended.tolist() == [0, 7, 7]
+
+
+@pytest.mark.parametrize(("name", "angle"), [("fast_gauss_f14", 22.0), ("wide_angle_35", 31.5)])
+def test_the_clearance_of_rays_is_the_room_at_the_rim_that_stops_them(name, angle):
+    """It is negative just where rims stop rays, and grows with their distance, by hand from where rays land."""
+    eta = np.linspace(-1, 1, 201)
+    lens = find_lens(name)
+    rays = pencil(lens, Source(inf, field_deg=angle), 0 * eta, eta, clip=True)
+    stopped = rays.status == Status.CLIPPED
+    assert 10 < stopped.sum() < 150
+    assert (rays.clearance[stopped] < 0).all() and (rays.clearance[rays.passed] >= 0).all()
+    edges = np.flatnonzero(np.diff(stopped.astype(int)))
+    for edge in edges:  # continuous: no step at the edge but that from one ray to the next
+        steps = np.abs(np.diff(rays.clearance[edge - 2 : edge + 4]))
+        assert steps.max() < 2 * np.median(steps) + 1e-3
