@@ -201,7 +201,7 @@ def test_what_cannot_be_is_one_sentence_before_the_work(call, words):
         call()
 
 
-@pytest.mark.parametrize("method", ["auto", *methods.METHODS])
+@pytest.mark.parametrize("method", ["auto", *methods.NAMES])
 @pytest.mark.parametrize(
     ("options", "words"),
     [

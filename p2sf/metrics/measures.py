@@ -31,7 +31,7 @@ from p2sf.metrics.frequency_pupil import (
 )
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
-from p2sf.psf.methods import choose, seidel_error
+from p2sf.psf.methods import AUTO, choose, seidel_error
 from p2sf.psf.polychromatic import bands_through, chief_places_um
 from p2sf.psf.prediction import SAFETY
 from p2sf.psf.seidel import check_image
@@ -40,7 +40,6 @@ from p2sf.raytrace.fit import fit
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
-METHODS = ("auto", "seidel", "fitted", "traced", "huygens")
 FREQUENCIES = 257
 COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
 SHOWN = 4.0  # RMS radii, and periods of the cut-off, that a line spread is shown over
@@ -184,20 +183,30 @@ def pupil_of(
     ``turn_deg``: by how much its axes are turned from those of the source's image, from +y towards +x.
     Raises GeometryError where rays do not reach the sensor, RequestError for a method that knows no pupil.
     """
-    if method not in METHODS:
+    if method not in (AUTO, *PUPILS):
         raise RequestError(
-            'method "{method}" describes no pupil; choose {methods}', method=method, methods=Alternatives(METHODS)
+            'method "{method}" describes no pupil; choose {methods}',
+            method=method,
+            methods=Alternatives((AUTO, *PUPILS)),
         )
-    if method == "auto":
+    if method == AUTO:
         method = choose(lens, source, clip=clip).method
-    if method == "seidel":
-        check_seidel(lens)
-        six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-        check_image(six)
-        return pupil_of_six(lens, source, six, turn_deg), method
-    if method == "fitted":
-        return with_spot(pupil_of_fit(fit(lens, source), turn_deg), lens, source, turn_deg=turn_deg), method
-    return pupil_of_rays(lens, source, clip, turn_deg), method
+    return PUPILS[method](lens, source, clip, turn_deg), method
+
+
+def _six_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
+    check_seidel(lens)
+    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    check_image(six)
+    return pupil_of_six(lens, source, six, turn_deg)
+
+
+def _fit_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
+    return with_spot(pupil_of_fit(fit(lens, source), turn_deg), lens, source, turn_deg=turn_deg)
+
+
+PUPILS = {"seidel": _six_pupil, "fitted": _fit_pupil, "traced": pupil_of_rays, "huygens": pupil_of_rays}
+"""What describes the pupil of each method that has one."""
 
 
 def pupil_of_six(lens: Lens, source: Source, six: Coefficients, turn_deg: float = 0.0) -> FrequencyPupil:

@@ -3,6 +3,7 @@
 How the error is predicted is described in `prediction`. See handbook 5.6.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
@@ -48,8 +49,8 @@ from p2sf.raytrace.ray_field import steepness
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
+AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
-METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 PITCH_RINGS = 8  # of rays, to see how far light reaches
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 
@@ -76,23 +77,10 @@ class Choice:
     @property
     def reason(self) -> Message:
         """Return why this method was chosen, as a sentence."""
-        errors = {"error": self.predicted_error, "allowed": self.allowed_error}
-        if self.method == "seidel":
-            return Message("six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed", **errors)
-        if self.method == "fitted":
-            return Message(
-                "{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; "
-                "six coefficients: {seidel:.1e}",
-                numbers=self.numbers,
-                rays=self.tried_rays,
-                seidel=self.seidel_error,
-                **errors,
-            )
-        if self.method == "traced":
-            return Message("exact rays, since {because}", because=self._against_a_fit())
-        return Message("the reference itself, since {because}", because=self._against_a_fit())
+        return method_of(self.method).reason(self)
 
-    def _against_a_fit(self) -> Message:
+    @property
+    def against_a_fit(self) -> Message:
         """Return why no fit will do."""
         if self.lost_rays:
             return Message(
@@ -105,6 +93,36 @@ class Choice:
             numbers=self.fitted_numbers,
             error=self.fitted_error,
         )
+
+
+@dataclass(frozen=True)
+class PsfRequest:
+    """What a method is asked for; ``numbers``: of a fit, as many as ``tolerance`` asks for where None."""
+
+    lens: Lens
+    source: Source
+    window: tuple[int, float]
+    quality: str = "settled"
+    tolerance: float = 0.99
+    clip: bool = False
+    numbers: int | None = None
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to describe the pupil of a lens for a source, and to make a PSF from it.
+
+    ``psf``: returns the PSF. ``reason``: why it was chosen, None where it never is. ``previewed``: whether it has a
+    "preview" that costs less. ``whole``: whether it describes the whole pupil, and knows no rims that clip it.
+    ``pupil``: whether figures of the pupil can be had of it.
+    """
+
+    name: str
+    psf: Callable[[PsfRequest], Psf]
+    reason: Callable[[Choice], Message]
+    previewed: bool = False
+    whole: bool = False
+    pupil: bool = True
 
 
 def residual_for(tolerance: float) -> float:
@@ -213,16 +231,16 @@ def render(
     _check_tolerance(tolerance)
     if pixel_um is None:
         pixel_um = whole_pixel_um(lens, source, pixels)
-    window = pixels, pixel_um
-    if method != "auto":
-        return _by_method(lens, source, (method, None), window, quality, tolerance, clip)
+    asked = PsfRequest(lens, source, (pixels, pixel_um), quality, tolerance, clip)
+    if method != AUTO:
+        return _psf_by(method_of(method), asked)
     choice = choose(lens, source, tolerance, clip)
     try:
-        return _by_method(lens, source, (choice.method, choice.numbers), window, quality, tolerance, clip)
+        return _psf_by(method_of(choice.method), replace(asked, numbers=choice.numbers))
     except SamplingError:  # more nodes than it can sum
-        if choice.method == "huygens":
+        if choice.method == REFERENCE:
             raise
-        return _by_tracing(lens, source, "huygens", window, quality, clip)
+        return _by_huygens(asked)
 
 
 def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
@@ -236,46 +254,47 @@ def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
     return 2 * (reach + WINDOW_AIRY_RADII * float(AIRY_RADIUS * c.wavelength_um / c.na)) / max(1, pixels)
 
 
-def _by_method(
-    lens: Lens,
-    source: Source,
-    choice: tuple[str, int | None],
-    window: tuple[int, float],
-    quality: str,
-    tolerance: float,
-    clip: bool,
-) -> Psf:
-    """Return the PSF of one method; a fit has so many numbers, or as many as ``tolerance`` asks for where None."""
-    method, numbers = choice
-    if clip and method in ("seidel", "fitted"):
-        _check_unclipped(lens, source, method)
-    if method == "seidel":
-        check_seidel(lens)
-        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-        psf = seidel_psf(c, *window, quality, mask=mask_seen(lens, source))
-        psf = replace(psf, predicted_error=seidel_error(lens, source, c))
-        straight = Message(
-            "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
+def method_of(name: str) -> Method:
+    """Return the method of this name. Raises RequestError."""
+    found = next((method for method in METHODS if method.name == name), None)
+    if found is None:
+        raise RequestError(
+            'method "{method}" is unknown; choose {methods}', method=name, methods=Alternatives((AUTO, *NAMES))
         )
-        return replace(psf, sampling=straight) if lens.misaligned else psf
-    if method == "fitted":
-        started = perf_counter()
-        found = fit(lens, source, numbers, residual_waves=residual_for(tolerance))
-        return psf_of_fit(found, source.wavelength_um, window, quality, started)
-    return _by_tracing(lens, source, method, window, quality, clip)
+    return found
 
 
-def _by_tracing(lens: Lens, source: Source, method: str, window: tuple[int, float], quality: str, clip: bool) -> Psf:
-    if method == "traced":
-        return traced_psf(lens, source, *window, quality, clip)
-    tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    if method == "huygens":
-        return huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip, quality=quality)
-    if method == "gaussian":
-        return gaussian_psf(huygens_psf(lens, source, *window, tolerance=tolerance, clip=clip))
-    raise RequestError(
-        'method "{method}" is unknown; choose {methods}', method=method, methods=Alternatives(("auto", *METHODS))
+def _psf_by(method: Method, asked: PsfRequest) -> Psf:
+    if asked.clip and method.whole:
+        _check_unclipped(asked.lens, asked.source, method.name)
+    return method.psf(asked)
+
+
+def _by_six(asked: PsfRequest) -> Psf:
+    lens, source = asked.lens, asked.source
+    check_seidel(lens)
+    c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    psf = seidel_psf(c, *asked.window, asked.quality, mask=mask_seen(lens, source))
+    psf = replace(psf, predicted_error=seidel_error(lens, source, c))
+    straight = Message(
+        "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
     )
+    return replace(psf, sampling=straight) if lens.misaligned else psf
+
+
+def _by_fit(asked: PsfRequest) -> Psf:
+    started = perf_counter()
+    found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.tolerance))
+    return psf_of_fit(found, asked.source.wavelength_um, asked.window, asked.quality, started)
+
+
+def _by_traced_rays(asked: PsfRequest) -> Psf:
+    return traced_psf(asked.lens, asked.source, *asked.window, asked.quality, asked.clip)
+
+
+def _by_huygens(asked: PsfRequest) -> Psf:
+    tolerance = SETTLED_TOLERANCE if asked.quality == "settled" else None
+    return huygens_psf(asked.lens, asked.source, *asked.window, tolerance, clip=asked.clip, quality=asked.quality)
 
 
 def _check_unclipped(lens: Lens, source: Source, method: str) -> None:
@@ -290,3 +309,43 @@ def _check_unclipped(lens: Lens, source: Source, method: str) -> None:
             rays=xi.size,
             method=method,
         )
+
+
+def _six_suffice(choice: Choice) -> Message:
+    return Message(
+        "six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed",
+        error=choice.predicted_error,
+        allowed=choice.allowed_error,
+    )
+
+
+def _a_fit_suffices(choice: Choice) -> Message:
+    return Message(
+        "{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; "
+        "six coefficients: {seidel:.1e}",
+        numbers=choice.numbers,
+        rays=choice.tried_rays,
+        seidel=choice.seidel_error,
+        error=choice.predicted_error,
+        allowed=choice.allowed_error,
+    )
+
+
+def _rays_suffice(choice: Choice) -> Message:
+    return Message("exact rays, since {because}", because=choice.against_a_fit)
+
+
+def _nothing_else_suffices(choice: Choice) -> Message:
+    return Message("the reference itself, since {because}", because=choice.against_a_fit)
+
+
+METHODS = (
+    Method("gaussian", lambda asked: gaussian_psf(_by_huygens(asked)), _nothing_else_suffices, pupil=False),
+    Method("seidel", _by_six, _six_suffice, previewed=True, whole=True),
+    Method("fitted", _by_fit, _a_fit_suffices, previewed=True, whole=True),
+    Method("traced", _by_traced_rays, _rays_suffice, previewed=True),
+    Method("huygens", _by_huygens, _nothing_else_suffices),
+)
+"""From the cheapest description to the reference."""
+NAMES = tuple(method.name for method in METHODS)
+REFERENCE = NAMES[-1]

@@ -15,7 +15,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.methods import render, whole_pixel_um
+from p2sf.psf.methods import AUTO, REFERENCE, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import binned
@@ -127,9 +127,9 @@ def render_integrated(
     Of a window too wide for a sum of waves the share of the light in it is that of rays.
     """
     check_samples(pixels, pixel_um)
-    if method == "gaussian":  # fitted to what pixels see
+    if method != AUTO and not method_of(method).pupil:  # fitted to what pixels see
         return gaussian_psf(
-            render_integrated(lens, source, "huygens", pixels, pixel_um, tolerance, quality, clip, wanted)
+            render_integrated(lens, source, REFERENCE, pixels, pixel_um, tolerance, quality, clip, wanted)
         )
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     psf = integrated(

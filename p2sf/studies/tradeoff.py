@@ -18,7 +18,7 @@ from p2sf.metrics.compare import Errors, compare
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import METHODS, render
+from p2sf.psf.methods import NAMES, REFERENCE, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
 from p2sf.threads import one_blas_thread, using_threads
@@ -53,7 +53,7 @@ def tradeoff(
     fields_deg: Iterable[float] | None = None,
     depths_mm: Iterable[float] = (inf,),
     wavelengths_nm: Iterable[float] | None = None,
-    methods: Sequence[str] = METHODS,
+    methods: Sequence[str] = NAMES,
     pixels: int = PIXELS,
     pixel_um: float | None = None,
 ) -> list[MethodCost]:
@@ -74,7 +74,7 @@ def tradeoff(
         place = float(depth), float(field), float(wave)
         if not rows:
             # Untimed, since a first call loads libraries and tables; the reference has just had its own.
-            for way in _ways(set(methods) - {"huygens"}):
+            for way in _ways(set(methods) - {REFERENCE}):
                 _made(lens, source, window, reference, *way)
         rows += [_row(lens, source, window, place, reference, *way) for way in _ways(methods)]
     return rows
@@ -88,7 +88,7 @@ def _pitch(lens: Lens, source: Source, pixels: int) -> float:
 def _ways(methods: Iterable[str]) -> Iterator[tuple[str, str]]:
     """Yield (method, quality): every method settled, and as preview too those that have one."""
     for method in methods:
-        if method in ("seidel", "fitted", "traced"):
+        if method_of(method).previewed:
             yield method, "preview"
         yield method, "settled"
 
@@ -126,7 +126,7 @@ def _row(
 
 
 def _made(lens: Lens, source: Source, window: tuple[int, float], reference: Psf, method: str, quality: str) -> Psf:
-    if method == "gaussian":
+    if not method_of(method).pupil:
         return gaussian_psf(reference)
     return render(lens, source, method, *window, quality=quality)
 
@@ -199,11 +199,11 @@ def draw(handle: BinaryIO, rows: list[MethodCost], title: str = "") -> None:
 
     figure = Figure(figsize=(6.4, 4.4), dpi=150, layout="constrained")
     axes = figure.add_subplot(xscale="log", yscale="log", xlabel="CPU time of one PSF, ms", ylabel="relative L2 error")
-    for method, marker in zip(METHODS, "vosD^", strict=True):
+    for method, marker in zip(NAMES, "vosD^", strict=True):
         for quality, filled in (("preview", "none"), ("settled", "full")):
             some = [row for row in rows if (row.method, row.quality) == (method, quality)]
             if some:
-                [line] = axes.plot(*_points(some), marker, color=f"C{METHODS.index(method)}", linestyle="none")
+                [line] = axes.plot(*_points(some), marker, color=f"C{NAMES.index(method)}", linestyle="none")
                 line.set(fillstyle=filled, label=f"{method}, {quality}")
     axes.plot(*_points(front(rows)), "-", color="0.5", linewidth=1, zorder=0, label="Pareto front")
     axes.set_title(title, loc="left", fontsize=9)
@@ -218,5 +218,5 @@ def _points(rows: list[MethodCost]) -> tuple[list[float], list[float]]:
 
 def error(row: MethodCost) -> float:
     """Return the relative L2 error; for the reference itself, the agreement that it reached."""
-    own = row.tolerance if row.method == "huygens" and row.tolerance else 0.0
+    own = row.tolerance if row.method == REFERENCE and row.tolerance else 0.0
     return max(row.errors.relative_l2, own, 1e-12)

@@ -17,7 +17,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import (
-    METHODS,
+    NAMES,
     QUICK_LEVELS,
     Choice,
     choose,
@@ -40,7 +40,7 @@ def off_axis():
     return *case("double_gauss_28", row), row["pixel_um"], stored
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", NAMES)
 def test_every_method_returns_the_same_kind_of_psf(method):
     lens, source, pixel, _ = off_axis()
     psf = render(lens, source, method, 32, pixel)
@@ -65,7 +65,7 @@ def test_six_coefficients_miss_by_their_phase_and_by_where_diffraction_takes_the
 
 def test_methods_rank_by_accuracy():
     lens, source, pixel, stored = off_axis()
-    score = {m: r_squared(render(lens, source, m, 32, pixel).values, stored) for m in METHODS}
+    score = {m: r_squared(render(lens, source, m, 32, pixel).values, stored) for m in NAMES}
     assert score["seidel"] == pytest.approx(-0.599, abs=0.002)
     assert score["seidel"] < score["gaussian"] < 0.998 < score["fitted"] < score["traced"] <= score["huygens"]
 
@@ -143,7 +143,7 @@ def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
     assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", NAMES)
 def test_every_method_predicts_at_least_the_error_it_makes(method):
     lens, source, pixel, _ = off_axis()
     made, reference = render(lens, source, method, 64, pixel), huygens_psf(lens, source, 64, pixel)
@@ -198,7 +198,7 @@ def test_unknown_methods_and_qualities_and_bad_tolerances_are_refused():
 def test_the_trade_is_one_table_one_picture_and_one_json():
     lens = replace(double_gauss(), fields_deg=(0.0, 14.0))
     rows = tradeoff(lens, pixels=16)
-    assert {row.method for row in rows} == set(METHODS) and {row.field_deg for row in rows} == {0.0, 14.0}
+    assert {row.method for row in rows} == set(NAMES) and {row.field_deg for row in rows} == {0.0, 14.0}
     plain = json.loads(to_json(rows))
     assert len(plain) == len(rows) and plain[0]["depth_mm"] is None
     assert all(row.seconds > 0 and row.bytes > 0 for row in rows)

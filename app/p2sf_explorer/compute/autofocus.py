@@ -10,9 +10,9 @@ from p2sf.raytrace.clear_pieces import CLIPPED, LOST
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.pupil import pupil_samples
-from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
+from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.state.state import State, changed
-from p2sf_explorer.state.what_if import check_focusable, is_altered
+from p2sf_explorer.state.what_if import check_focusable
 
 RAYS = 12, 32  # radii and directions over the disc
 STEPS = 3  # W is nearly linear in the shift
@@ -27,8 +27,8 @@ def best_shift_um(state: State) -> float:
     aside.
     """
     check_focusable(state)
-    by_coefficients = state.optics.method == "seidel" or is_altered(state)
     setup = paraxial_setup(state)
+    by_coefficients = everywhere_by_coefficients(state, setup)
     na = float(setup.coefficients.na)
     if not na:
         raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")

@@ -15,6 +15,7 @@ from p2sf.metrics.transfer import otf_samples
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.sampled import by_coefficients
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
 LIVE_WAVES = 40.0  # per pupil radius, of a blur whose energy is live: some 15 ms
@@ -47,7 +48,7 @@ class MeasureRequest:
 
 def measure_request(live: Live) -> MeasureRequest:
     """Return what is to be measured: the six coefficients where they make the picture, else exact rays."""
-    by_six = live.method == "seidel" or live.setup.altered
+    by_six = by_coefficients(live)
     six = tuple(float(value) for value in vars(live.setup.coefficients).values()) if by_six else ()
     beside_rays = live.psf.method == "geometric" and live.quality == "settled" and live.pending is None
     return MeasureRequest(

@@ -8,6 +8,7 @@ from threading import Event
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import first_counts, huygens_psf
+from p2sf.psf.methods import METHODS, REFERENCE, method_of, render
 from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
@@ -18,7 +19,6 @@ from p2sf_explorer.state.what_if import NO_REFERENCE
 REFERENCE_TOLERANCE = 1e-3  # relative L2: R² is then known to 1e-6 or better
 MOST_NODES = 250_000  # of its first pass: with the next one some ten seconds in the background
 REPEATS = 3  # of each method, for a median time
-METHODS = ("gaussian", "seidel", "fitted", "traced", "huygens")
 
 
 @dataclass(frozen=True)
@@ -95,25 +95,25 @@ def method_results(
     for number, method in enumerate(METHODS):
         if cancelled.is_set():
             return
-        psfs = [psf_by(method, live, reference) for _ in range(REPEATS if method in ("seidel", "fitted") else 1)]
+        psfs = [psf_by(method.name, live, reference) for _ in range(REPEATS if method.whole else 1)]
         psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)
         error = relative_l2(psf.values, reference.values)
-        if method == "huygens":
+        if method.name == REFERENCE:
             error = reference.tolerance or error
-        yield MethodResult(method, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays)
+        yield MethodResult(
+            method.name, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays
+        )
         progress((number + 1) / len(METHODS))
 
 
 def psf_by(method: str, live: Live, reference: Psf) -> Psf:
     """Return this point's PSF by one method, in the reference's window."""
-    if method == "huygens":
+    if method == REFERENCE:
         return reference
-    if method == "gaussian":
+    if not method_of(method).pupil:
         from p2sf.psf.gaussian_fit import gaussian_psf
 
         return gaussian_psf(reference)
-    from p2sf.psf.methods import render
-
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
     setup, state = live.setup, live.state
     return render(

@@ -25,14 +25,6 @@ def by_coefficients(live: Live) -> bool:
     return live.method == "seidel" or live.setup.altered
 
 
-def everywhere_by_coefficients(live: Live) -> bool:
-    """Return whether the six coefficients make every picture: chosen by name, or altered by hand.
-
-    What ``auto`` chooses holds for the present point only, not for other fields and sensor positions.
-    """
-    return live.state.optics.method == "seidel" or live.setup.altered
-
-
 def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     """Return the PSF of a setup over (pixels, µm per pixel): of ``six`` coefficients, else of a fit to exact rays.
 

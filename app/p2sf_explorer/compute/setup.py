@@ -67,6 +67,14 @@ class ParaxialSetup:
         return self.coefficients is not self.own
 
 
+def everywhere_by_coefficients(state: State, setup: ParaxialSetup) -> bool:
+    """Return whether the six coefficients make every picture: chosen by name, or altered by hand.
+
+    What ``auto`` chooses holds for the present point only, not for other fields and sensor positions.
+    """
+    return state.optics.method == "seidel" or setup.altered
+
+
 @dataclass(frozen=True)
 class Ranges:
     """Where each slider of this lens begins and ends, and the fields that its file states.

@@ -20,7 +20,7 @@ from p2sf.raytrace.field_curves import heights
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest, measured_parts
 from p2sf_explorer.compute.sampled import optics
-from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup, prescription
+from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup, prescription
 from p2sf_explorer.matrix.points import spectral_lines, stated_fields, usual_wavelengths
 from p2sf_explorer.results.colour import at_wavelength
 from p2sf_explorer.results.field import widest_slope
@@ -132,7 +132,7 @@ def answer(request: OverlayRequest, stopped: Callable[[], bool], tell: Tell) -> 
 def measure_of(state: State) -> MeasureRequest:
     """Return what describes the pupil of a state: the six coefficients where they make the picture, else exact rays."""
     setup = paraxial_setup(state)
-    by_six = state.optics.method == "seidel" or setup.altered
+    by_six = everywhere_by_coefficients(state, setup)
     six = tuple(float(value) for value in vars(setup.coefficients).values()) if by_six else ()
     return MeasureRequest(setup.lens, setup.source, state.optics.clip and not by_six, six)
 

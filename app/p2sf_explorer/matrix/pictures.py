@@ -42,7 +42,7 @@ from p2sf_explorer.compute.preview import (
     preview_pupil,
 )
 from p2sf_explorer.compute.pupil import pupil_of
-from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
+from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.matrix.points import MatrixRequest, matrix_request
 from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, refused
 from p2sf_explorer.results.mtf import contrast_of
@@ -87,7 +87,7 @@ class Place:
     @property
     def six(self) -> bool:
         """Return whether the six coefficients make every picture here."""
-        return self.state.optics.method == "seidel" or self.setup.altered
+        return everywhere_by_coefficients(self.state, self.setup)
 
     @property
     def method(self) -> str:

@@ -14,8 +14,8 @@ from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.tolerance.nodal import third_order
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
-from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
-from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.compute.sampled import in_window, optics
+from p2sf_explorer.compute.setup import everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.results.field import widest_slope
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, changed
@@ -49,7 +49,10 @@ def field_map(live: Live) -> FieldMap:
     slopes = np.array([0.0, 0.5, 1.0]) * corner
     c = coefficients(s.lens, s.source.depth_mm, slopes, s.source.wavelength_um, s.stop)
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
-    six, state = everywhere_by_coefficients(live), changed(optics(live.state), field_deg=0.0, field_x_deg=0.0)
+    six, state = (
+        everywhere_by_coefficients(live.state, live.setup),
+        changed(optics(live.state), field_deg=0.0, field_x_deg=0.0),
+    )
     skew = s.lens.misaligned and not six
     nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if skew else ()
     return FieldMap(state, corner, (pixels, wide / pixels), six, skew, nodes)

@@ -14,8 +14,8 @@ from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
-from p2sf_explorer.compute.sampled import everywhere_by_coefficients, in_window, optics
-from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
+from p2sf_explorer.compute.sampled import in_window, optics
+from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.what_if import check_focusable
@@ -67,7 +67,9 @@ def strip(live: Live) -> Strip | Message:
     low, high, half = shift_range(setup)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
     pixels = PIXELS[live.quality]
-    return Strip(state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(live))
+    return Strip(
+        state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(state, live.setup)
+    )
 
 
 def shift_range(setup: ParaxialSetup) -> tuple[float, float, float]:
