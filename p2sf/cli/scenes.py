@@ -35,7 +35,6 @@ SCENE_HELP = (
     "[[channel]] name, wavelengths_nm, weights, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
-TOO_FEW = Message("kernels between places miss the tolerance; loosen it or take a smaller sensor")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
 
 
@@ -227,8 +226,6 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray
 def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
     from p2sf.image import Forming, form_image, plan_lattice, preview
 
-    if scene.clip and scene.camera(glass).misaligned:
-        return _by_exact_rays(glass, scene, values, shown)
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
@@ -240,26 +237,6 @@ def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tupl
         return formed, facts
     lattice = plan_lattice(planned, planned.vergences[0])  # of the scene's far end
     return _sharpened(lattice, formed, shown), {**facts, "deblur": shown.deblur}
-
-
-def _by_exact_rays(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
-    """Return the picture through a misaligned lens whose rims clip, for which no plan is made."""
-    from p2sf.image import Forming
-    from p2sf.image.misaligned import form_misaligned
-
-    for name, given in (("preview", shown.preview), ("method", shown.method != "patches")):
-        if given:
-            raise RequestError(
-                "{parameter} of a scene whose rims clip needs a lens of rotational symmetry, and this one has none; "
-                "leave it out",
-                parameter=name,
-            )
-    made = form_misaligned(glass, scene, values, Forming(surround=shown.surround))
-    warn(None if made.error <= made.allowed else TOO_FEW)
-    formed, facts = _noisy(made.values, shown), {"method": "patches", "measured_error": made.error}
-    if not shown.deblur:
-        return formed, facts
-    return _sharpened(made.lattice, formed, shown), {**facts, "deblur": shown.deblur}
 
 
 def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:

@@ -11,16 +11,15 @@ from p2sf.database.departure import scattered
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
-from p2sf.lens.lens import Lens, check_aligned, seen_from, with_mask
+from p2sf.lens.lens import Lens, check_aligned, with_mask
 from p2sf.lens.misalignment import averaged
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike import terms
-from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for, pencil_forms
-from p2sf.raytrace.pencil import Rays, pencil, reaching
+from p2sf.raytrace.pencil import Rays, all_reaching, on_sensor, pencil
 from p2sf.threads import one_blas_thread
 
 START = {3: (4, 4, 4), 4: (4, 5, 5, 4)}  # nodes along s, h² and wavelength, or s, h_y, h_x and wavelength
@@ -131,12 +130,7 @@ def rays_on_sensor(
     The sources share one azimuth. The pupil's axes are those of the sensor as well. Raises GeometryError where a ray
     does not reach the sensor.
     """
-    azimuth = sources[0].azimuth_deg
-    sine, cosine = np.sin(np.deg2rad(azimuth)), np.cos(np.deg2rad(azimuth))
-    several = Sources(*np.array([(s.depth_mm, s.field_slope, s.wavelength_um) for s in sources]).T)
-    xi, eta, _ = level_rays(level)
-    points = xi * cosine - eta * sine, xi * sine + eta * cosine
-    rays = reaching(seen_from(lens, azimuth), several, *points, stop).turned(azimuth)
+    rays = all_reaching(on_sensor(lens, sources, *level_rays(level)[:2], stop=stop))
     return rays, np.concatenate(np.broadcast_arrays(rays.chief_x, rays.chief_y), axis=1)
 
 

@@ -5,28 +5,27 @@ from math import inf
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, depth_of
 from p2sf.errors import GeometryError
 from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import RAYS, Colour, Kernels, Recipe
+from p2sf.pixel_kernels import RAYS, Recipe
+from p2sf.pixel_kernels.channel import Light
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
-from p2sf.raytrace.fit import levels
+from p2sf.raytrace.fit import levels_for
 from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost
+from p2sf.scene.field_area import field_area
 from p2sf.scene.plan import Plan
-from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
-from p2sf.scene.skew import scene_database
 from p2sf.scene.spectrum import reduced
 from p2sf.threads import one_blas_thread
 
 LONGEST = 320  # pixels along the preview's longer side
 BY_RAYS = Recipe(RAYS)
-COARSE_WAVES = 0.01  # of the database of a misaligned lens
 MOST_RESIDUAL = 0.5  # waves RMS: a fit that leaves more says less of the blur than rays do
 # Kernels at how many places, by samples along the side of a wave sum's transform, and by pixels along that of rays'.
 WAVE_COUNTS = ((800, (3, 3)), (1200, (2, 2)))
@@ -59,11 +58,8 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     """
     colours = tuple(reduced(channel, 1) for channel in scene.channels)
     middle = colours[len(colours) // 2].wavelengths_um[0]
-    edge = scene.sensor.corners_mm()[1]
     vergence = float(scene.vergences(2)[0])
-    if camera.misaligned:
-        return _skew_plan(camera, scene, colours, vergence)
-    recipe, counts = Recipe("fitted", levels(camera.aim)[0].numbers), WAVE_COUNTS[0][1]
+    recipe, counts = Recipe("fitted", levels_for(camera)[0].numbers), WAVE_COUNTS[0][1]
     planned = Plan(camera, scene, middle, recipe, colours, counts, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
     side = wave_side(planned)
     for most, fewer in WAVE_COUNTS:
@@ -72,36 +68,19 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     if camera.mask.phased:  # which rays do not see
         return replace(planned, counts=(1, 1))
     by_rays = replace(planned, recipe=BY_RAYS)
-    size = 2 * _middle_kernels(by_rays).half_width(edge) + 1
+    size = 2 * _edge_half(by_rays)[1] + 1
     return replace(by_rays, counts=next((fewer for most, fewer in RAY_COUNTS if size <= most), (1, 1)))
-
-
-def _skew_plan(camera: Lens, scene: Scene, colours: tuple[Colour, ...], vergence: float) -> Plan:
-    """Return the preview's plan of a misaligned lens, by a coarse database of its fields."""
-    few = tuple(
-        Channel(channel.name, tuple(NM_PER_UM * wave for wave in colour.wavelengths_um), colour.weights)
-        for channel, colour in zip(scene.channels, colours, strict=True)
-    )
-    reference = colours[len(colours) // 2].wavelengths_um[0]
-    depth = depth_of(vergence)
-    database = scene_database(
-        camera, replace(scene, channels=few, near_mm=depth, far_mm=depth), reference, COARSE_WAVES
-    )
-    recipe, unknown = Recipe("fitted", database.level.numbers), (UNKNOWN, UNKNOWN)
-    nodes = WAVE_COUNTS[0][1]
-    return Plan(camera, scene, reference, recipe, colours, nodes, (vergence,), (), float("nan"), *unknown, database)
 
 
 def wave_side(planned: Plan) -> float:
     """Return the side in samples of a wave sum's transform in the corner, inf where a preview's fit does not hold."""
-    edge, kernels = planned.scene.sensor.corners_mm()[1], _middle_kernels(planned)
     try:
-        light, _ = kernels.lights(edge)[0]
+        light, half = _edge_half(planned)
     except GeometryError:  # rays are lost, or the pupil is too distorted for polynomials
         return inf
     if isinstance(light, FrequencyPupil) and light.residual_waves > MOST_RESIDUAL:
         return inf
-    return (2 * kernels.half_width(edge) + 1) * samples_across(light, kernels.pixel_um)
+    return (2 * half + 1) * samples_across(light, planned.scene.sensor.pixel_um)
 
 
 def preview_lattice(planned: Plan, watch: Progress | None = None) -> Lattice:
@@ -110,11 +89,11 @@ def preview_lattice(planned: Plan, watch: Progress | None = None) -> Lattice:
     return plan_lattice(planned, planned.vergences[0], watch, max(sensor.rows, sensor.columns))
 
 
-def _middle_kernels(planned: Plan) -> Kernels:
-    """Return the kernels of the middle channel of a lens of rotational symmetry."""
+def _edge_half(planned: Plan) -> tuple[Light, int]:
+    """Return the light of the farthest point in the middle channel, and the half width of its kernel."""
     kernels = planned.kernels(len(planned.colours) // 2, planned.vergences[0])
-    assert isinstance(kernels, Kernels)
-    return kernels
+    x, y = field_area(planned.lens, planned.scene.sensor).far
+    return kernels.lights(x, y)[0][0], int(kernels.points([x], [y]).half_widths()[0])
 
 
 def _coarser(sensor: Sensor, times: int) -> Sensor:

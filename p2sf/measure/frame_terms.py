@@ -212,7 +212,9 @@ class FrameModel:
         clear = clear_part(lens, source, counts) if self.clip else None
         nodes = lens_nodes(found, azimuth, counts, clear)
         # Lateral colour, along the field.
-        shift = UM_PER_MM * self._map().shift_mm(height, colour.wavelength_um) if len(self.optics.light) else 0.0
+        shift = 0.0
+        if len(self.optics.light):
+            shift = UM_PER_MM * self._map().shift_mm(0.0, height, colour.wavelength_um)[1]
         about = dict(zip(self.unknowns, self.about, strict=False))
         values = np.array([about.get(name, 0.0) for name in self.errors])
         points = (source, self.source(height, azimuth)) if self.errors else ()
@@ -276,7 +278,7 @@ class FrameModel:
         """Return W40, W31, W22 and W20 + Wd of the lens where a chief ray lands at a height; 0 without a lens."""
         if self.lens is None:
             return np.zeros(4)
-        source = self._map().source(height_mm, self.optics.wavelength_um)
+        source = self._map().source(0.0, height_mm, self.optics.wavelength_um)
         c = coefficients(self.lens, source.depth_mm, source.field_slope, source.wavelength_um)
         return np.array([c.w40, c.w31, c.w22, c.w20 + c.wd], float)
 
@@ -284,7 +286,7 @@ class FrameModel:
         """Return the fit of a point at a height, and by what its phase's coefficients change per µm of the sensor."""
         lens = self.near
         assert lens is not None
-        source = self._map().source(height_mm, wavelength_um)
+        source = self._map().source(0.0, height_mm, wavelength_um)
         found = fit(lens, source, residual_waves=RESIDUAL_WAVES)
         places = (lens.sensor_mm + sign * SHIFT_MM for sign in (1, -1))
         more, less = (fit(with_sensor(lens, place), source, found.numbers).phase for place in places)
@@ -295,7 +297,7 @@ class FrameModel:
 
         In another wavelength it is the same point, which lands elsewhere.
         """
-        seen = self._map().source(height_mm, wavelength_um or self.optics.wavelength_um)
+        seen = self._map().source(0.0, height_mm, wavelength_um or self.optics.wavelength_um)
         return replace(seen, azimuth_deg=float(np.rad2deg(azimuth)))
 
     def _map(self) -> SensorMap:

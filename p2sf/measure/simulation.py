@@ -74,7 +74,7 @@ def simulated_frame(
         slopes = np.tan(np.deg2rad(exposure.tilt_deg))
         shift_mm = exposure.sensor_shift_um / UM_PER_MM + float(slopes @ (x, y))
         placed = with_sensor(lens, lens.sensor_mm + shift_mm)
-        found = fit(placed, seen.source(float(np.hypot(x, y)), wave), residual_waves=RESIDUAL_WAVES)
+        found = fit(placed, seen.source(0.0, float(np.hypot(x, y)), wave), residual_waves=RESIDUAL_WAVES)
         _add(values, geometry, found, (x, y), exposure)
     return Frame(_exposed(values, exposure), geometry)
 

@@ -1,9 +1,7 @@
-"""The kernel of one spectral channel anywhere on the sensor: fits along a radius, rotated, summed over wavelength."""
+"""The kernel of one spectral channel anywhere on the sensor: pupils, rotated, summed over wavelength."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
-from typing import TypeAlias
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,13 +13,22 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, s
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
-from p2sf.pixel_kernels.sensor_points import SensorMap
+from p2sf.pixel_kernels.sensor_points import SensorMap, oriented
+from p2sf.raytrace.seen_mask import mask_seen
 
 RAYS = "rays"  # the method of a recipe whose kernels are densities of rays
 
 
 Light: TypeAlias = FrequencyPupil | RaySpread
 """What describes the light of one point: a pupil whose waves are summed, or rays."""
+
+
+class Landing(NamedTuple):
+    """In which axes a point's light stands, radians from +y towards +x, and how far from its place it lands, mm."""
+
+    angle: float
+    across_mm: float
+    up_mm: float
 
 
 @dataclass(frozen=True)
@@ -51,25 +58,34 @@ class Colour:
 class PointLights:
     """The light of several points in several wavelengths, (waves · points,), the points of one wavelength together.
 
-    ``lights``: pupils, or rays of each; ``shifts_um``, (waves · points,), outwards.
+    ``lights``: pupils, or rays of each, turned by ``angles`` from +y towards +x; ``shifts_um``, (waves · points, 2):
+    how far each lands from its place along x and y.
     """
 
     lights: PupilStack | list[RaySpread]
+    angles: np.ndarray
     shifts_um: np.ndarray
+
+    def turned(self, angles: np.ndarray) -> "PointLights":
+        """Return the light of these points turned about the axis, (waves · points,) radians from +y towards +x."""
+        (across, along), sine, cosine = self.shifts_um.T, np.sin(angles), np.cos(angles)
+        shifts = np.stack([across * cosine + along * sine, along * cosine - across * sine], axis=1)
+        return PointLights(self.lights, self.angles + angles, shifts)
 
     def half_widths(self, pixel_um: float) -> np.ndarray:
         """Return how many pixels on either side of the centre hold each kernel, (waves · points,)."""
+        shifts = np.hypot(*self.shifts_um.T)
         if isinstance(self.lights, PupilStack):
-            return half_widths(self.lights, pixel_um, self.shifts_um)
-        pairs = zip(self.lights, self.shifts_um, strict=True)
+            return half_widths(self.lights, pixel_um, shifts)
+        pairs = zip(self.lights, shifts, strict=True)
         return np.array([half_widths(light, pixel_um, shift) for light, shift in pairs], int)
 
-    def kernels(self, angles: np.ndarray, halves: np.ndarray, pixel_um: float, recipe: Recipe) -> list[np.ndarray]:
-        """Return each kernel, (2·half + 1,)² float32; fields along ``angles`` from +y towards +x."""
-        shifts = self.shifts_um[:, None] * np.stack([np.sin(angles), np.cos(angles)], axis=1)
+    def kernels(self, halves: np.ndarray, pixel_um: float, recipe: Recipe) -> list[np.ndarray]:
+        """Return each kernel, (2·half + 1,)² float32."""
         if isinstance(self.lights, PupilStack):
-            return wave_kernels(self.lights, angles, halves, pixel_um, recipe, shifts)
-        places = zip(self.lights, angles.tolist(), halves.tolist(), shifts.tolist(), strict=True)
+            return wave_kernels(self.lights, self.angles, halves, pixel_um, recipe, self.shifts_um)
+        columns = (self.angles.tolist(), halves.tolist(), self.shifts_um.tolist())
+        places = zip(self.lights, *columns, strict=True)
         return [ray_kernel(light, angle, half, pixel_um, (x, y)) for light, angle, half, (x, y) in places]
 
 
@@ -97,14 +113,10 @@ def wave_kernels(
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """The light of points in all wavelengths of a channel, and the recipe that makes kernels of it.
-
-    ``weights`` of the wavelengths; ``angles``, (points,), of their fields from +y towards +x.
-    """
+    """The light of points in all wavelengths of a channel, of these ``weights``, and the recipe of their kernels."""
 
     pixel_um: float
     weights: tuple[float, ...]
-    angles: np.ndarray
     recipe: Recipe
     lights: PointLights
 
@@ -116,10 +128,10 @@ class Points:
     def kernels(self, halves: np.ndarray) -> list[np.ndarray]:
         """Return each point's kernel of this half width, (2·half + 1,)² float32 of unit sum, row 0 the top."""
         totals = [np.zeros((size, size), np.float32) for size in (2 * halves + 1).tolist()]
-        waves, points = len(self.weights), len(self.angles)
-        made = self.lights.kernels(np.tile(self.angles, waves), np.tile(halves, waves), self.pixel_um, self.recipe)
+        waves, points = len(self.weights), len(halves)
+        kernels = self.lights.kernels(np.tile(halves, waves), self.pixel_um, self.recipe)
         shares = np.repeat(np.array(self.weights, np.float32), points)
-        for k, (share, kernel) in enumerate(zip(shares, made, strict=True)):
+        for k, (share, kernel) in enumerate(zip(shares, kernels, strict=True)):
             totals[k % points] += share * kernel
         for total in totals:
             total /= total.sum(dtype=float).astype(np.float32)
@@ -128,95 +140,63 @@ class Points:
 
 @dataclass(eq=False)
 class Kernels:
-    """Kernels of one view, channel and pixel pitch; pupils are cached per height, since points on a circle share them.
+    """Kernels of one view, channel and pixel pitch; pupils are cached, since points on a circle may share them.
 
-    A ``table``, if any, replaces a fit for every height that it covers.
+    A ``table``, if any, replaces a fit for every place that it covers.
     """
 
     seen: SensorMap
     colour: Colour
     pixel_um: float
     recipe: Recipe
-    half: int | None = None
     table: PupilTable | None = None
-    kept: dict[float, list[tuple[Light, float]]] = field(default_factory=dict)
+    cache: dict[tuple[float, float], list[tuple[Light, Landing]]] = field(default_factory=dict)
 
     def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
         """Return the kernel of the point that lands at (x, y up), (size, size) float32 of unit sum, row 0 the top."""
-        half, point = half or self.half, self.points([x_mm], [y_mm])
+        point = self.points([x_mm], [y_mm])
         return point.kernels(np.array([half]) if half else point.half_widths())[0]
 
-    def points(self, x_mm: ArrayLike, y_mm: ArrayLike) -> "Points":
+    def points(self, x_mm: ArrayLike, y_mm: ArrayLike) -> Points:
         """Return the light of points that land at (x, y up), (points,) each."""
-        x, y = np.asarray(x_mm, float), np.asarray(y_mm, float)
-        lights = self._lights_at(np.hypot(x, y))
-        return Points(self.pixel_um, self.colour.weights, np.arctan2(x, y), self.recipe, lights)
+        x, y, angles = oriented(self.seen.lens, *np.asarray((x_mm, y_mm), float))
+        lights = self._lights_at(x, y).turned(np.tile(angles, len(self.colour.wavelengths_um)))
+        return Points(self.pixel_um, self.colour.weights, self.recipe, lights)
 
-    def _lights_at(self, heights_mm: np.ndarray) -> PointLights:
-        """Return the light of points at some heights in every wavelength."""
-        waves = self.colour.wavelengths_um
-        depth = float(vergence(self.seen.depth_mm))
-        table = self.table
-        if (
-            table is not None
-            and self.recipe.method != RAYS
-            and all(table.covers(height, depth) for height in heights_mm)
-        ):
-            every = np.repeat(waves, len(heights_mm))
-            pupils, shifts_mm = table.at(np.tile(heights_mm, len(waves)), depth, every)
-            return PointLights(pupils, shifts_mm * UM_PER_MM)
-        by_height = [self.lights(height) for height in heights_mm.tolist()]
-        lights, shifts = zip(*(pairs[k] for k in range(len(waves)) for pairs in by_height), strict=True)
+    def _lights_at(self, x_mm: np.ndarray, y_mm: np.ndarray) -> PointLights:
+        """Return the light of `oriented` points in every wavelength."""
+        waves, table, depth = self.colour.wavelengths_um, self.table, float(vergence(self.seen.depth_mm))
+        if table is not None and self.recipe.method != RAYS and table.covers(x_mm, y_mm, depth):
+            places = np.tile(x_mm, len(waves)), np.tile(y_mm, len(waves))
+            pupils, shifts_mm = table.at(*places, depth, np.repeat(waves, len(x_mm)))
+            return PointLights(pupils, np.zeros(len(pupils)), shifts_mm * UM_PER_MM)
+        by_place = [self.lights(*place) for place in zip(x_mm.tolist(), y_mm.tolist(), strict=True)]
+        lights, landings = zip(*(pairs[k] for k in range(len(waves)) for pairs in by_place), strict=True)
         rays = [light for light in lights if isinstance(light, RaySpread)]
         of_waves = [light for light in lights if isinstance(light, FrequencyPupil)]
-        return PointLights(rays or stacked(of_waves), np.array(shifts) * UM_PER_MM)
+        landed = np.array(landings)
+        return PointLights(rays or stacked(of_waves), landed[:, 0], landed[:, 1:] * UM_PER_MM)
 
-    def pupils(self, height_mm: float) -> list[tuple[FrequencyPupil, float]]:
-        """Return (pupil, lateral colour in mm) of every wavelength at one height; none of a recipe of rays."""
-        return [(p, shift) for p, shift in self.lights(height_mm) if isinstance(p, FrequencyPupil)]
-
-    def lights(self, height_mm: float) -> list[tuple[Light, float]]:
-        """Return (pupil or rays, lateral colour in mm) of every wavelength at one height."""
-        key = round(height_mm, 9)
-        if key not in self.kept:
-            self.kept[key] = [self._light(height_mm, w) for w in self.colour.wavelengths_um]
-        return self.kept[key]
-
-    def _light(self, height_mm: float, wavelength_um: float) -> tuple[Light, float]:
-        if self.recipe.method == RAYS:
-            return _own_rays(self.seen, height_mm, wavelength_um)
-        depth = float(vergence(self.seen.depth_mm))
-        if self.table is not None and self.table.covers(height_mm, depth):
-            pupils, shifts_mm = self.table.at(height_mm, depth, wavelength_um)
-            return pupils.one(0), float(shifts_mm[0])
-        return own_pupil(self.seen, height_mm, wavelength_um, self.recipe)
-
-    def half_width(self, height_mm: float) -> int:
-        """Return how many pixels on either side of the centre hold the whole kernel at this height."""
-        return int(self.points([0.0], [height_mm]).half_widths()[0])
+    def lights(self, x_mm: float, y_mm: float) -> list[tuple[Light, Landing]]:
+        """Return the light of a place in every wavelength, from its own rays."""
+        key = round(x_mm, 9), round(y_mm, 9)
+        if key not in self.cache:
+            waves = self.colour.wavelengths_um
+            self.cache[key] = [own_light(self.seen, x_mm, y_mm, wave, self.recipe) for wave in waves]
+        return self.cache[key]
 
 
-def own_pupil(seen: SensorMap, height_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[FrequencyPupil, float]:
-    """Return the pupil at one height from its own rays, and its lateral colour in mm; P2SFError names the height."""
-    with _at_height(height_mm):
-        source = seen.source(height_mm, wavelength_um)
-        pupil = pupil_map(seen.lens, source, recipe.method, recipe.numbers, seen.clip)
-        return pupil, seen.shift_mm(height_mm, wavelength_um)
-
-
-def _own_rays(seen: SensorMap, height_mm: float, wavelength_um: float) -> tuple[RaySpread, float]:
-    """Return the rays of one height, and its lateral colour in mm; P2SFError names the height."""
-    with _at_height(height_mm):
-        spread = ray_spread(seen.lens, seen.source(height_mm, wavelength_um), seen.clip)
-        return spread, seen.shift_mm(height_mm, wavelength_um)
-
-
-@contextmanager
-def _at_height(height_mm: float) -> Iterator[None]:
-    """Name the height in a P2SFError."""
+def own_light(seen: SensorMap, x_mm: float, y_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[Light, Landing]:
+    """Return the pupil of one place from its own rays, or these; P2SFError names the place."""
     try:
-        yield
+        source = seen.source(x_mm, y_mm, wavelength_um)
+        light: Light
+        if recipe.method == RAYS:
+            light = ray_spread(seen.lens, source, seen.clip)
+        else:
+            light = pupil_map(seen.lens, source, recipe.method, recipe.numbers, seen.clip)
+        light = replace(light, mask=mask_seen(seen.lens, replace(source, azimuth_deg=0.0)))
+        return light, Landing(float(np.deg2rad(source.azimuth_deg)), *seen.shift_mm(x_mm, y_mm, wavelength_um))
     except P2SFError as error:
-        raise type(error)(
-            "{height:.4g} mm from the axis of the sensor: {error}", height=height_mm, error=error
-        ) from error
+        height = float(np.hypot(x_mm, y_mm))
+        raise type(error)("{height:.4g} mm from the axis of the sensor: {error}", height=height, error=error) from error

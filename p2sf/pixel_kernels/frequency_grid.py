@@ -5,13 +5,14 @@ Phase and entrance-pupil point are polynomials over f = n'K/λ; the image of the
 polynomials are Zernike's, so that a field in another direction is the same pupil with rotated coefficients.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.lens import Lens, Surface, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
@@ -32,7 +33,7 @@ from p2sf.raytrace.fit import (
     pencil_forms,
     rows_of,
 )
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.trace import lens_rims, run
 
@@ -51,35 +52,45 @@ def pupil_map(
 ) -> FrequencyPupil:
     """Return the pupil of one source by the method "seidel" or "fitted"; ``clip`` lets the clear rims clip it.
 
+    It stands in the axes of the source's field.
+
     Raises GeometryError where rays do not reach the sensor, rims clip all of them, or the image lies at infinity.
     """
-    several = Sources(*(np.array([v]) for v in (source.depth_mm, source.field_slope, source.wavelength_um)))
+    mask, turned = mask_seen(lens, source), seen_from(lens, source.azimuth_deg)
+    source = replace(source, azimuth_deg=0.0)
     if method == "seidel":
-        return replace(seidel_pupils(lens, several, clip).one(0), mask=mask_seen(lens, source))
-    found = fit(lens, source, numbers)
+        return replace(seidel_pupils(turned, [source], clip).one(0), mask=mask)
+    found = fit(turned, source, numbers)
     columns = (found.phase, found.fx, found.fy, found.amplitude, found.residual_waves)
     forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.amplitude_residual)))
-    return replace(pupils_of(lens, several, forms, found.level, clip).one(0), mask=mask_seen(lens, source))
+    return replace(pupils_of(turned, [source], forms, found.level, clip).one(0), mask=mask)
 
 
-def fitted_forms(lens: Lens, sources: Sources, level: Level) -> tuple[PencilForms, np.ndarray]:
-    """Return the fits of one level to several sources, (n,), and where their chief rays land, (n,) mm.
+def of_azimuths(sources: Sequence[Source]) -> list[list[int]]:
+    """Return the numbers of the sources of each azimuth, which are traced together."""
+    groups: dict[float, list[int]] = {}
+    for number, source in enumerate(sources):
+        groups.setdefault(source.azimuth_deg, []).append(number)
+    return list(groups.values())
+
+
+def fitted_forms(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[PencilForms, np.ndarray]:
+    """Return the fits of one level to several sources in the axes of the sensor, and where they land, (n, 2) mm.
 
     Raises GeometryError where rays do not reach the sensor.
     """
-    xi, eta, _ = level_rays(level)
-    rays = pencil(lens, sources, xi, eta)
-    if not rays.passed.all():
-        raise GeometryError(
-            "{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field",
-            lost=int((~rays.passed).sum()),
-            total=rays.passed.size,
-        )
-    return pencil_forms(rays, level), rays.chief_y[:, 0]
+    groups = of_azimuths(sources)
+    rays = [all_reaching(on_sensor(lens, [sources[k] for k in group], *level_rays(level)[:2])) for group in groups]
+    forms, order = [pencil_forms(some, level) for some in rays], np.argsort(np.concatenate(groups))
+    landed = [np.concatenate(np.broadcast_arrays(some.chief_x, some.chief_y), axis=1) for some in rays]
+    columns = ([getattr(form, field.name) for form in forms] for field in fields(PencilForms))
+    # The amplitude of unweighted rays is one for all.
+    joined = (several[0] if len(forms) == 1 else np.concatenate(several)[order] for several in columns)
+    return PencilForms(*joined), np.concatenate(landed)[order]
 
 
 def pupils_of(
-    lens: Lens, sources: Sources, fits: PencilForms, level: Level, clip: bool = False, order: int = ORDERS[0]
+    lens: Lens, sources: Sequence[Source], fits: PencilForms, level: Level, clip: bool = False, order: int = ORDERS[0]
 ) -> PupilStack:
     """Return the pupils of fits, (n, terms), all of the least order from ``order`` on that describes each of them.
 
@@ -89,13 +100,14 @@ def pupils_of(
     while True:
         found, excess = _of_order(order, fits, level, rims)
         if excess < 1 or order == ORDERS[-1]:
-            return with_reach(replace(found, mask=behind, wavelength_um=np.asarray(sources.wavelength_um, float)))
+            waves = np.array([source.wavelength_um for source in sources])
+            return with_reach(replace(found, mask=behind, wavelength_um=waves))
         order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
 
 
-def _mask_of(lens: Lens, sources: Sources) -> PupilMask:
-    """Return the mask in the stop as sources see it whose chief rays land at +y."""
-    return mask_seen(lens, Source(wavelength_um=float(np.ravel(sources.wavelength_um)[0])))
+def _mask_of(lens: Lens, sources: Sequence[Source]) -> PupilMask:
+    """Return the mask in the stop in the axes of the sensor."""
+    return mask_seen(lens, Source(wavelength_um=sources[0].wavelength_um))
 
 
 def _nodes_of(where: tuple[int, int], skew: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -104,7 +116,7 @@ def _nodes_of(where: tuple[int, int], skew: bool) -> tuple[np.ndarray, np.ndarra
     return whole_disc(*where) if skew else (half.xi, half.eta, half.weight)
 
 
-def _rims(lens: Lens, sources: Sources, clip: bool, skew: bool = False) -> np.ndarray:
+def _rims(lens: Lens, sources: Sequence[Source], clip: bool, skew: bool = False) -> np.ndarray:
     """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim.
 
     Of a hole or a shadow, (height/radius)² − 1. (Sources, rims, nodes); no rims unless ``clip``. Raises
@@ -112,9 +124,19 @@ def _rims(lens: Lens, sources: Sources, clip: bool, skew: bool = False) -> np.nd
     """
     xi, eta, _ = _nodes_of(NODES, skew)
     if not clip:
-        return np.empty((len(np.asarray(sources.depth_mm)), 0, xi.size))
+        return np.empty((len(sources), 0, xi.size))
+    groups = of_azimuths(sources)
+    rims = np.concatenate([_rims_of([sources[k] for k in group], lens, xi, eta) for group in groups])
+    if np.any(np.max(np.min(rims, axis=1), axis=1) <= 0):
+        raise GeometryError(CLIPPED, parameter="clip")
+    return rims[np.argsort(np.concatenate(groups))]
+
+
+def _rims_of(sources: Sequence[Source], lens: Lens, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    """Return the rims of sources of one azimuth at pupil points in the axes of the sensor."""
+    lens, points = in_azimuth(lens, sources[0].azimuth_deg, xi, eta)
     limits = lens_rims(lens, keep_stop=False)
-    rays, found = pupil_rays(lens, sources, xi, eta), []
+    rays, found = pupil_rays(lens, Sources.of(sources), *points), []
     beam = start(rays)
 
     def visit(number: int) -> None:
@@ -122,10 +144,7 @@ def _rims(lens: Lens, sources: Sources, clip: bool, skew: bool = False) -> np.nd
             found.extend(_clearances(lens.surfaces[number - 1], float(limits[number - 1]), beam.x, beam.y))
 
     run(lens, beam, rays.index, visit=visit)
-    rims = np.stack(found, axis=1)
-    if np.any(np.max(np.min(rims, axis=1), axis=1) <= 0):
-        raise GeometryError(CLIPPED, parameter="clip")
-    return rims
+    return np.stack(found, axis=1)
 
 
 def _clearances(surface: Surface, limit: float, x: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
@@ -142,12 +161,12 @@ def _clearances(surface: Surface, limit: float, x: np.ndarray, y: np.ndarray) ->
     return found
 
 
-def seidel_pupils(lens: Lens, sources: Sources, clip: bool = False) -> PupilStack:
+def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> PupilStack:
     """Return the pupils of several sources, (n,), by their Seidel coefficients.
 
     Raises GeometryError where an image lies at infinity, or rims clip all rays.
     """
-    rims = _rims(lens, sources, clip)
+    rims, sources = _rims(lens, points, clip), Sources.of(points)
     six = coefficients(lens, sources.depth_mm, sources.field_slope, sources.wavelength_um)
     scale = -np.asarray(six.reduced_slope) / sources.wavelength_um
     if not scale.all():
@@ -163,7 +182,7 @@ def seidel_pupils(lens: Lens, sources: Sources, clip: bool = False) -> PupilStac
     none, unknown = np.empty((len(scale), 0)), np.full(len(scale), np.nan)
     forms = found[:, 0], found[:, 1], xi, none, found[:, 2:]
     sizes = energy, unknown, 0 * scale, -np.asarray(sources.wavelength_um, float) + 0 * scale
-    return with_reach(PupilStack(order, np.abs(scale), *forms, *sizes, "seidel", 6, _mask_of(lens, sources)))
+    return with_reach(PupilStack(order, np.abs(scale), *forms, *sizes, "seidel", 6, _mask_of(lens, points)))
 
 
 def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> tuple[PupilStack, float]:

@@ -1,6 +1,5 @@
 """The light that a lens collects from a point of an even object, and how thinly the sensor's area spreads it."""
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -8,13 +7,14 @@ from numpy.typing import ArrayLike
 
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
-from p2sf.pixel_kernels.sensor_points import SensorMap
+from p2sf.pixel_kernels.sensor_points import SensorMap, landing_mm
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.clear_rim import clear_rim
 from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
+from p2sf.threads import mapped
 
 NODES = 12, 32
 RIM_DIRECTIONS, RIM_ROUNDS = 96, 3  # corners between directions cost 3e-5 of the light, as do 16⁻³ of the radius
@@ -49,24 +49,16 @@ def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
     return pupil_nodes(lens, source, NODES, clip, whole=False)
 
 
-def relative_illumination(seen: SensorMap, heights_mm: ArrayLike, angles: ArrayLike = 0.0) -> np.ndarray:
-    """Return the irradiance of an even object over that on the axis, where chief rays land at these heights, mm.
+def relative_illumination(seen: SensorMap, x_mm: ArrayLike, y_mm: ArrayLike) -> np.ndarray:
+    """Return the irradiance of an even object at places over that where the field's centre lands; mm, shape kept.
 
-    ``angles``: azimuths of the fields, radians from +y towards +x; they count behind a mask that is not round.
-    The light of d²s falls on the area d²h = d(h²)/d(s²)·d²s, which distortion changes over the field.
+    The light of d²s falls on the area d²s/`thinning`, which distortion changes over the field.
     """
-    heights, azimuths = (np.ravel(a) for a in np.broadcast_arrays(np.asarray(heights_mm, float), angles))
-    square = seen.heights_mm**2
-    thinned = np.gradient(seen.slopes**2, square, edge_order=2)
-    found = np.array([_collected(seen, *place) for place in zip(heights, azimuths, strict=True)]) * np.interp(
-        heights**2, square, thinned
-    )
-    relative: np.ndarray = found / (_collected(seen, 0.0, 0.0) * thinned[0])
-    return relative.reshape(np.shape(heights_mm))
-
-
-def _collected(seen: SensorMap, height_mm: float, angle: float) -> float:
-    source = seen.source(height_mm, seen.wavelength_um)
-    if not seen.lens.mask.round:
-        source = replace(source, azimuth_deg=float(np.rad2deg(angle)))
-    return light_collected(seen.lens, source, seen.clip)
+    x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
+    centre = landing_mm(seen.lens, Source(seen.depth_mm, 0.0, seen.wavelength_um))
+    places = [centre, *zip(x.ravel().tolist(), y.ravel().tolist(), strict=True)]
+    sources = (seen.source(*place, seen.wavelength_um) for place in places)
+    light = np.array(mapped(lambda source: light_collected(seen.lens, source, seen.clip), sources))
+    light *= seen.fields.thinning(*np.array(places).T)
+    relative: np.ndarray = (light[1:] / light[0]).reshape(x.shape)
+    return relative

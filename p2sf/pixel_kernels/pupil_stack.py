@@ -91,7 +91,7 @@ class PupilStack:
     @property
     def symmetric(self) -> bool:
         """Return whether the forms have only the terms of their symmetry about the plane of the field."""
-        return self.phase.shape[-1] == len(terms(self.order))
+        return int(self.phase.shape[-1]) == len(terms(self.order))
 
     def of_order(self, order: int) -> "PupilStack":
         """Return the same pupils with zeros for the terms up to a higher order, which come last among their kind."""
@@ -214,8 +214,8 @@ def _terms_at(order: int, symmetric: bool) -> _TermsAt:
     of_even, of_odd = (gradient(order, xi, eta, odd=flag) for flag in (False, True))
     if symmetric:
         return _TermsAt(even, odd, weight, (of_even, of_even, of_odd))
-    every, slopes = np.concatenate([even, odd]), tuple(map(np.concatenate, zip(of_even, of_odd, strict=True)))
-    return _TermsAt(every, every, weight, (slopes, slopes, slopes))
+    every, across, along = (np.concatenate(pair) for pair in ((even, odd), *zip(of_even, of_odd, strict=True)))
+    return _TermsAt(every, every, weight, ((across, along),) * 3)
 
 
 @dataclass(frozen=True, eq=False)

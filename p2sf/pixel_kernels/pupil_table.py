@@ -1,8 +1,8 @@
 """Pupils over field, depth and colour from a few fits: Zernike coefficients interpolated between them.
 
-All points at one distance from the axis share one pupil, rotated (`pupil_stack.turned`). Its coefficients are
-smooth functions of that distance, of 1/depth and of the wavelength, so that polynomials through a few Chebyshev nodes
-give them all.
+The coefficients are smooth functions of the place on the sensor, of 1/depth and of the wavelength, so that polynomials
+through a few Chebyshev nodes give them all. All points at one distance from an axis of symmetry share one pupil,
+rotated (`pupil_stack.turned`), so that there one column of places is enough.
 """
 
 from collections.abc import Sequence
@@ -22,12 +22,14 @@ SAME = 1e-9  # of the farthest node: positions closer than this are the same
 
 @dataclass(frozen=True, eq=False)
 class PupilTable:
-    """Pupils between those fitted at heights × vergences × wavelengths, in this order, and their lateral colour, mm.
+    """Pupils between those fitted at x × y × vergences × wavelengths, in this order, and where they land.
 
-    ``rows``, (fits, numbers): of each pupil all FORMS, radius, energy and lateral colour. ``like``: the fitted ones.
+    ``rows``, (fits, numbers): of each pupil all FORMS, radius, energy and how far from its place it lands, x and y, mm.
+    ``like``: the fitted ones.
     """
 
-    heights_mm: tuple[float, ...]
+    x_mm: tuple[float, ...]
+    y_mm: tuple[float, ...]
     vergences: tuple[float, ...]
     waves_um: tuple[float, ...]
     rows: np.ndarray
@@ -39,47 +41,63 @@ class PupilTable:
         return len(self.rows)
 
     @property
+    def axes(self) -> "Axes":
+        """Return the nodes."""
+        return self.x_mm, self.y_mm, self.vergences, self.waves_um
+
+    @property
     def shifts_mm(self) -> np.ndarray:
-        """Return the lateral colour of the fitted pupils, mm, (fits,)."""
-        shifts: np.ndarray = self.rows[:, -1]
+        """Return how far the fitted pupils land from their places, mm, (fits, 2)."""
+        shifts: np.ndarray = self.rows[:, -2:]
         return shifts
 
-    def covers(self, height_mm: float, vergence: float) -> bool:
-        """Return whether a height and a depth lie between the nodes."""
-        return _within(height_mm, self.heights_mm) and _within(vergence, self.vergences)
+    def covers(self, x_mm: ArrayLike, y_mm: ArrayLike, vergence: float) -> bool:
+        """Return whether places and a depth lie between the nodes."""
+        axes = zip(self.axes, (x_mm, y_mm, vergence), strict=False)
+        return all(_within(value, nodes) for nodes, values in axes for value in np.ravel(values).tolist())
 
-    def at(self, heights_mm: ArrayLike, vergences: ArrayLike, waves_um: ArrayLike) -> tuple[PupilStack, np.ndarray]:
-        """Return pupils and lateral colour in mm, (pupils,), between the nodes, from numbers or arrays of each axis.
+    def at(
+        self, x_mm: ArrayLike, y_mm: ArrayLike, vergences: ArrayLike, waves_um: ArrayLike
+    ) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils between the nodes, and how far they land from their places, (pupils, 2) mm along x and y.
+
+        Each axis takes a number or an array.
 
         Raises GeometryError outside the nodes.
         """
-        places = np.broadcast_arrays(*map(np.atleast_1d, (heights_mm, vergences, waves_um)))
-        axes = zip((self.heights_mm, self.vergences, self.waves_um), places, strict=True)
+        places = np.broadcast_arrays(*map(np.atleast_1d, (x_mm, y_mm, vergences, waves_um)))
+        axes = zip(self.axes, places, strict=True)
         weights = [np.stack([_weights(nodes, place) for place in column.tolist()]) for nodes, column in axes]
-        rows = np.einsum("kh,kv,kw->khvw", *weights).reshape(len(weights[0]), -1) @ self.rows
+        rows = np.einsum("kx,ky,kv,kw->kxyvw", *weights).reshape(len(weights[0]), -1) @ self.rows
         forms: dict[str, Any] = {}
         like = self.like
         for name in FORMS:
             size = getattr(like, name)[0].size
             forms[name], rows = rows[:, :size].reshape(len(rows), *getattr(like, name).shape[1:]), rows[:, size:]
-        radius, energy, shifts = rows.T
+        radius, energy, *shifts = rows.T
         residual = np.full(len(radius), like.residual_waves.max())
-        waves = np.sign(like.wavelength_um[0]) * places[2]
+        waves = np.sign(like.wavelength_um[0]) * places[3]
         made = replace(like, **forms, radius=radius, energy=energy, residual_waves=residual, wavelength_um=waves)
-        return with_reach(made), shifts
+        return with_reach(made), np.stack(shifts, axis=1)
 
 
-def pupil_table(
-    nodes: tuple[Sequence[float], Sequence[float], Sequence[float]], pupils: PupilStack, shifts_mm: np.ndarray
-) -> PupilTable:
-    """Return the table of pupils and lateral colours at heights (mm) × vergences × wavelengths (µm), these fastest."""
-    heights, vergences, waves = (tuple(map(float, axis)) for axis in nodes)
+Axes = tuple[Sequence[float], Sequence[float], Sequence[float], Sequence[float]]  # x, y, vergences, wavelengths
+
+
+def pupil_table(nodes: Axes, pupils: PupilStack, shifts_mm: np.ndarray) -> PupilTable:
+    """Return the table of pupils, and of how far they land from their places, (pupils, 2) mm.
+
+    At x × y (mm) × vergences × wavelengths (µm), these fastest.
+    """
+    x, y, vergences, waves = (tuple(map(float, axis)) for axis in nodes)
     forms = (getattr(pupils, name).reshape(len(pupils), -1) for name in FORMS)
-    rows = np.concatenate([*forms, *(column[:, None] for column in (pupils.radius, pupils.energy, shifts_mm))], axis=1)
-    return PupilTable(heights, vergences, waves, rows, pupils)
+    rows = np.concatenate(
+        [*forms, *(column[:, None] for column in (pupils.radius, pupils.energy, *shifts_mm.T))], axis=1
+    )
+    return PupilTable(x, y, vergences, waves, rows, pupils)
 
 
-def _weights(nodes: tuple[float, ...], place: float) -> np.ndarray:
+def _weights(nodes: Sequence[float], place: float) -> np.ndarray:
     if not _within(place, nodes):
         raise GeometryError(
             "{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again",
@@ -87,7 +105,7 @@ def _weights(nodes: tuple[float, ...], place: float) -> np.ndarray:
             low=nodes[0],
             high=nodes[-1],
         )
-    return lagrange(nodes, place)
+    return lagrange(tuple(nodes), place)
 
 
 @lru_cache(maxsize=1024)
@@ -109,6 +127,6 @@ def chebyshev(least: float, most: float, count: int) -> np.ndarray:
     return np.array([middle]) if count == 1 else middle - half * np.cos(np.pi * np.arange(count) / (count - 1))
 
 
-def _within(value: float, nodes: tuple[float, ...]) -> bool:
+def _within(value: float, nodes: Sequence[float]) -> bool:
     slack = SAME * max(abs(nodes[0]), abs(nodes[-1]))
     return nodes[0] - slack <= value <= nodes[-1] + slack

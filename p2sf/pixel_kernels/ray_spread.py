@@ -31,7 +31,7 @@ CELLS = 7  # along the side of a pixel, in which rays are counted where part of 
 class RaySpread:
     """Where the light of half a pencil lands, µm from the chief ray, and its shares; the other half mirrors it.
 
-    That of a whole pencil where it is not ``mirrored``: of a lens without symmetry, whose axes are the sensor's.
+    That of a whole pencil where it is not ``mirrored``: of a lens without symmetry. In the axes of the field.
 
     ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but STRAY.
     ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.

@@ -3,8 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Protocol
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebder, chebval2d
 
 from p2sf.conventions import FloatOrArray, vergence
 from p2sf.errors import GeometryError
@@ -14,55 +16,132 @@ from p2sf.messages import Message
 from p2sf.paraxial.pupils import find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import on_sensor, pencil
 
 CHIEF_RAYS = 257
+SMALLEST_MM = 1e-12  # keeps the slope over the height finite on the axis
 REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: the fields out to which chief rays are tried
+
+
+def oriented(lens: Lens, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the places whose pupils, turned, are those of (x, y), and by which angles, radians from +y towards +x.
+
+    All points at one distance from the axis of symmetry share the pupil of the one above it.
+    """
+    x, y = np.asarray(x_mm, float), np.asarray(y_mm, float)
+    nothing = np.zeros(np.broadcast(x, y).shape)
+    return (x, y, nothing) if lens.misaligned else (nothing, np.hypot(x, y), np.arctan2(x, y))
+
+
+class Fields(Protocol):
+    """Which fields land where on the sensor."""
+
+    def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the field slopes along x and y whose chief rays land at these places, mm."""
+
+    def polar(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return their slopes, as `Source` has them, and their azimuths, degrees from +y towards +x."""
+
+    def thinning(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:
+        """Return ∂(slopes)/∂(place), per mm²: how much of an even object's light falls on unit area."""
+
+
+@dataclass(frozen=True, eq=False)
+class RadialFields:
+    """`Fields` about an axis of symmetry: real chief rays of ``along`` land at ``heights_mm``, increasing from 0."""
+
+    along: np.ndarray
+    heights_mm: np.ndarray
+
+    def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the field slopes along x and y whose chief rays land at these places, mm."""
+        height = np.hypot(x_mm, y_mm)
+        ratio = self._slope(height) / np.maximum(height, SMALLEST_MM)
+        return ratio * x_mm, ratio * y_mm
+
+    def polar(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return their slopes, negative where the image is upright, and the azimuths of the places, degrees."""
+        return self._slope(np.hypot(x_mm, y_mm)), np.rad2deg(np.arctan2(x_mm, y_mm))
+
+    def thinning(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:
+        """Return ∂(slopes)/∂(place) = d(slope²)/d(height²), per mm², which distortion changes over the field."""
+        square = self.heights_mm**2
+        thinned: np.ndarray = np.gradient(self.along**2, square, edge_order=2)
+        found: np.ndarray = np.interp(np.square(x_mm) + np.square(y_mm), square, thinned)
+        return found
+
+    def _slope(self, height_mm: FloatOrArray) -> np.ndarray:
+        slope: np.ndarray = np.interp(height_mm, self.heights_mm, self.along)
+        return slope
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneFields:
+    """`Fields` without symmetry, as Chebyshev polynomials over the sensor.
+
+    ``across``, ``up``: coefficients (y, x) of the slopes along x and y over the place on the sensor, which is
+    ``middle_mm`` ± ``half_mm``.
+    """
+
+    across: np.ndarray
+    up: np.ndarray
+    middle_mm: tuple[float, float]
+    half_mm: tuple[float, float]
+
+    def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the field slopes along x and y whose chief rays land at these places, mm."""
+        x, y = self._reduced(x_mm, y_mm)
+        return chebval2d(y, x, self.across), chebval2d(y, x, self.up)
+
+    def polar(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return their slopes and their own azimuths, degrees."""
+        across, up = self.slopes(x_mm, y_mm)
+        return np.hypot(across, up), np.rad2deg(np.arctan2(across, up))
+
+    def thinning(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:
+        """Return ∂(slopes)/∂(place), per mm²."""
+        x, y = self._reduced(x_mm, y_mm)
+        tables = [chebder(table, axis=axis) for table in (self.across, self.up) for axis in (1, 0)]
+        one, two, three, four = (chebval2d(y, x, table) for table in tables)
+        thinned: np.ndarray = np.abs(one * four - two * three) / (self.half_mm[0] * self.half_mm[1])
+        return thinned
+
+    def _reduced(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
+        (across, up), (wide, high) = self.middle_mm, self.half_mm
+        return (x - across) / wide, (y - up) / high
 
 
 @dataclass(frozen=True, eq=False)
 class SensorMap:
-    """One object plane seen through one lens: chief rays from the axis to the sensor's corner.
+    """One object plane seen through one lens: which fields land where on the sensor at the reference wavelength.
 
-    ``heights_mm``: where real chief rays of ``slopes`` land, increasing from 0; ``scale_mm``: paraxial height per
-    unit slope, negative where the entrance pupil lies beyond the object, as a relay's does. At the reference
-    wavelength. ``clip``: whether rims clip the pencils of its points.
+    ``scale_mm``: paraxial height per unit slope, of the lens set straight, negative where the entrance pupil lies
+    beyond the object, as a relay's does. ``clip``: whether rims clip the pencils of its points.
     """
 
     lens: Lens
     depth_mm: float
     wavelength_um: float
-    slopes: np.ndarray
-    heights_mm: np.ndarray
+    fields: Fields
     scale_mm: float
     clip: bool = False
 
-    def slope(self, height_mm: FloatOrArray) -> FloatOrArray:
-        """Return field slopes whose chief rays land at radial heights, mm."""
-        slope: FloatOrArray = np.interp(height_mm, self.heights_mm, self.slopes)
-        return slope
+    def ideal_mm(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the undistorted (paraxial) places of what lands at these, mm."""
+        across, up = self.fields.slopes(x_mm, y_mm)
+        return self.scale_mm * across, self.scale_mm * up
 
-    def ideal_height(self, height_mm: FloatOrArray) -> FloatOrArray:
-        """Return the undistorted (paraxial) height of what lands at these heights, mm."""
-        return self.slope(height_mm) * self.scale_mm
+    def source(self, x_mm: float, y_mm: float, wavelength_um: float) -> Source:
+        """Return the object point that lands at a place in the reference wavelength, for another wavelength."""
+        slope, azimuth = (float(value) for value in self.fields.polar(x_mm, y_mm))
+        slope *= slope_ratio(self.lens, self.depth_mm, self.wavelength_um, wavelength_um)
+        return Source(self.depth_mm, slope, float(wavelength_um), azimuth_deg=azimuth)
 
-    def source(self, height_mm: float, wavelength_um: float) -> Source:
-        """Return the object point that lands at a height in the reference wavelength, for another wavelength."""
-        return Source(self.depth_mm, float(self.slopes_at(height_mm, wavelength_um)), float(wavelength_um))
-
-    def slopes_at(self, heights_mm: FloatOrArray, wavelength_um: float) -> FloatOrArray:
-        """Return, for another wavelength, the slopes of the object points that land at heights in the reference one."""
-        return self.slope(heights_mm) * self._slope_ratio(wavelength_um)
-
-    def shift_mm(self, height_mm: float, wavelength_um: float) -> float:
-        """Return lateral colour: how much farther out another wavelength lands, mm."""
-        if wavelength_um == self.wavelength_um:
-            return 0.0
-        return float(chief_heights(self.lens, self.source(height_mm, wavelength_um))) - float(height_mm)
-
-    def _slope_ratio(self, wavelength_um: float) -> float:
-        """Return how the chief ray's slope to one object point changes as the entrance pupil moves with colour."""
-        return slope_ratio(self.lens, self.depth_mm, self.wavelength_um, wavelength_um)
+    def shift_mm(self, x_mm: float, y_mm: float, wavelength_um: float) -> tuple[float, float]:
+        """Return lateral colour: how far from its place, along x and y, another wavelength lands, mm."""
+        across, up = landing_mm(self.lens, self.source(x_mm, y_mm, wavelength_um))
+        return across - float(x_mm), up - float(y_mm)
 
 
 def slope_ratio(lens: Lens, depth_mm: float, reference_um: float, wavelength_um: float) -> float:
@@ -101,7 +180,8 @@ def sensor_maps(
             continue
         if (heights[:, -1] >= height_mm).all() and (np.diff(heights) > 0).all():
             maps = zip(depths.tolist(), slopes, heights, scale.tolist(), strict=True)
-            return [SensorMap(lens, d, float(wavelength_um), s, h, size, clip) for d, s, h, size in maps]
+            wave = float(wavelength_um)
+            return [SensorMap(lens, d, wave, RadialFields(s, h), size, clip) for d, s, h, size in maps]
     if len(depths) > 1:  # some may need another reach than others
         return [sensor_maps(lens, [d], wavelength_um, height_mm, clip, rays)[0] for d in depths.tolist()]
     raise GeometryError(
@@ -118,10 +198,16 @@ def chief_heights(lens: Lens, source: Source | Sources) -> np.ndarray:
     return heights
 
 
-def distortion_at(seen: SensorMap, height_mm: FloatOrArray) -> np.ndarray:
-    """Return (real − paraxial)/paraxial height of what lands at these heights; 0 on the axis."""
-    ideal = np.asarray(seen.ideal_height(height_mm))
-    return np.where(ideal > 0, np.asarray(height_mm) / np.where(ideal > 0, ideal, 1) - 1, 0.0)
+def landings_mm(lens: Lens, sources: Sequence[Source]) -> np.ndarray:
+    """Return where chief rays of sources in one azimuth land, (source, 2), x and y in the sensor's own axes, mm."""
+    rays = on_sensor(lens, sources, np.zeros(1), np.zeros(1))
+    return np.concatenate(np.broadcast_arrays(rays.chief_x, rays.chief_y), axis=1)
+
+
+def landing_mm(lens: Lens, source: Source) -> tuple[float, float]:
+    """Return where one chief ray lands, x and y in the sensor's own axes, mm."""
+    x, y = landings_mm(lens, [source])[0].tolist()
+    return x, y
 
 
 @lru_cache(maxsize=256)

@@ -3,6 +3,7 @@
 See handbook 8.2.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, sqrt
@@ -56,6 +57,11 @@ class Sources:
     depth_mm: FloatOrArray
     field_slope: FloatOrArray
     wavelength_um: FloatOrArray
+
+    @classmethod
+    def of(cls, sources: Sequence[Source]) -> "Sources":
+        """Return sources of one azimuth, (n,), as one."""
+        return cls(*np.array([(s.depth_mm, s.field_slope, s.wavelength_um) for s in sources]).T)
 
 
 @dataclass(frozen=True)

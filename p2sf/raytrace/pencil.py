@@ -1,5 +1,6 @@
 """The pencil of one source through the pupil by exact skew rays: path differences and fans."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
 from math import inf, sqrt
@@ -238,6 +239,31 @@ def pencil(
 def reaching(lens: Lens, source: Source | Sources, xi: ArrayLike, eta: ArrayLike, stop: Stop | None = None) -> Rays:
     """Return the `pencil` through pupil points; GeometryError where one of its rays does not reach the sensor."""
     return all_reaching(pencil(lens, source, xi, eta, stop=stop))
+
+
+def on_sensor(
+    lens: Lens,
+    sources: Sequence[Source],
+    xi: np.ndarray,
+    eta: np.ndarray,
+    clip: bool = False,
+    stop: Stop | None = None,
+) -> Rays:
+    """Return the `pencil` of several sources of one azimuth, (source, ray), in the axes of the sensor.
+
+    The pupil points are in those axes too.
+    """
+    azimuth = sources[0].azimuth_deg
+    lens, points = in_azimuth(lens, azimuth, xi, eta)
+    return pencil(lens, Sources.of(sources), *points, clip, stop).turned(azimuth)
+
+
+def in_azimuth(
+    lens: Lens, azimuth_deg: float, xi: np.ndarray, eta: np.ndarray
+) -> tuple[Lens, tuple[np.ndarray, np.ndarray]]:
+    """Return a lens and points of its pupil, in the axes of the sensor, as sources in an azimuth see them."""
+    sine, cosine = np.sin(np.deg2rad(azimuth_deg)), np.cos(np.deg2rad(azimuth_deg))
+    return seen_from(lens, azimuth_deg), (xi * cosine - eta * sine, xi * sine + eta * cosine)
 
 
 def reaching_by_surfaces(lens: Lens, source: Source, xi: ArrayLike, eta: ArrayLike) -> Rays:

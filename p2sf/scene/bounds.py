@@ -53,6 +53,6 @@ def transforms(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return half widths of kernels in pixels, and the sides of their transforms in samples, (pupils,) each."""
     fineness, margin = sampling
-    halves = half_widths(pupils, pixel_um, shifts_mm * UM_PER_MM)
+    halves = half_widths(pupils, pixel_um, np.hypot(*shifts_mm.T) * UM_PER_MM)
     sides = (2 * (halves + np.ceil(margin * halves)) + 1) * samples_each(pupils, pixel_um, fineness)
     return halves, sides

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.pixel_kernels.nodes import nodes_along
+from p2sf.scene.field_area import Point
 from p2sf.scene.study import Place, Study, distance, weighted
 
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
@@ -97,32 +98,34 @@ def _in_cell(study: Study, rows: np.ndarray, columns: np.ndarray, wave: float, v
     return found
 
 
-DepthPlace = tuple[float, float, float]  # wavelength, height, vergence
+DepthPlace = tuple[float, Point, float]  # wavelength, point of the area, vergence
 
 
 def depth_places(study: Study) -> list[DepthPlace]:
     """Return where depth nodes are tried: sharpest of all in the corner, in blue, then the axis and both ends."""
     blue, *others = study.waves_um
     axis, middle, corner = study.sharpest(blue)
-    places = [(blue, study.farthest_mm, v) for v in (corner, middle, *study.scan)]
-    places += [(blue, study.nearest_mm, v) for v in (axis, *study.scan)]
-    places += [(wave, study.farthest_mm, study.sharpest(wave)[-1]) for wave in others]
+    far, *others_far, near = study.area.corners
+    places = [(blue, far, v) for v in (corner, middle, *study.scan)]
+    places += [(blue, near, v) for v in (axis, *study.scan)]
+    places += [(blue, point, v) for point in others_far for v in study.scan]
+    places += [(wave, far, study.sharpest(wave)[-1]) for wave in others]
     return list(dict.fromkeys(places))
 
 
 def between_depth_nodes(study: Study, number: int, place: DepthPlace) -> list[Between]:
     """Return what an entry of DEPTH_COUNTS interpolates midway: near a place's vergence, or everywhere between few."""
-    wave, height, vergence = place
+    wave, point, vergence = place
     nodes = study.scene.vergences(DEPTH_COUNTS[number])
     if len(nodes) == 1:
-        return [Between(study.oblique(height, vergence, wave), (study.oblique(height, float(nodes[0]), wave),), (1.0,))]
+        return [Between(study.place(point, vergence, wave), (study.place(point, float(nodes[0]), wave),), (1.0,))]
     last = len(nodes) - 2
     about = np.clip(np.searchsorted(nodes, vergence) + np.array([-2, -1, 0]), 0, last)
     chosen = sorted(set(about.tolist()) | set(range(last + 1) if last < EVERY else ()))
     return [
         Between(
-            study.oblique(height, float(nodes[n : n + 2].mean()), wave),
-            tuple(study.oblique(height, float(v), wave) for v in nodes[n : n + 2]),
+            study.place(point, float(nodes[n : n + 2].mean()), wave),
+            tuple(study.place(point, float(v), wave) for v in nodes[n : n + 2]),
             (0.5, 0.5),
         )
         for n in chosen

@@ -3,19 +3,19 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
-from p2sf.conventions import depth_of
-from p2sf.database.fitted import FittedDatabase
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap, sensor_map
+from p2sf.paraxial.seidel import without_coefficients
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.scene.bounds import check_blur, check_colours
 from p2sf.scene.cost import Cost, predicted_cost
-from p2sf.scene.field_points import FieldMap
+from p2sf.scene.field_area import Point
+from p2sf.scene.field_points import scene_maps
 from p2sf.scene.nodes import (
     DEPTH_COUNTS,
     NODE_COUNTS,
@@ -29,7 +29,6 @@ from p2sf.scene.nodes import (
 from p2sf.scene.pricing import mirrored, naive_work, plan_work
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sharing import seidel_table, share_pupils
-from p2sf.scene.skew import SkewKernels, SkewStudy, database_map
 from p2sf.scene.spectrum import reduced
 from p2sf.scene.study import (
     FINE_SAMPLING,
@@ -40,7 +39,6 @@ from p2sf.scene.study import (
     distance,
     first_allowed,
     from_phase,
-    pupil_at,
     weighted,
 )
 from p2sf.threads import one_blas_thread
@@ -72,8 +70,7 @@ class Plan:
     ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared errors of
     the decisions, times TOGETHER. ``naive``: what the full grid would cost (`pricing.naive_work`).
     ``norm``: the largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance.
-    ``table``: the pupils that all others are interpolated from; None where each is fitted. Of a misaligned lens the
-    database of its fields along x and along y.
+    ``table``: the pupils that all others are interpolated from; None where each is fitted.
     """
 
     lens: Lens
@@ -87,7 +84,7 @@ class Plan:
     predicted_error: float
     cost: Cost
     naive: Cost
-    table: PupilTable | FittedDatabase | None = None
+    table: PupilTable | None = None
     norm: float = 1.0
 
     def __repr__(self) -> str:
@@ -112,29 +109,19 @@ class Plan:
         """Return whether the quarters of the picture are mirror images of each other."""
         return mirrored(self.lens, self.scene)
 
-    def kernels(self, channel: int, vergence: float) -> Kernels | SkewKernels:
+    def kernels(self, channel: int, vergence: float) -> Kernels:
         """Return the kernels of one channel at one depth."""
-        seen, colour, pixel = self.sensor_map(vergence), self.colours[channel], self.scene.sensor.pixel_um
-        if isinstance(seen, FieldMap):
-            assert isinstance(self.table, FittedDatabase)
-            return SkewKernels(seen, colour, pixel, self.recipe, self.table)
-        assert not isinstance(self.table, FittedDatabase)
-        return Kernels(seen, colour, pixel, self.recipe, table=self.table)
+        seen, colour = self.sensor_map(vergence), self.colours[channel]
+        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe, self.table)
 
-    def sensor_map(self, vergence: float) -> SensorMap | FieldMap:
+    def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land."""
-        if isinstance(self.table, FittedDatabase):
-            return _field_map(self.table, self.lens, depth_of(vergence), self.reference_um, self.scene)
-        corner = self.scene.sensor.corners_mm()[1]
-        return _sensor_map(self.lens, depth_of(vergence), self.reference_um, corner, self.scene.clip)
+        return _sensor_map(self.lens, self.scene, vergence, self.reference_um)
 
 
 @lru_cache(maxsize=32)
-def _sensor_map(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: float, clip: bool) -> SensorMap:
-    return sensor_map(lens, depth_mm, wavelength_um, height_mm, clip)
-
-
-_field_map = lru_cache(maxsize=32)(database_map)
+def _sensor_map(lens: Lens, scene: Scene, vergence: float, wavelength_um: float) -> SensorMap:
+    return scene_maps(lens, scene, [vergence], wavelength_um)[0]
 
 
 @one_blas_thread
@@ -147,10 +134,9 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     """
     camera = scene.camera(lens)
     check_colours(camera, scene)
-    study = (SkewStudy if camera.misaligned else Study)(camera, scene, check or (lambda: None))
+    study = Study(camera, scene, check or (lambda: None))
     check_blur(study)
-    if not isinstance(study, SkewStudy):
-        share_pupils(study)
+    share_pupils(study)
     norm = _norm(study)
     budget = scene.relative_error(norm)
     sampling, sampled = _sampling(study, budget)
@@ -158,11 +144,9 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     counts, field = _field(study, budget)
     vergences, depth = _depths(study, budget)
     colours, colour = _colours(study, budget)
-    table: PupilTable | FittedDatabase | None = study.table
-    if isinstance(study, SkewStudy):
-        table = study.database
-    elif study.table and recipe.method == "seidel":
-        table = seidel_table(study, study.table)
+    table = study.table
+    if table and recipe.method == "seidel":
+        table = seidel_table(study, table)
     decisions = (method, sampled, field, depth, *colour, _pupils(study))
     errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
     error = TOGETHER * hypot(*errors)
@@ -203,8 +187,6 @@ def _first(
 
 def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
     """Return the cheapest description of a pupil: six Seidel coefficients, else the fewest fitted numbers."""
-    if isinstance(study, SkewStudy):
-        return _skew_method(study, sampling)
     allowed, places = SHARES["method"] * budget, study.places(study.waves_um[0])
     error = SAFETY * _seidel_error(study, places[:1])
     if error <= allowed:
@@ -226,17 +208,11 @@ def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple
     return Recipe("fitted", level.numbers, *sampling), Decision(what, choice, why, error, "method")
 
 
-def _skew_method(study: SkewStudy, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
-    """Return the fits of a misaligned lens, of which the six coefficients know nothing."""
-    numbers, error = study.database.level.numbers, SAFETY * from_phase(study.database.residual_waves)
-    why = Message("{numbers} fitted numbers; the six Seidel coefficients require rotational symmetry", numbers=numbers)
-    choice = Message("{method}", method="fitted")
-    return Recipe("fitted", numbers, *sampling), Decision(Message("method"), choice, why, error, "method")
-
-
 def _seidel_error(study: Study, places: Sequence[Place]) -> float:
-    """Return the worst error of kernels by Seidel coefficients."""
-    pupils = [pupil_at(place) for place in places]
+    """Return the worst error of kernels by Seidel coefficients; infinite where they do not describe the lens."""
+    if study.lens.misaligned or without_coefficients(study.lens):
+        return inf
+    pupils = [study.pupil_at(place) for place in places]
     made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)
     return max(map(distance, made, study.kernels(places, FINE_SAMPLING)))
 
@@ -245,7 +221,7 @@ def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Deci
     """Return the wavelengths of every channel, and the decisions."""
     colours, decisions = [], []
     axis, _, corner = study.sharpest(study.reference_um)
-    places = [(study.farthest_mm, v) for v in dict.fromkeys((corner, *study.ends))] + [(study.nearest_mm, axis)]
+    places = [(study.area.far, v) for v in dict.fromkeys((corner, *study.ends))] + [(study.area.near, axis)]
     for channel in study.scene.channels:
         every = len(channel.wavelengths_nm)
         number, error = _first(
@@ -261,17 +237,15 @@ def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Deci
     return tuple(colours), decisions
 
 
-def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[float, float]], tries: Tries) -> list[float]:
-    """Return the errors of fewer wavelengths, one more than each try's number, against all, at (height, vergence)."""
+def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point, float]], tries: Tries) -> list[float]:
+    """Return the errors of fewer wavelengths, one more than each try's number, against all, at (point, vergence)."""
     every = reduced(channel, len(channel.wavelengths_nm))
-    pairs = [(reduced(channel, number + 1), places[k]) for number, k in tries]
-    asked = [
-        study.oblique(*place, wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um
-    ]
+    pairs = [(reduced(channel, number + 1), partial(study.place, *places[k])) for number, k in tries]
+    asked = [place(wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um]
     kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one hides the change
 
-    def mixed(colour: Colour, place: tuple[float, float]) -> np.ndarray:
-        return weighted([kernels[study.oblique(*place, wave)] for wave in colour.wavelengths_um], colour.weights)
+    def mixed(colour: Colour, place: Callable[[float], Place]) -> np.ndarray:
+        return weighted([kernels[place(wave)] for wave in colour.wavelengths_um], colour.weights)
 
     return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
 
@@ -339,33 +313,15 @@ def _depths(study: Study, budget: float) -> tuple[tuple[float, ...], Decision]:
 def _pupils(study: Study) -> Decision:
     """Return the decision on how many pupils are fitted."""
     what = Message("pupils")
-    if isinstance(study, SkewStudy):
-        return _skew_pupils(study)
     if study.table is None:
         return Decision(
             what, Message("all"), Message("interpolation between a few of them does not give the others"), 0.0, "pupils"
         )
+    x, y, depths, waves = map(len, study.table.axes)
     why = Message(
-        "heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them",
-        heights=len(study.table.heights_mm),
-        depths=len(study.table.vergences),
-        waves=len(study.table.waves_um),
-    )
-    return Decision(what, Message("{count} fits", count=study.table.fits), why, study.table_error, "pupils")
-
-
-def _skew_pupils(study: SkewStudy) -> Decision:
-    """Return the decision on how many pupils of a misaligned lens are fitted."""
-    depths, up, across, waves, _ = study.database.series.shape
-    why = Message(
-        "depths × fields y × fields x × wavelengths: {depths} × {up} × {across} × {waves}; all others lie on "
-        "polynomials through them",
+        "places × depths × wavelengths: {places} × {depths} × {waves}; all others lie on polynomials through them",
+        places=x * y,
         depths=depths,
-        up=up,
-        across=across,
         waves=waves,
     )
-    error = from_phase(study.database.errors["phase"])
-    return Decision(
-        Message("pupils"), Message("{count} fits", count=depths * up * across * waves), why, error, "pupils"
-    )
+    return Decision(what, Message("{count} fits", count=study.table.fits), why, study.table_error, "pupils")

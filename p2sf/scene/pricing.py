@@ -54,5 +54,5 @@ def naive_recipe(recipe: Recipe) -> Recipe:
 def _widths(study: Study, recipe: Recipe) -> tuple[np.ndarray, np.ndarray]:
     """Return half widths (pixels) and transform sides (samples) in the corner, at the ends and the sharpest depths."""
     depths = dict.fromkeys((*study.ends, *study.sharpest(study.reference_um)))
-    pupils = study.lights([PupilAt(study.farthest_mm, v, study.reference_um) for v in depths])
+    pupils = study.lights([PupilAt(*study.area.far, v, study.reference_um) for v in depths])
     return transforms(*pupils, study.scene.sensor.pixel_um, (recipe.fineness, recipe.margin))

@@ -16,7 +16,6 @@ from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.ray_field import steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.raytrace.vignetting import pupil_nodes
-from p2sf.scene.field_points import FieldMap, landing_mm
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36
@@ -24,36 +23,18 @@ LEAST_POINTS = 4
 
 
 def reference_kernel(
-    seen: SensorMap | FieldMap, channel: Channel, x_mm: float, y_mm: float, half: int, pixel_um: float
+    seen: SensorMap, channel: Channel, x_mm: float, y_mm: float, half: int, pixel_um: float
 ) -> np.ndarray:
     """Return the light per pixel of the point that lands at (x, y) in all its wavelengths, unit sum, row 0 the top."""
-    height, angle = float(np.hypot(x_mm, y_mm)), float(np.arctan2(x_mm, y_mm))
-    size = 2 * half + 1
-    total = np.zeros((size, size))
-    for wavelength, share in zip(channel.wavelengths_um, channel.shares, strict=True):
-        if isinstance(seen, FieldMap):
-            total = total + share * landed_pixels(seen, x_mm, y_mm, float(wavelength), half, pixel_um)
-            continue
-        source = seen.source(height, float(wavelength))
-        shift = seen.shift_mm(height, float(wavelength)) * UM_PER_MM
-        total = total + share * exact_pixels(seen.lens, source, angle, half, pixel_um, shift, seen.clip)
+    total = np.zeros((2 * half + 1, 2 * half + 1))
+    for wavelength, share in zip(channel.wavelengths_um.tolist(), channel.shares.tolist(), strict=True):
+        source = seen.source(x_mm, y_mm, wavelength)
+        across, up = (UM_PER_MM * shift for shift in seen.shift_mm(x_mm, y_mm, wavelength))
+        angle = np.deg2rad(source.azimuth_deg)
+        along, aside = across * np.sin(angle) + up * np.cos(angle), across * np.cos(angle) - up * np.sin(angle)
+        kernel = exact_pixels(seen.lens, source, float(angle), half, pixel_um, float(along), seen.clip, float(aside))
+        total = total + share * kernel
     return total
-
-
-def landed_pixels(
-    seen: FieldMap, x_mm: float, y_mm: float, wavelength_um: float, half: int, pixel_um: float
-) -> np.ndarray:
-    """Return `exact_pixels` of the object point that lands at a place through a misaligned lens."""
-    source, aside, shift = landed_point(seen, x_mm, y_mm, wavelength_um)
-    return exact_pixels(seen.lens, source, np.deg2rad(source.azimuth_deg), half, pixel_um, shift, seen.clip, aside)
-
-
-def landed_point(seen: FieldMap, x_mm: float, y_mm: float, wavelength_um: float) -> tuple[Source, float, float]:
-    """Return the object point for a wavelength, and how far it lands from the place, µm across and along its field."""
-    source = seen.source(x_mm, y_mm, wavelength_um)
-    right, up = (UM_PER_MM * (a - b) for a, b in zip(landing_mm(seen.lens, source), (x_mm, y_mm), strict=True))
-    sine, cosine = np.sin(np.deg2rad(source.azimuth_deg)), np.cos(np.deg2rad(source.azimuth_deg))
-    return source, float(right * cosine - up * sine), float(right * sine + up * cosine)
 
 
 def exact_pixels(

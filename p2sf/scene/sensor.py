@@ -60,6 +60,10 @@ class Sensor:
         y: np.ndarray = ((self.rows - 1) / 2 - np.asarray(row)) * self.pixel_mm + self.centre_mm[1]
         return y
 
+    def ends_mm(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return where the rectangle begins and ends along x and along y, (2,) mm each."""
+        return self.x_mm([-0.5, self.columns - 0.5]), self.y_mm([self.rows - 0.5, -0.5])
+
     def corners_mm(self) -> tuple[float, float]:
         """Return the least and the greatest distance of a pixel from the axis, mm."""
         x, y = self.x_mm(np.array([-0.5, self.columns - 0.5])), self.y_mm(np.array([-0.5, self.rows - 0.5]))

@@ -1,18 +1,23 @@
-"""How few pupils need fitting: the others, over the field's radius, the depths and colours, are interpolated."""
+"""How few pupils need fitting: the others, over the field, the depths and colours, are interpolated."""
 
-from collections.abc import Sequence
+from itertools import product
 from math import inf
 
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
-from p2sf.scene.study import DIGITS, Place, PupilAt, Study, distance, pupil_at
+from p2sf.pixel_kernels.pupil_table import Axes, PupilTable, chebyshev, pupil_table
+from p2sf.scene.field_area import DIGITS
+from p2sf.scene.study import Place, PupilAt, Study, distance
 
-COUNTS = 2, 3, 5, 9, 17  # of fits over the radius, the depths or the colours: each one's nodes are among the next one's
+COUNTS = (
+    2,
+    3,
+    5,
+    9,
+    17,
+)  # of fits over a side of the field, the depths or the colours: each one's nodes are among the next one's
 TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # relative error of a kernel that interpolation along one axis may cause
-
-Axes = tuple[Sequence[float], Sequence[float], Sequence[float]]  # heights, vergences, wavelengths
 
 
 def share_pupils(study: Study) -> None:
@@ -21,17 +26,21 @@ def share_pupils(study: Study) -> None:
     Along each axis nodes are added until pupils midway between them change no kernel by more than TARGET_ERROR.
     """
     ends = (
-        (study.nearest_mm, study.farthest_mm),
+        study.area.x_mm,
+        study.area.y_mm,
         (study.ends[0], study.ends[-1]),
         (study.waves_um[0], study.waves_um[-1]),
     )
     # Entries of COUNTS: aberrations grow with powers of the height, and are nearly linear in 1/depth and wavelength.
-    counts = [start if low < high else -1 for start, (low, high) in zip((1, 0, 0), ends, strict=True)]
-    errors, tried = [0.0, 0.0, 0.0], [axis for axis in range(3) if counts[axis] >= 0]
+    counts = [start if low < high else -1 for start, (low, high) in zip((1, 1, 0, 0), ends, strict=True)]
+    errors, tried = [0.0] * len(ends), [axis for axis, count in enumerate(counts) if count >= 0]
     while True:
-        axes = tuple(_nodes(*end, count).tolist() for end, count in zip(ends, counts, strict=True))
+        x, y, depths, waves = (_nodes(*end, count).tolist() for end, count in zip(ends, counts, strict=True))
+        axes = x, y, depths, waves
         places = {axis: _between(study, axis, _nodes(*ends[axis], counts[axis] + 1)) for axis in tried}
-        study.fitted([*_grid(axes), *(pupil_at(place) for several in places.values() for place in several)])  # together
+        study.fitted(
+            [*_grid(axes), *(study.pupil_at(place) for several in places.values() for place in several)]
+        )  # together
         table = pupil_table(axes, *study.fitted(_grid(axes)))
         for axis in tried:
             errors[axis] = _error(study, table, places[axis])
@@ -46,8 +55,7 @@ def share_pupils(study: Study) -> None:
 
 def seidel_table(study: Study, table: PupilTable) -> PupilTable:
     """Return the table of the pupils by Seidel coefficients at the same nodes."""
-    axes = table.heights_mm, table.vergences, table.waves_um
-    return pupil_table(axes, study.by_seidel(_grid(axes)), table.shifts_mm)
+    return pupil_table(table.axes, study.by_seidel(_grid(table.axes)), table.shifts_mm)
 
 
 def _nodes(low: float, high: float, entry: int) -> np.ndarray:
@@ -55,7 +63,7 @@ def _nodes(low: float, high: float, entry: int) -> np.ndarray:
 
 
 def _grid(axes: Axes) -> list[PupilAt]:
-    return [PupilAt(round(h, DIGITS), v, w) for h in axes[0] for v in axes[1] for w in axes[2]]
+    return [PupilAt(round(x, DIGITS), round(y, DIGITS), v, wave) for x, y, v, wave in product(*axes)]
 
 
 def _between(study: Study, axis: int, finer: np.ndarray) -> list[Place]:
@@ -63,20 +71,22 @@ def _between(study: Study, axis: int, finer: np.ndarray) -> list[Place]:
 
     Pixels wider than a sharp kernel hide errors there that a blurred kernel shows, and the other way round.
     """
-    wave, middles = study.waves_um[0], finer[1::2].tolist()
+    wave, middles, area = study.waves_um[0], finer[1::2].tolist(), study.area
     sharp = study.sharpest(wave)
     depths = list(dict.fromkeys((sharp[-1], *study.ends)))
-    if axis == 0:
-        return [study.oblique(h, v, wave) for h in middles for v in depths]
-    if axis == 1:
+    if axis < 2:
+        across = dict.fromkeys((area.y_mm, area.x_mm)[axis])
+        points = [(middle, other)[:: -1 if axis else 1] for middle in middles for other in across]
+        return [study.place((x, y), v, wave) for x, y in points for v in depths]
+    if axis == 2:
         tried = dict.fromkeys((*middles, *sharp))
-        return [study.oblique(h, v, wave) for h in (study.farthest_mm, study.nearest_mm) for v in tried]
-    return [study.oblique(study.farthest_mm, v, w) for v in depths for w in middles]
+        return [study.place(point, v, wave) for point in area.corners for v in tried]
+    return [study.place(area.far, v, w) for v in depths for w in middles]
 
 
 def _error(study: Study, table: PupilTable, places: list[Place]) -> float:
     """Return the worst error of kernels from a table against those from their own rays."""
-    pupils = [pupil_at(place) for place in places]
+    pupils = [study.pupil_at(place) for place in places]
     try:
         between = table.at(*zip(*pupils, strict=True))
     except GeometryError:  # so far off that they lose light

@@ -6,24 +6,24 @@ No error measured here depends on the tolerance, so that a looser tolerance can 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import groupby
-from math import hypot
 from typing import NamedTuple
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM, depth_of
+from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
-from p2sf.paraxial.seidel import coefficients
-from p2sf.pixel_kernels import Recipe, SensorMap, sensor_maps
-from p2sf.pixel_kernels.channel import wave_kernels
+from p2sf.lens.source import Source
+from p2sf.pixel_kernels import Recipe, SensorMap
+from p2sf.pixel_kernels.channel import PointLights
 from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, seidel_pupils
-from p2sf.pixel_kernels.pixels import half_widths
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
-from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
+from p2sf.pixel_kernels.sensor_points import oriented
 from p2sf.pupil.mask_nodes import throughput
-from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.fit import Level, PencilForms, levels
+from p2sf.pupil.zernike import terms
+from p2sf.raytrace.fit import Level, PencilForms, levels_for
+from p2sf.scene.field_area import Point, field_area
+from p2sf.scene.field_points import scene_maps
 from p2sf.scene.scene import Scene
 
 # Fineness and margin of `Recipe`, cheapest first.
@@ -32,10 +32,10 @@ SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0
 COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[4]
 CONVERGED_WAVES = 3e-4
 SCAN, DEPTHS = 65, 5  # depths among which the sharpest are sought, and at which nodes are tried besides
-SEEN_AT = 0.0, 0.6, 1.0  # of the farthest height: where the sharpest depths are sought
+SEEN_AT = 0.0, 0.6, 1.0  # of the way to the farthest point: where the sharpest depths are sought
 
+FOCUSED = 4  # depths between which the phase is interpolated where the sharpest are sought
 CHIEF_RAYS = 65  # between which fields are found by height: linearly to some 1e-6
-DIGITS = 12  # of heights in mm, so that the same height is one pupil however it was computed
 
 Sampling = tuple[float, float]
 
@@ -50,9 +50,10 @@ class Place(NamedTuple):
 
 
 class PupilAt(NamedTuple):
-    """A height on the sensor, mm, one depth and one wavelength: all points of a circle share their pupil."""
+    """A point of a `FieldArea`, mm, one depth and one wavelength."""
 
-    height_mm: float
+    x_mm: float
+    y_mm: float
     vergence: float
     wave_um: float
 
@@ -75,13 +76,13 @@ class Study:
     def __post_init__(self) -> None:
         middle = self.scene.channels[len(self.scene.channels) // 2]
         self.reference_um = float(middle.wavelengths_um @ middle.shares)
-        self.nearest_mm, self.farthest_mm = self.scene.sensor.corners_mm()
+        self.area = field_area(self.lens, self.scene.sensor)
         every = [float(wave) for channel in self.scene.channels for wave in channel.wavelengths_um]
         self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
         self.scan = tuple(dict.fromkeys(map(float, self.scene.vergences(DEPTHS))))  # both, and depths between them
         self._maps: dict[float, SensorMap] = {}
-        self._fits: dict[PupilAt, tuple[FrequencyPupil, float]] = {}
+        self._fits: dict[PupilAt, tuple[FrequencyPupil, np.ndarray]] = {}
         self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
         self._kernels: dict[tuple[Place, Sampling], np.ndarray] = {}
 
@@ -94,9 +95,8 @@ class Study:
         """Compute the maps of several depths together."""
         missing = [v for v in dict.fromkeys(vergences) if v not in self._maps]
         if missing:
-            depths = [depth_of(v) for v in missing]
-            found = sensor_maps(self.lens, depths, self.reference_um, self.farthest_mm, self.scene.clip, CHIEF_RAYS)
-            self._maps.update(zip(missing, found, strict=True))
+            maps = scene_maps(self.lens, self.scene, missing, self.reference_um, CHIEF_RAYS)
+            self._maps.update(zip(missing, maps, strict=True))
 
     def sharpest(self, wave: float) -> list[float]:
         """Return the vergences of the smallest blur at SEEN_AT of the field: on the axis, between, in the corner."""
@@ -104,25 +104,34 @@ class Study:
 
     @cached_property
     def _sharpest(self) -> dict[float, list[float]]:
+        """Return where the variance of the phase is least, which is a polynomial of the vergence."""
         scan = self.scene.vergences(SCAN)
-        depths = np.array([depth_of(v) for v in scan])[:, None, None]
-        slopes = np.asarray(self.sensor_map(self.ends[0]).slope(np.array(SEEN_AT) * self.farthest_mm))
-        six = coefficients(self.lens, depths, slopes[:, None], np.array(self.waves_um))
-        blur = np.abs(six.wd + six.w40 + six.w20 + six.w22 / 2)
-        return {wave: scan[at].tolist() for wave, at in zip(self.waves_um, blur.argmin(0).T, strict=True)}
+        nodes = tuple(chebyshev(float(scan[0]), float(scan[-1]), FOCUSED if len(self.ends) > 1 else 1).tolist())
+        points = [self.area.outwards(part) for part in SEEN_AT]
+        pupils = [PupilAt(*point, v, wave) for wave in self.waves_um for point in points for v in nodes]
+        phase = fitted_forms(self.lens, self._sources(pupils), self.level)[0].phase
+        degree = np.array([n for odd in (False, True) for n, _ in terms(self.level.wave_order, odd)])[: phase.shape[-1]]
+        between = np.array([lagrange(nodes, v) for v in scan.tolist()])
+        phases = between @ phase[:, degree > 1].reshape(len(self.waves_um), len(points), len(nodes), -1)
+        least = np.square(phases).sum(-1).argmin(-1)
+        return {wave: scan[at].tolist() for wave, at in zip(self.waves_um, least, strict=True)}
 
     def places(self, wave: float) -> list[Place]:
-        """Return where choices on single pupils are tried: the corner, sharp and at both ends of depth, and the axis.
+        """Return where choices on single pupils are tried: the corner, sharp and at both ends of depth, and the centre.
 
         At depths between these, what a description of the pupil leaves out shows less.
         """
         axis, _, corner = self.sharpest(wave)
-        found = [self.oblique(self.farthest_mm, v, wave) for v in (corner, *self.ends)]
-        return list(dict.fromkeys((*found, self.oblique(self.nearest_mm, axis, wave))))
+        found = [self.place(self.area.far, v, wave) for v in (corner, *self.ends)]
+        return list(dict.fromkeys((*found, self.place(self.area.near, axis, wave))))
 
-    def oblique(self, height_mm: float, vergence: float, wave_um: float) -> Place:
-        """Return a place at this height in a direction that no pixel grid shares."""
-        return Place(0.6 * height_mm, 0.8 * height_mm, vergence, wave_um)
+    def place(self, point: Point, vergence: float, wave_um: float) -> Place:
+        """Return a place of the sensor with the pupil of a point of the area."""
+        return Place(*self.area.on_sensor(point), vergence, wave_um)
+
+    def pupil_at(self, place: Place) -> PupilAt:
+        """Return the pupil of a place."""
+        return PupilAt(*self.area.point_of(place.x_mm, place.y_mm), place.vergence, place.wave_um)
 
     @cached_property
     def level(self) -> Level:
@@ -132,7 +141,7 @@ class Study:
     @property
     def levels(self) -> tuple[Level, ...]:
         """Return the sizes of fit, smallest first."""
-        return levels(self.lens.aim)
+        return levels_for(self.lens)
 
     def residual(self, level: Level) -> float:
         """Return the largest RMS phase residual of fits of this size, waves, at the ends of field and depth."""
@@ -140,7 +149,7 @@ class Study:
         return float(self._corner_fits(level)[0].residual_waves.max() / np.sqrt(share))
 
     def _corner_fits(self, level: Level) -> tuple[PencilForms, np.ndarray]:
-        """Return the fits of one size at the ends of field and depth, and where their chief rays land, mm."""
+        """Return the fits of one size at the ends of field and depth, and where their chief rays land, (n, 2) mm."""
         if level not in self._of_corners:
             self.check()
             self._of_corners[level] = fitted_forms(self.lens, self._sources(self.corners), level)
@@ -149,26 +158,15 @@ class Study:
     @property
     def corners(self) -> list[PupilAt]:
         """Return the pupils at both ends of field and depth in the shortest wavelength, which shows most."""
-        return [
-            PupilAt(round(h, DIGITS), v, self.waves_um[0])
-            for h in (self.farthest_mm, self.nearest_mm)
-            for v in self.ends
-        ]
+        return [PupilAt(*self.area.point_of(*p), v, self.waves_um[0]) for p in self.area.corners for v in self.ends]
 
-    def _sources(self, pupils: Sequence[PupilAt]) -> Sources:
-        """Return the object points of pupils; those of one depth and colour, which share a map, next to each other."""
+    def _sources(self, pupils: Sequence[PupilAt]) -> list[Source]:
+        """Return the object points of pupils."""
         self.map_depths(at.vergence for at in pupils)
-        slopes = np.empty(len(pupils))
-        for (vergence, wave), group in groupby(range(len(pupils)), lambda k: pupils[k][1:]):
-            here = list(group)
-            slopes[here] = self._maps[vergence].slopes_at(np.array([pupils[k].height_mm for k in here]), wave)
-        depths, waves = (
-            np.array(column) for column in zip(*((depth_of(at.vergence), at.wave_um) for at in pupils), strict=True)
-        )
-        return Sources(depths, slopes, waves)
+        return [self._maps[at.vergence].source(at.x_mm, at.y_mm, at.wave_um) for at in pupils]
 
     def fitted(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
-        """Return pupils from their own rays, and their lateral colour in mm, (pupils,); each is fitted once."""
+        """Return pupils from their own rays, and how far each lands from its place, (pupils, 2) mm; fitted once."""
         missing = [at for at in dict.fromkeys(pupils) if at not in self._fits]
         if missing:
             self.check()
@@ -178,7 +176,7 @@ class Study:
             order = max((pupil.order for pupil, _ in self._fits.values()), default=ORDERS[0])
             made = pupils_of(self.lens, sources, fits, self.level, self.scene.clip, order)
             for k, at in enumerate(missing):
-                self._fits[at] = made.one(k), float(landed[k]) - at.height_mm
+                self._fits[at] = made.one(k), landed[k] - at[:2]
         found = [self._fits[at] for at in pupils]
         return stacked([pupil for pupil, _ in found]), np.array([shift for _, shift in found])
 
@@ -187,7 +185,7 @@ class Study:
         return seidel_pupils(self.lens, self._sources(pupils), self.scene.clip)
 
     def lights(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
-        """Return pupils and their lateral colour in mm, (pupils,): from the table, or while there is none fitted."""
+        """Return pupils as `fitted` does: from the table, or while there is none from their own rays."""
         if self.table is None:
             return self.fitted(pupils)
         return self.table.at(*zip(*pupils, strict=True))
@@ -197,27 +195,18 @@ class Study:
         missing = [place for place in dict.fromkeys(places) if (place, sampling) not in self._kernels]
         if missing:
             self.check()
-            made = self.made(missing, sampling)
+            made = self.rendered(missing, *self.lights([self.pupil_at(place) for place in missing]), sampling)
             self._kernels.update(zip(((place, sampling) for place in missing), made, strict=True))
         return [self._kernels[place, sampling] for place in places]
-
-    def made(self, places: Sequence[Place], sampling: Sampling) -> list[np.ndarray]:
-        """Return the kernels of places."""
-        return self.rendered(places, *self.lights([pupil_at(place) for place in places]), sampling)
 
     def rendered(
         self, places: Sequence[Place], pupils: PupilStack, shifts_mm: np.ndarray, sampling: Sampling = COARSE_SAMPLING
     ) -> list[np.ndarray]:
         """Return the kernels of pupils, one for each place."""
-        x, y, pixel, shifts = *np.array(places)[:, :2].T, self.scene.sensor.pixel_um, shifts_mm * UM_PER_MM
-        angles, halves = np.arctan2(x, y), half_widths(pupils, pixel, shifts)
-        along = shifts[:, None] * np.stack([np.sin(angles), np.cos(angles)], axis=1)
-        return wave_kernels(pupils, angles, halves, pixel, Recipe("fitted", None, *sampling), along)
-
-
-def pupil_at(place: Place) -> PupilAt:
-    """Return the pupil of a place."""
-    return PupilAt(round(hypot(place.x_mm, place.y_mm), DIGITS), place.vergence, place.wave_um)
+        _, _, angles = oriented(self.lens, *np.array(places)[:, :2].T)
+        lights = PointLights(pupils, 0 * angles, shifts_mm * UM_PER_MM).turned(angles)
+        pixel = self.scene.sensor.pixel_um
+        return lights.kernels(lights.half_widths(pixel), pixel, Recipe("fitted", None, *sampling))
 
 
 Tries = Sequence[tuple[int, int]]

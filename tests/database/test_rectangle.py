@@ -19,10 +19,10 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels.sensor_points import landing_mm
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 from p2sf.pupil.mask import PupilMask
-from p2sf.scene.field_points import landing_mm
 
 ACROSS, UP = slope_from_degrees([-5.0, 0.0, 6.0]), slope_from_degrees([-6.0, 0.0, 7.0])
 SPACE = Space([5000.0, np.inf], UP, [0.5, 0.6], ACROSS)

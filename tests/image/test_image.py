@@ -123,7 +123,7 @@ def test_the_slanted_edge_has_the_psfs_contrast():
     places = np.arange(len(line)) / bins
     edge = np.abs(np.exp(-2j * np.pi * np.outer(f, places)) @ line) / line.sum() / np.sinc(f / bins) ** 2
     seen = planned.sensor_map(0.0)
-    psf = huygens_psf(seen.lens, seen.source(8.0, 0.54), 256, 0.7)
+    psf = huygens_psf(seen.lens, seen.source(0.0, 8.0, 0.54), 256, 0.7)
     along = np.cos(angle) * psf.x_um + np.sin(angle) * psf.y_um[:, None]
     wave = np.exp(-2j * np.pi * f[:, None, None] / pixel * along)
     boxes = (np.sinc(f * np.cos(angle)) * np.sinc(f * np.sin(angle))) ** 2
@@ -156,7 +156,7 @@ def test_light_falls_off_as_the_cosines_fourth_power_for_a_thin_stop():
     """E ∝ cos⁴ for a stop that nothing magnifies; the landscape lens, whose stop stands before it, is close to that."""
     planned = quick(Sensor(100, 100, 60.0), "landscape")
     shade = illumination(planned.sensor_map(0.0), planned.scene.sensor)
-    slope = planned.sensor_map(0.0).slope(planned.scene.sensor.corners_mm()[1])
+    slope = planned.sensor_map(0.0).fields.slopes(0.0, planned.scene.sensor.corners_mm()[1])[1]
     assert shade[50, 50] == pytest.approx(1, abs=1e-3)
     assert shade[0, 0] == pytest.approx((1 + slope**2) ** -2, abs=0.03)
 

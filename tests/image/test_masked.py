@@ -115,7 +115,7 @@ def test_illumination_is_the_light_that_passes_the_mask(mask):
     along, across = xi * np.sin(angle) + eta * np.cos(angle), xi * np.cos(angle) - eta * np.sin(angle)
 
     def light(height: float) -> float:
-        source = view.source(height, 0.546)
+        source = view.source(0.0, height, 0.546)
         rays = pupil_rays(lens, source, across, along)
         cosine = 1 / np.sqrt(1 + rays.slope_x**2 + rays.slope_y**2)
         return float(
@@ -123,8 +123,8 @@ def test_illumination_is_the_light_that_passes_the_mask(mask):
         )
 
     plain = seen(LENS, 15.0)
-    clear = float(relative_illumination(plain, 12.0))
-    ratio = float(relative_illumination(view, 12.0, angle)) / clear
+    clear = float(relative_illumination(plain, 0.0, 12.0))
+    ratio = float(relative_illumination(view, 12.0 * np.sin(angle), 12.0 * np.cos(angle))) / clear
     wanted = light(12.0) / light(0.0)
     mask_free = light_without(plain, across, along)
     assert ratio == pytest.approx(wanted / mask_free, rel=2e-3)
@@ -137,7 +137,7 @@ def light_without(view: SensorMap, across: np.ndarray, along: np.ndarray) -> flo
     inside = xi**2 + eta**2 < 1
     found = []
     for height in (12.0, 0.0):
-        source = view.source(height, 0.546)
+        source = view.source(0.0, height, 0.546)
         rays = pupil_rays(view.lens, source, xi[inside], eta[inside])
         cosine = 1 / np.sqrt(1 + rays.slope_x**2 + rays.slope_y**2)
         found.append(float((rays.launch * cosine + 0 * xi[inside]).sum() / (1 + source.field_slope**2) ** 1.5))
@@ -156,7 +156,7 @@ def test_the_image_of_a_point_is_its_psf_within_what_the_plan_predicts(mask):
         values[row, column] = 1
         found = form_image(planned, values, how=Forming(surround="black", geometry=False))[..., 0]
         x, y = float(scene.sensor.x_mm(column)), float(scene.sensor.y_mm(row))
-        source = planned.sensor_map(0.0).source(float(np.hypot(x, y)), 0.546)
+        source = planned.sensor_map(0.0).source(x, y, 0.546)
         half = 7
         part = found[row - half : row + half + 1, column - half : column + half + 1]
         wanted = exact_pixels(lens, source, float(np.arctan2(x, y)), half, 4.0, 0.0)

@@ -138,8 +138,8 @@ def timed_plan(lens, scene) -> tuple[Plan, float]:
 def check_affordable(planned: Plan) -> None:
     """Raise GeometryError for a scene whose reference sum is hours of work, as of a relay far out of focus."""
     sensor, seen = planned.scene.sensor, planned.sensor_map(planned.vergences[0])
-    half = planned.kernels(0, planned.vergences[0]).half_width(sensor.corners_mm()[1])
-    source = seen.source(sensor.corners_mm()[1], min(planned.colours[0].wavelengths_um))
+    half = rim_half(planned, planned.vergences[0])
+    source = seen.source(0.0, sensor.corners_mm()[1], min(planned.colours[0].wavelengths_um))
     probe = disc_nodes(*PROBE)
     steep = steepness(pencil(seen.lens, source, probe.xi, probe.eta), probe.xi, probe.eta)
     size = 2 * half + 1
@@ -149,6 +149,12 @@ def check_affordable(planned: Plan) -> None:
         raise GeometryError(
             "its reference is a sum of {products:.0e} products; too long to be tried", products=products
         )
+
+
+def rim_half(planned: Plan, vergence: float) -> int:
+    """Return the half width of the kernel at the sensor's farthest corner, pixels."""
+    corner = [0.0], [planned.scene.sensor.corners_mm()[1]]
+    return int(planned.kernels(0, vergence).points(*corner).half_widths()[0])
 
 
 def plan_seconds(planned: Plan) -> float:
@@ -168,15 +174,14 @@ def naive_seconds(planned: Plan) -> float:
     sensor, recipe = planned.scene.sensor, naive_recipe(planned.recipe)
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
     places = [(v, c, a, b) for v in planned.vergences for c in planned.scene.channels for a in rows for b in columns]
-    ends, rim = (planned.vergences[0], planned.vergences[-1]), sensor.corners_mm()[1]
-    half = max(planned.kernels(0, v).half_width(rim) for v in ends)
+    half = max(rim_half(planned, v) for v in (planned.vergences[0], planned.vergences[-1]))
     picked = [places[n] for n in np.linspace(0, len(places) - 1, min(SAMPLE, len(places))).astype(int)]
     views = {v: planned.sensor_map(v) for v, *_ in picked}
     started = process_time()
     for v, channel, row, column in picked:
         colour = Colour(tuple(channel.wavelengths_um.tolist()), tuple(channel.shares.tolist()))
-        kernels = Kernels(views[v], colour, sensor.pixel_um, recipe, half)
-        kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))
+        kernels = Kernels(views[v], colour, sensor.pixel_um, recipe)
+        kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)), half)
     return (process_time() - started) * len(places) / len(picked)
 
 

@@ -8,12 +8,11 @@ from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Recipe, sensor_map
-from p2sf.pixel_kernels.channel import own_pupil
+from p2sf.pixel_kernels.channel import own_light
 from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupil_map, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.pixel_kernels.pupil_stack import cutting_rims, stacked
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
-from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import levels
 from p2sf.scene.reference import exact_pixels
 
@@ -79,9 +78,9 @@ def test_clipped_weighted_pupils_between_fitted_ones_are_those_of_rays():
     lens, recipe = with_aim(find_lens("double_gauss_28"), "stop"), Recipe("fitted")
     seen = sensor_map(lens, np.inf, WAVE, 25.0, clip=True)
     heights = chebyshev(18.0, 25.0, 5)
-    pupils, shifts = zip(*(own_pupil(seen, h, WAVE, recipe) for h in heights), strict=True)
-    table = pupil_table((heights, [0.0], [WAVE]), stacked(pupils), np.array(shifts))
-    made, own = table.at(22.3, 0.0, WAVE)[0].one(0), own_pupil(seen, 22.3, WAVE, recipe)[0]
+    pupils, landings = zip(*(own_light(seen, 0.0, h, WAVE, recipe) for h in heights), strict=True)
+    table = pupil_table(([0.0], heights, [0.0], [WAVE]), stacked(pupils), np.array(landings)[:, 1:])
+    made, own = table.at(0.0, 22.3, 0.0, WAVE)[0].one(0), own_light(seen, 0.0, 22.3, WAVE, recipe)[0]
     assert made.rims.shape[0] == own.rims.shape[0] and made.energy == pytest.approx(own.energy, rel=0.02)
     window = PixelWindow(20, 8.0, 8)
     one, two = (pixel_kernel(pupil, ANGLE, window) for pupil in (made, own))
@@ -91,7 +90,7 @@ def test_clipped_weighted_pupils_between_fitted_ones_are_those_of_rays():
 def test_clipped_pupils_fitted_together_are_those_fitted_alone():
     lens = find_lens("double_gauss_28")
     slopes, level = np.tan(np.deg2rad([3.0, 13.0, 14.0])), levels(lens.aim)[1]
-    sources = Sources(np.full(3, np.inf), slopes, np.full(3, WAVE))
+    sources = [Source(np.inf, slope, WAVE) for slope in slopes.tolist()]
     forms, _ = fitted_forms(lens, sources, level)
     together = pupils_of(lens, sources, forms, level, clip=True)
     for k, slope in enumerate(slopes):

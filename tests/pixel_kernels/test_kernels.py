@@ -9,8 +9,8 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, distortion_at, sensor_map
-from p2sf.pixel_kernels.channel import own_pupil
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
+from p2sf.pixel_kernels.channel import own_light
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, pixel_kernels
 from p2sf.pixel_kernels.pupil_stack import stacked
@@ -103,10 +103,10 @@ def test_a_view_finds_the_field_that_lands_where_it_says():
     seen = sensor_map(lens, np.inf, WAVE, 24.0)
     from p2sf.pixel_kernels.sensor_points import chief_heights
 
-    landed = chief_heights(lens, Source(np.inf, seen.slope(np.array([3.0, 20.0])), WAVE))
+    landed = chief_heights(lens, Source(np.inf, seen.fields.slopes(0.0, np.array([3.0, 20.0]))[1], WAVE))
     assert np.allclose(landed, [3.0, 20.0], atol=1e-4)  # linear between 257 chief rays
-    assert distortion_at(seen, 0.0) == 0 and -0.02 < distortion_at(seen, 24.0) < -0.005
-    assert seen.shift_mm(10.0, WAVE) == 0 and seen.shift_mm(10.0, 0.45) != 0
+    assert seen.ideal_mm(0.0, 0.0) == (0, 0) and -0.02 < 24.0 / seen.ideal_mm(0.0, 24.0)[1] - 1 < -0.005
+    assert seen.shift_mm(0.0, 10.0, WAVE) == pytest.approx((0, 0), abs=1e-5) != seen.shift_mm(0.0, 10.0, 0.45)
     with pytest.raises(GeometryError, match="sensor's corner"):
         sensor_map(lens, np.inf, WAVE, 500.0)
 
@@ -143,18 +143,18 @@ def test_pupils_between_a_few_are_the_ones_that_rays_give():
     heights, depths, waves = chebyshev(2.0, 15.0, 4), 1 / chebyshev(1e-5, 2e-4, 3), (0.54, 0.55, 0.56)
     seen = {1 / d: sensor_map(lens, d, WAVE, 16.0) for d in (*depths, 9000.0)}
     nodes = heights, list(seen)[:3], waves
-    fits = [own_pupil(seen[v], h, w, recipe) for h in heights for v in nodes[1] for w in waves]
-    pupils, shifts = zip(*fits, strict=True)
-    table = pupil_table(nodes, stacked(pupils), np.array(shifts))
-    between, landed = table.at([3.1, 11.7], 1 / 9000.0, 0.545)
+    fits = [own_light(seen[v], 0.0, h, w, recipe) for h in heights for v in nodes[1] for w in waves]
+    pupils, landings = zip(*fits, strict=True)
+    table = pupil_table(((0.0,), *nodes), stacked(pupils), np.array(landings)[:, 1:])
+    between, landed = table.at(0.0, [3.1, 11.7], 1 / 9000.0, 0.545)
     for k, height in enumerate((3.1, 11.7)):
-        made, (own, shift) = between.one(k), own_pupil(seen[1 / 9000.0], height, 0.545, recipe)
+        made, (own, shift) = between.one(k), own_light(seen[1 / 9000.0], 0.0, height, 0.545, recipe)
         assert np.linalg.norm(made.phase[1:] - own.phase[1:]) < 1e-3
-        assert np.abs(made.eta - own.eta).max() < 1e-4 and landed[k] == pytest.approx(shift, abs=2e-5)
+        assert np.abs(made.eta - own.eta).max() < 1e-4 and landed[k] == pytest.approx(shift[1:], abs=2e-5)
         assert made.reach_um == pytest.approx(own.reach_um, rel=0.02)
-    node = own_pupil(seen[1 / depths[1]], 15.0, 0.56, recipe)[0]
-    assert np.allclose(table.at(15.0, 1 / depths[1], 0.56)[0].phase, node.phase, atol=1e-9)
-    for place in ((15.1, 1e-4, 0.55), (5.0, 1e-3, 0.55), (5.0, 1e-4, 0.57)):
+    node = own_light(seen[1 / depths[1]], 0.0, 15.0, 0.56, recipe)[0]
+    assert np.allclose(table.at(0.0, 15.0, 1 / depths[1], 0.56)[0].phase, node.phase, atol=1e-9)
+    for place in ((0.0, 15.1, 1e-4, 0.55), (0.1, 5.0, 1e-4, 0.55), (0.0, 5.0, 1e-3, 0.55), (0.0, 5.0, 1e-4, 0.57)):
         with pytest.raises(GeometryError, match="outside the pupils fitted"):  # it never extrapolates
             table.at(*place)
 

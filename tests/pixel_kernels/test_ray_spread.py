@@ -12,7 +12,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import RAYS, Colour, Kernels, Recipe, sensor_map
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernel, samples_across
-from p2sf.pixel_kernels.ray_spread import ray_kernel, ray_spread
+from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from tests.support.pupil_sums import phase_and_frequency
@@ -104,9 +104,9 @@ def test_rims_darken_their_part_of_the_pupil():
 def test_kernels_of_rays_carry_their_lateral_colour():
     seen = sensor_map(find_lens("fast_gauss_f14"), np.inf, WAVE, 15.0)
     kernels = Kernels(seen, Colour((0.45, WAVE), (0.5, 0.5)), 16.0, Recipe(RAYS))
-    assert not kernels.pupils(13.0) and len(kernels.lights(13.0)) == 2
+    assert [type(light) for light, _ in kernels.lights(0.0, 13.0)] == [RaySpread, RaySpread]
     kernel = kernels.at(0.0, 13.0)
-    assert kernel.shape[0] == 2 * kernels.half_width(13.0) + 1
+    assert kernel.shape[0] == 2 * kernels.points([0.0], [13.0]).half_widths()[0] + 1
     assert kernel.sum(dtype=float) == pytest.approx(1, abs=1e-6)
     assert np.allclose(kernel, kernel[:, ::-1], atol=2e-4 * kernel.max())  # rays on a pixel's edge fall to one side
 

@@ -108,7 +108,7 @@ def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
     worst = 0.0
     for vergence in shared.vergences:
         one, other = (found.kernels(0, vergence) for found in (shared, each))
-        for h in shared.table.heights_mm:
+        for h in shared.table.y_mm:
             worst = max(worst, distance(one.at(0.6 * h, 0.8 * h), other.at(0.6 * h, 0.8 * h)))
     said = next(decision.error for decision in shared.decisions if decision.kind == "pupils")
     assert 0 < worst <= said <= 0.15 * scene.tolerance
@@ -123,7 +123,7 @@ def test_as_many_heights_are_fitted_as_the_error_between_them_requires(monkeypat
         share_pupils(study)
         tables.append((study.table, study.table_error))
     (few, error), (more, less) = tables
-    assert len(few.heights_mm) == 3 < len(more.heights_mm)
+    assert len(few.y_mm) == 3 < len(more.y_mm)
     assert error > 1e-3 >= less > 0
 
 
@@ -302,7 +302,7 @@ def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():
     few, every = (reference_kernel(study.sensor_map(0.0), c, 0.0, 0.0, 6, 10.3) for c in (one, channel))
     exact = distance(few, every)
     assert exact > 0.01
-    assert _colour_errors(study, channel, [(0.0, 0.0)], [(0, 0)]) == [pytest.approx(exact, rel=0.1)]
+    assert _colour_errors(study, channel, [((0.0, 0.0), 0.0)], [(0, 0)]) == [pytest.approx(exact, rel=0.1)]
 
 
 def test_corners_are_the_nearest_and_farthest_pixels():

@@ -295,7 +295,7 @@ def illumination(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
                 setup.lens, setup.source.depth_mm, setup.source.wavelength_um, float(landed[known].max()), clip
             )
             for number in np.flatnonzero(known):
-                found[row, number] = float(relative_illumination(seen, landed[number]))
+                found[row, number] = float(relative_illumination(seen, 0.0, landed[number]))
                 yield (row + (number + 1) / len(slopes)) / 2, light_curves(request, found, pinhole, missing)
         except P2SFError as error:  # a lens without rims, or a corner that no light reaches
             missing = error.message

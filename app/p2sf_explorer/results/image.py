@@ -19,7 +19,6 @@ from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
 from p2sf.image.deblur import estimated_noise, psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
-from p2sf.image.misaligned import settled_lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
 from p2sf.io.transfer import srgb_from_linear
@@ -27,11 +26,11 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_image_height
-from p2sf.pixel_kernels import RAYS, Kernels, Recipe
+from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
-from p2sf.scene.field_points import field_map
+from p2sf.scene.field_area import field_area
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.photos import MOST_PIXELS, NOISE, channels_of, cut_away, full_shape, own_shape, scene_values
 
@@ -331,25 +330,16 @@ def _taken_values(request: ImageRequest) -> np.ndarray:
 def _taken_lattice(
     request: ImageRequest, channels: int, watch: Progress, quick: bool, known: ImageResult | None
 ) -> tuple[Plan, Lattice]:
-    """Return the plan and the kernels of a photo that the lens took.
-
-    Plans know no rims of lenses without symmetry: behind those a tilted sensor has kernels by exact rays.
-    """
+    """Return the plan and the kernels of a photo that the lens took."""
     if known and len(known.plan.scene.channels) == channels:
         return known.plan, known.lattice
     assert request.pixel_um is not None
     light = channels_of(request.lens) if channels > 1 else (Channel("grey", (request.grey_nm,), (1.0,)),)
     sensor = Sensor(*request.shape, request.pixel_um, (0.0, request.centre_mm))
     scene = Scene(sensor, light, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
-    behind_rims = request.clip and bool(request.lens.sensor_before)
-    if quick or behind_rims:
-        straight = preview_plan(scene.camera(replace(request.lens, sensor_before=())), scene)
-        if quick:
-            return straight, preview_lattice(straight, part_of(watch, 0.0, PLANNING))
-        middle = light[len(light) // 2]
-        reference = float(middle.shares @ middle.wavelengths_um)
-        seen = field_map(request.lens, request.depth_mm, reference, sensor, request.clip)
-        return straight, settled_lattice(seen, scene, part_of(watch, 0.0, PLANNING))[0]
+    if quick:
+        coarse_plan = preview_plan(scene.camera(request.lens), scene)
+        return coarse_plan, preview_lattice(coarse_plan, part_of(watch, 0.0, PLANNING))
     made = plan(request.lens, scene, planning(watch, PLANNING / 2))
     return made, plan_lattice(made, made.vergences[0], part_of(watch, PLANNING / 2, PLANNING))
 
@@ -508,9 +498,7 @@ def fine_enough(answer: ImageResult) -> bool:
 def no_plan(plan: Plan) -> Message | None:
     """Return why a plan is not worth its time, `TOO_WIDE` or `TOO_LARGE`; None where it is."""
     kernels = plan.kernels(len(plan.colours) // 2, plan.vergences[0])
-    if not isinstance(kernels, Kernels):  # of a misaligned lens, whose database refuses what no fit describes
-        return None
-    middle, _ = kernels.lights(plan.scene.sensor.corners_mm()[0])[0]
+    middle, _ = kernels.lights(*field_area(plan.lens, plan.scene.sensor).near)[0]
     if 2 * middle.radius * kernels.pixel_um > MOST_SAMPLES:
         return TOO_LARGE
     return TOO_WIDE if by_rays(plan) else None

@@ -11,7 +11,6 @@ from PySide6.QtCore import QPointF, Qt
 from p2sf.errors import Cancelled, GeometryError, RequestError
 from p2sf.image import Progress, form_image
 from p2sf.image.lattice import Lattice
-from p2sf.image.misaligned import channel_kernels
 from p2sf.image.similarity import ssim
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.io.transfer import srgb_from_linear
@@ -20,7 +19,7 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.messages import Message
 from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.illumination import light_collected
-from p2sf.scene.field_points import field_map
+from p2sf.scene.reference import reference_kernel
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.results import image, photos
@@ -233,7 +232,7 @@ def test_the_picture_obeys_clipping():
     ratio = clipped.after[..., 1] / whole.after[..., 1]
     assert ratio[ROWS // 2, COLUMNS // 2] == pytest.approx(1, abs=1e-3)
     seen = clipped.plan.sensor_map(0.0)
-    corner = seen.source(clipped.plan.scene.sensor.corners_mm()[1], seen.wavelength_um)
+    corner = seen.source(0.0, clipped.plan.scene.sensor.corners_mm()[1], seen.wavelength_um)
     light = [light_collected(seen.lens, corner, clip) for clip in (True, False)]
     assert ratio[0, 0] == pytest.approx(light[0] / light[1], abs=5e-3) and ratio[0, 0] < 0.98
     assert np.abs(clipped.lattice.kernels[0][0] - whole.lattice.kernels[0][0]).max() > 1e-3
@@ -382,21 +381,22 @@ def test_the_map_shows_each_psf_at_its_place(found):
     assert pieces[0] == 0 and pieces[-1] == shape[1] and pieces == sorted(pieces)
 
 
-def test_a_photo_taken_by_a_tilted_sensor_is_sharpened_by_a_plan(tmp_path):
+@pytest.mark.parametrize("clip", [False, True])
+def test_a_photo_taken_by_a_tilted_sensor_is_sharpened_by_a_plan(tmp_path, clip):
     """Its kernels are those of exact rays; fits of a plan leave 2 %, where the scene allows 10 %."""
     write_photo(tmp_path / "taken.tif", np.random.default_rng(0).random((64, 96, 1), np.float32), "linear")
     taken = dict(photo_show="taken", photo_pixel_um=16.0, photo_source=str(tmp_path / "taken.tif"))
-    state = changed(new_state(), f_number=5.6, errors=(("tilt_x", 12, 12, 3.0),), **taken)
+    state = changed(new_state(), f_number=5.6, errors=(("tilt_x", 12, 12, 3.0),), clip=clip, **taken)
     asked = question(compute.live(state))
     found = image.planned(asked)
     scene, lattice = found.plan.scene, found.lattice
     assert found.plan.decisions and asked.lens.sensor_before
-    seen = field_map(asked.lens, asked.depth_mm, asked.grey_nm / 1000, scene.sensor)
+    seen = found.plan.sensor_map(found.plan.vergences[0])
+    assert seen.clip == clip
     for corner in (0, -1):
-        place = float(lattice.row_nodes[corner]), float(lattice.column_nodes[corner])
-        exact, kernel = channel_kernels(seen, scene, *place)[0], lattice.kernels[corner][corner][0]
-        size = max(len(exact), len(kernel))
-        exact, kernel = (np.pad(part, (size - len(part)) // 2) for part in (exact, kernel))
+        kernel, sensor = lattice.kernels[corner][corner][0], scene.sensor
+        x, y = float(sensor.x_mm(lattice.column_nodes[corner])), float(sensor.y_mm(lattice.row_nodes[corner]))
+        exact = reference_kernel(seen, scene.channels[0], x, y, len(kernel) // 2, sensor.pixel_um)
         assert np.linalg.norm(kernel - exact) < 0.02 * np.linalg.norm(exact)
     top, bottom = (lattice.kernels[row][row].max() for row in (0, -1))
     assert abs(top - bottom) > 0.1 * bottom, "they are focused differently"

@@ -1164,7 +1164,6 @@
 <message><source>depth {depth:.6g} mm lies between the last finite node, {last:.6g} mm, and infinity, where table1 has no rule; add nodes or build with the exact interpolant</source><translation>der Objektabstand {depth:.6g} mm liegt zwischen dem letzten endlichen Knoten, {last:.6g} mm, und unendlich, wo table1 keine Regel hat; Knoten hinzufügen oder mit der Interpolation exact bauen</translation></message>
 <message><source>depth {depth:g} mm is not in front of the lens; give positive depths</source><translation>der Objektabstand {depth:g} mm liegt nicht vor dem Objektiv; positive Abstände angeben</translation></message>
 <message><source>depth, even in 1/depth</source><translation>Abstand, gleichmäßig in 1/Abstand</translation></message>
-<message><source>depths × fields y × fields x × wavelengths: {depths} × {up} × {across} × {waves}; all others lie on polynomials through them</source><translation>Tiefen × Felder y × Felder x × Wellenlängen: {depths} × {up} × {across} × {waves}; alle anderen liegen auf Polynomen durch sie</translation></message>
 <message><source>diameter</source><translation>Durchmesser</translation></message>
 <message><source>did you mean {glasses}?</source><translation>ist {glasses} gemeint?</translation></message>
 <message><source>did you mean {name}?</source><translation>ist {name} gemeint?</translation></message>
@@ -1291,7 +1290,6 @@
 <message><source>has a shape that is not a sphere, a conic or an asphere in powers of r</source><translation>hat eine Form, die keine Kugel, kein Kegelschnitt und keine Asphäre in Potenzen von r ist</translation></message>
 <message><source>has a shape that is not a sphere, a conic or an even asphere</source><translation>hat eine Form, die weder Kugel noch Kegelschnitt noch gerade Asphäre ist</translation></message>
 <message><source>has no diffracted direction behind surface {surface}, whose phase is too steep there</source><translation>hat hinter Fläche {surface} keine gebeugte Richtung, deren Phase dort zu steil ist</translation></message>
-<message><source>heights × depths × wavelengths: {heights} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Höhen × Abstände × Wellenlängen: {heights} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
 <message><source>high precision grade</source><translation>Klasse hochpräzise</translation></message>
 <message><source>huygens</source><translation>huygens</translation></message>
 <message><source>huygens: the reference sum</source><translation>huygens: die Referenzsumme</translation></message>
@@ -1514,6 +1512,7 @@
 <message><source>pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}</source><translation>Pixel von {pixel:g} µm mitteln feinere Streifen; das Fenster hat einen Rand von {margin:.0%}</translation></message>
 <message><source>place in the entrance pupil, pupil radii</source><translation>Ort in der Eintrittspupille, Pupillenradien</translation></message>
 <message><source>place in the stop, stop radii</source><translation>Ort in der Blende, Blendenradien</translation></message>
+<message><source>places × depths × wavelengths: {places} × {depths} × {waves}; all others lie on polynomials through them</source><translation>Orte × Abstände × Wellenlängen: {places} × {depths} × {waves}; alle übrigen liegen auf Polynomen durch diese</translation></message>
 <message><source>planned</source><translation>geplant</translation></message>
 <message><source>planning</source><translation>Plan</translation></message>
 <message><source>play is "{name}"; name a slider: {sliders}</source><translation>play ist "{name}"; einen Regler nennen: {sliders}</translation></message>
@@ -1883,7 +1882,6 @@
 <message><source>the scene</source><translation>die Szene</translation></message>
 <message><source>the scene has no channel; give at least one</source><translation>die Szene hat keinen Kanal; mindestens einen angeben</translation></message>
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
-<message><source>the scene has several depths, but a picture through a misaligned lens has one; give near_mm and far_mm the same value and leave depth_map out</source><translation>die Szene hat mehrere Tiefen, und ein Bild durch ein dejustiertes Objektiv kennt nur eine; near_mm und far_mm gleich angeben und depth_map weglassen</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
 <message><source>the sensitivities were stopped before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
@@ -2202,7 +2200,6 @@
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
-<message><source>{numbers} fitted numbers; the six Seidel coefficients require rotational symmetry</source><translation>{numbers} angepasste Zahlen; die sechs Seidel-Koeffizienten kennen nur Rotationssymmetrie</translation></message>
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{off:.3g} mm from the middle of this picture, which was moved in to stay within the field of the lens</source><translation>{off:.3g} mm von der Mitte dieses Bilds, das nach innen gerückt wurde, um im Feld des Objektivs zu bleiben</translation></message>
@@ -2262,7 +2259,6 @@
 <message><source>{parameter} is {value}; give several, in a tuple</source><translation>{parameter} ist {value}; geben Sie mehrere an, als Tupel</translation></message>
 <message><source>{parameter} is {value}; give {wanted}</source><translation>{parameter} ist {value}; geben Sie {wanted} an</translation></message>
 <message><source>{parameter} is {value}; write LOW:HIGH:COUNT, one number, or numbers with {separators}</source><translation>{parameter} ist {value}; VON:BIS:ANZAHL schreiben, eine Zahl, oder Zahlen mit {separators} dazwischen</translation></message>
-<message><source>{parameter} needs a lens of rotational symmetry, and this one has none; leave it out</source><translation>{parameter} braucht ein rotationssymmetrisches Objektiv, und dieses ist keines; weglassen</translation></message>
 <message><source>{parameter} reaches {value:.4g} µm, and this line spread is known up to {most:.4g} µm from its centroid; give positions within that</source><translation>{parameter} reicht bis {value:.4g} µm, und diese Linienbildfunktion ist bis {most:.4g} µm vom Schwerpunkt bekannt; geben Sie Orte innerhalb davon an</translation></message>
 <message><source>{path} cannot be read ({why}); give a lesson as UTF-8 text</source><translation>{path} ist nicht lesbar ({why}); eine Lektion als UTF-8-Text angeben</translation></message>
 <message><source>{path} cannot be read ({why}); give a state file that exists</source><translation>{path} ist nicht lesbar ({why}); eine Zustandsdatei angeben, die es gibt</translation></message>
