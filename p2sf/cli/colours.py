@@ -41,7 +41,9 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
         setup.source,
         wanted,
         window,
-        lambda lens, source, pixels, pixel_um: render_integrated(lens, source, method, pixels, pixel_um),
+        lambda lens, source, pixels, pixel_um: render_integrated(
+            lens, source, method, pixels, pixel_um, picture.tolerance, clip=picture.clip
+        ),
     )
     if output:
         write_colour_psf(found, output, describe(setup))

@@ -40,15 +40,12 @@ class SetOptions:
         Wavelengths, nm.
     fill_factor
         Of a set: the share of a pixel's area that is sensitive, a square in its middle; 1 when not given.
-    clip
-        Of a set: let the clear rims of the lens clip.
     """
 
     depths_mm: str | None = None
     fields_deg: str | None = None
     wavelengths_nm: str | None = None
     fill_factor: float | None = None
-    clip: bool = False
 
     @property
     def asked(self) -> bool:
@@ -57,15 +54,14 @@ class SetOptions:
 
     def check_one(self) -> None:
         """Raise RequestError for what only a set has."""
-        for name in ("fill_factor", "clip"):
-            if getattr(self, name):
-                raise RequestError(
-                    "{parameter} is for a set of PSFs; give {depths}, {fields} or {wavelengths} too, or leave it out",
-                    parameter=name,
-                    depths=ParameterName("depths_mm"),
-                    fields=ParameterName("fields_deg"),
-                    wavelengths=ParameterName("wavelengths_nm"),
-                )
+        if self.fill_factor:
+            raise RequestError(
+                "{parameter} is for a set of PSFs; give {depths}, {fields} or {wavelengths} too, or leave it out",
+                parameter="fill_factor",
+                depths=ParameterName("depths_mm"),
+                fields=ParameterName("fields_deg"),
+                wavelengths=ParameterName("wavelengths_nm"),
+            )
 
 
 ONE = SetOptions()
@@ -87,6 +83,8 @@ class Picture:
         Samples along each side; 64 when not given, of a set 65, with the chief ray on the middle one.
     pixel_um
         Distance between samples, µm; one that holds the PSF when not given.
+    clip
+        Stop rays at every clear semi-diameter.
     """
 
     method: Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"] | None = None
@@ -94,6 +92,7 @@ class Picture:
     sampling: Literal["fft", "mdft"] | None = None
     pixels: Whole | None = None
     pixel_um: float | None = None
+    clip: bool = False
 
     def __post_init__(self) -> None:
         check_samples(self.pixels, self.pixel_um)
@@ -180,6 +179,12 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
                 sampling=ParameterName("sampling"),
                 path=lens,
             )
+        if picture.clip:
+            raise RequestError(
+                "{parameter} needs the lens, and {path} is a database; leave it out or name the lens",
+                parameter="clip",
+                path=lens,
+            )
         found = looked_up(lens, request, picture.side, picture.pixel_um)
         result, about, title, accuracy = found.psf, found.about, found.title, found.accuracy
         energy = None
@@ -190,7 +195,7 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
             caution(setup, picture.seidel and picture.sampling != "fft")
         result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
         accuracy = None
-        aim, energy = setup.lens.aim, energy_of(setup, result.method)
+        aim, energy = setup.lens.aim, energy_of(setup, result.method, picture.clip)
     if output:
         write_psf(result, output, about)
     if as_json:
@@ -229,18 +234,23 @@ def render(setup: Setup, picture: Picture) -> Psf:
         return _from_coefficients(setup, picture)
     from p2sf.psf.pixel_integrals import render_integrated
 
-    made = render_integrated(setup.lens, setup.source, method, picture.side, picture.pixel_um, picture.tolerance)
+    made = render_integrated(
+        setup.lens, setup.source, method, picture.side, picture.pixel_um, picture.tolerance, clip=picture.clip
+    )
     return replace(made, azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     from p2sf.paraxial.seidel import check_seidel, coefficients
+    from p2sf.psf.methods import check_unclipped
     from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
     from p2sf.raytrace.seen_mask import mask_seen
 
     source = setup.source
     check_seidel(setup.lens)
+    if picture.clip:
+        check_unclipped(setup.lens, source, "seidel")
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.side))
     finest = float(critical_pixel_um(six.wavelength_um, six.na))
@@ -253,10 +263,10 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     )
 
 
-def energy_of(setup: Setup, method: str) -> Energy | None:
+def energy_of(setup: Setup, method: str, clip: bool = False) -> Energy | None:
     """Return the energy of the pupil that a method describes; None where it describes none that can be summed."""
     try:
-        parts, used = parts_of(setup.lens, setup.source, method)
+        parts, used = parts_of(setup.lens, setup.source, method, clip)
         return energy_in(parts, used)
     except P2SFError:  # of a fitted shape, of lost rays: what the samples hold is left
         return None

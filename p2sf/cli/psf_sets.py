@@ -50,7 +50,7 @@ def write_set(
         caution(setup, seidel=False)
     grid = PixelGrid(picture.pixel_um or PIXEL_UM, several.fill_factor or 1.0, picture.pixels or PIXELS)
     with percent_line() as tell:
-        found = psf_set(setup.lens, _axes(setup, several), grid, several.clip, Progress(tell))
+        found = psf_set(setup.lens, _axes(setup, several), grid, picture.clip, Progress(tell))
     if output:
         write_psf_set(found, output)
     warn(left_out(found))

@@ -266,7 +266,7 @@ def method_of(name: str) -> Method:
 
 def _psf_by(method: Method, asked: PsfRequest) -> Psf:
     if asked.clip and method.whole:
-        _check_unclipped(asked.lens, asked.source, method.name)
+        check_unclipped(asked.lens, asked.source, method.name)
     return method.psf(asked)
 
 
@@ -297,7 +297,8 @@ def _by_huygens(asked: PsfRequest) -> Psf:
     return huygens_psf(asked.lens, asked.source, *asked.window, tolerance, clip=asked.clip, quality=asked.quality)
 
 
-def _check_unclipped(lens: Lens, source: Source, method: str) -> None:
+def check_unclipped(lens: Lens, source: Source, method: str) -> None:
+    """Raise GeometryError where rims clip a pupil that this method describes as whole."""
     xi, eta, _ = level_rays(levels_for(lens)[0])
     lost = int((~pencil(lens, source, xi, eta, clip=True).passed).sum())
     if lost:

@@ -45,6 +45,29 @@ def test_a_folder_that_is_not_there(capsys):
     assert "no_such_folder" in error and "make the folder" in error
 
 
+def test_rims_clip_as_in_the_library(answer, refused):
+    """One colour and a spectrum of one line; what describes the whole pupil is refused."""
+    lens, source, place = (
+        p2sf.load_lens("double_gauss_28"),
+        p2sf.Source(field_deg=14),
+        ("double_gauss_28", "--field-deg", 14),
+    )
+    own, whole = (p2sf.render(lens, source, pixels=64, pixel_um=4.0, clip=clip) for clip in (True, False))
+    found = answer("psf", *place, "--pixel-um", 4, "--clip")
+    assert found["strehl"] == pytest.approx(own.strehl, rel=1e-9) and abs(own.strehl / whole.strehl - 1) > 0.1
+    all_light = p2sf.encircled_energy(lens, source, clip=True)
+    assert found["radius_80_um"] == pytest.approx(all_light.radius_80_um, rel=1e-6)  # that of its root
+    line = ("--spectrum", f"lines:{1000 * source.wavelength_um}", "--pixel-um", 4)
+    assert answer("psf", *place, *line, "--clip")["methods"] == [own.method] != answer("psf", *place, *line)["methods"]
+    for wrong in (("--method", "seidel"), ("--sampling", "mdft"), ("--method", "fitted")):
+        assert "--clip" in refused("psf", *place, *wrong, "--clip")
+
+
+def test_a_spectrum_keeps_the_tolerance(answer):
+    line = ("tessar", "--field-deg", 20, "--spectrum", "lines:588", "--pixels", 16)
+    assert answer("psf", *line)["methods"] != answer("psf", *line, "--tolerance", 0.999999)["methods"] == ["huygens"]
+
+
 def test_the_figures_are_those_of_all_light(answer, tmp_path):
     """Of a wide window whose share of all light is known, its samples on the circle counted in part."""
     wide = ("--pixels", 256, "--pixel-um", 0.4, "-o", tmp_path / "a.npz")

@@ -58,7 +58,6 @@ def test_light_beside_the_pixels_is_warned_of(capsys):
         (("--depths-mm", "inf", "--field-x-deg", "3"), "--field-x-deg"),
         (("--depths-mm", "inf", "-o", "set.png"), ".fits"),
         (("--fill-factor", "0.5"), "--fill-factor"),
-        (("--clip",), "--clip"),
         (("--fields-deg", "0:14:4096", "--wavelengths-nm", "400:700:4096"), "GiB"),
     ],
 )
