@@ -50,6 +50,8 @@ PARAMETERS = {
         Parameter("tolerance", "the tolerance"),
         Parameter("clip", "Clip at rims"),
         Parameter("obscuration", "Obscuration"),
+        Parameter("obscuration_x", "Obscuration in x"),
+        Parameter("obscuration_y", "Obscuration in y"),
         Parameter("vanes", "Vanes"),
         Parameter("vane_width", "Vane width"),
         Parameter("vane_angle_deg", "Vane angle", "°"),

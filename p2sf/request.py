@@ -3,7 +3,7 @@
 The library, the command line and the window all come through `set_up`, so that a request means the same everywhere.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import inf, isfinite, isinf
 from typing import Literal
 
@@ -40,18 +40,6 @@ from p2sf.pupil.mask import CLEAR, PupilMask
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]
 """As `Lens.aim`; "real" is the former name of "stop"."""
-MASK = (
-    "obscuration",
-    "vanes",
-    "vane_width",
-    "vane_angle_deg",
-    "blades",
-    "roundness",
-    "blade_angle_deg",
-    "apodisation",
-    "apodisation_power",
-    "cubic_um",
-)
 FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
 
 
@@ -92,7 +80,9 @@ class Request:
     absorption
         Take from the rays what the media absorb whose catalogue (AGF) states their internal transmittance.
     obscuration
-        Radius of a dark disc in the middle of the stop, as a share of the rim's, 0 to 0.99.
+        Radius of a dark disc in the stop, as a share of the rim's, 0 to 0.99.
+    obscuration_x, obscuration_y
+        Where the middle of the dark disc stands, as shares of the rim's radius; all of it lies within the rim.
     vanes
         Number of vanes that run from the middle of the stop to its rim.
     vane_width
@@ -128,6 +118,8 @@ class Request:
     aim: AimChoice | None = None
     absorption: bool | None = None
     obscuration: float | None = None
+    obscuration_x: float | None = None
+    obscuration_y: float | None = None
     vanes: int | None = None
     vane_width: float | None = None
     vane_angle_deg: float | None = None
@@ -152,6 +144,10 @@ class Request:
         _check_one_focus(self)
         _check_stop(self.stop)
         check_aim(self.aim)
+
+
+MASK = tuple(field.name for field in fields(Request) if field.name in {part.name for part in fields(PupilMask)})
+"""What of the mask in the stop a request may state."""
 
 
 @dataclass(frozen=True)

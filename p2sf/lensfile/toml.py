@@ -12,7 +12,7 @@ absorption = true                # rays lose what the media of catalogues absorb
 f_number = 8
 
 [pupil]                          # what stands in the stop; left out: nothing. All keys may be left out
-obscuration = 0.3                # dark disc, radius over the rim's
+obscuration = 0.3                # dark disc, radius over the rim's; also obscuration_x, obscuration_y: its middle
 vanes = 4                        # also vane_width (over the rim's diameter), vane_angle_deg (from +y towards +x)
 blades = 6                       # also roundness (0 straight, 1 a circle), blade_angle_deg
 apodisation = 0.8                # 1/e of the amplitude at this radius over the rim's; apodisation_power 2, 4, …

@@ -1,6 +1,7 @@
 """The table [pupil] of a lens file in TOML: what stands in the stop."""
 
 from collections.abc import Iterator
+from dataclasses import fields
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -13,17 +14,7 @@ from p2sf.lensfile.toml_table import Constraint, Table, shown
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMap, PupilMask
 
-NUMBERS = (
-    "obscuration",
-    "vane_width",
-    "vane_angle_deg",
-    "roundness",
-    "blade_angle_deg",
-    "apodisation",
-    "cubic_um",
-    "turn_deg",
-)
-COUNTS = ("vanes", "blades", "apodisation_power")
+NUMBERS, COUNTS = (tuple(field.name for field in fields(PupilMask) if field.type is kind) for kind in (float, int))
 MAPS = {"phase_map": "µm", "amplitude_map": "1"}
 FILES = {"phase_file": "phase_map", "amplitude_file": "amplitude_map"}
 PUPIL = (*NUMBERS, *COUNTS, "zernike_um", *MAPS, *FILES, "phase_file_um")

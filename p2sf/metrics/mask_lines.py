@@ -34,7 +34,7 @@ def edges_of(mask: PupilMask) -> tuple[list[tuple[np.ndarray, np.ndarray]], list
     corners = [angle % (2 * pi) for angle in mask.corner_angles]
     theta = np.unique(np.concatenate([np.linspace(0, 2 * pi, CURVE, endpoint=False), corners]))
     sine, cosine, outer = np.sin(theta), np.cos(theta), outline_radius(mask, theta)
-    middle = [(mask.obscuration * sine, mask.obscuration * cosine)] if mask.obscuration else []
+    middle = [mask.disc.outline(theta)] if mask.obscured else []
     iris = [(outer * sine, outer * cosine)] if mask.iris else []
     return iris, middle + [_vane_edge(mask, angle) for angle in mask.vane_angles]
 

@@ -8,14 +8,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
 from hashlib import sha256
-from math import cos, inf, pi, radians, sin, sqrt
+from math import acos, atan2, cos, hypot, inf, pi, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_fields, real_array
-from p2sf.conventions import protected
+from p2sf.conventions import FloatOrArray, protected
 from p2sf.errors import RequestError
 from p2sf.parameters import check_finite
 from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
@@ -30,6 +30,7 @@ NARROWEST_APODISATION, MOST_POWER = 0.1, 20
 LONGEST_PATH_UM = 1e6  # a metre: a steeper phase than any, and far from where slopes overflow
 FEWEST_CELLS, MOST_CELLS, SAMPLED = 4, 1024, 129
 SAME_ANGLE_DEG = 1e-9
+SAME_PLACE = 1e-12  # of the rim's radius: less is rounding
 EDGE_HARMONICS = 0.5  # waves of slope that an amplitude's slope of 1 per radius counts as
 PROBE = 65  # points across the pupil where slopes are looked for
 
@@ -100,7 +101,7 @@ class PupilMask:
     Parameters
     ----------
     obscuration : float
-        Radius of the dark disc in the middle, as a share of the rim's, 0 to 0.99.
+        Radius of the dark disc, as a share of the rim's, 0 to 0.99.
     vanes : int
         Number of vanes from the middle to the rim, evenly spaced.
     vane_width : float
@@ -127,6 +128,8 @@ class PupilMask:
         Amplitude let through, as a factor.
     turn_deg : float
         The whole mask turned, degrees from +η towards +ξ.
+    obscuration_x, obscuration_y : float
+        Where the middle of the dark disc stands in ξ and η, shares of the rim's radius; all of it lies within the rim.
 
     Raises
     ------
@@ -148,10 +151,13 @@ class PupilMask:
     phase_map: PupilMap | None = None
     amplitude_map: PupilMap | None = None
     turn_deg: float = 0.0
+    obscuration_x: float = 0.0
+    obscuration_y: float = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self)
         _check_between("obscuration", self.obscuration, 0, LARGEST_OBSCURATION)
+        _check_within(self.obscuration, self.obscuration_x, self.obscuration_y)
         _check_count("vanes", self.vanes, 1, MOST_VANES)
         _check_between("vane_width", self.vane_width, 0, WIDEST_VANE)
         _check_count("blades", self.blades, FEWEST_BLADES, MOST_BLADES)
@@ -195,7 +201,20 @@ class PupilMask:
     @property
     def edged(self) -> bool:
         """Return whether something dark with a hard edge stands in the disc."""
-        return bool(self.obscuration or self.spider or self.iris)
+        return bool(self.obscured or self.spider or self.iris)
+
+    @property
+    def obscured(self) -> bool:
+        """Return whether there is an obscuration."""
+        return self.obscuration > 0
+
+    @cached_property
+    def disc(self) -> "Disc":
+        """Return the obscuration where it stands, of radius 0 in the middle where there is none."""
+        if not self.obscured:
+            return Disc(0.0, 0.0, 0.0)
+        xi, eta = _turned_points(self.obscuration_x, self.obscuration_y, self.turn_deg)
+        return Disc(float(xi), float(eta), self.obscuration)
 
     @property
     def spider(self) -> bool:
@@ -210,7 +229,7 @@ class PupilMask:
     @property
     def annular(self) -> bool:
         """Return whether all that stands in the stop is an obscuration, so that the pupil is a ring."""
-        return bool(self.obscuration) and not (self.spider or self.iris or self.shaded or self.phased)
+        return self.obscured and self.round and not (self.iris or self.shaded or self.phased)
 
     @property
     def shaded(self) -> bool:
@@ -229,7 +248,8 @@ class PupilMask:
         maps = [part for part in (self.phase_map, self.amplitude_map) if part is not None]
         terms = [t for t, waves in zip(_terms(len(self.zernike_um)), self.zernike_um, strict=True) if waves]
         return (
-            not (self.spider and not _mirrored(self.vane_angle_deg + self.turn_deg, self.vanes))
+            abs(self.disc.xi) <= SAME_PLACE
+            and not (self.spider and not _mirrored(self.vane_angle_deg + self.turn_deg, self.vanes))
             and not (self.iris and not _mirrored(self.blade_angle_deg + self.turn_deg, self.blades))
             and not self.cubic_um
             and all(upright and part.even for part in maps)
@@ -241,7 +261,8 @@ class PupilMask:
         """Return whether the mask looks alike from every azimuth."""
         terms = [t for t, waves in zip(_terms(len(self.zernike_um)), self.zernike_um, strict=True) if waves]
         maps = self.phase_map is not None or self.amplitude_map is not None
-        return not (self.spider or self.iris or self.cubic_um or maps) and all(term.m == 0 for term in terms)
+        straight = self.spider or self.iris or self.cubic_um or maps
+        return self.disc.centred and not straight and all(term.m == 0 for term in terms)
 
     @cached_property
     def quartered(self) -> bool:
@@ -250,8 +271,9 @@ class PupilMask:
 
     @cached_property
     def round_part(self) -> "PupilMask":
-        """Return what of the mask every azimuth sees alike, without its phase: the obscuration and the apodisation."""
-        return replace(self.without_phase(), vanes=0, blades=0, amplitude_map=None)
+        """Return what of the mask every azimuth sees alike, without its phase: a central obscuration, apodisation."""
+        middle = self.obscuration if self.disc.centred else 0.0
+        return replace(self.without_phase(), vanes=0, blades=0, amplitude_map=None, obscuration=middle)
 
     def turned(self, angle_deg: float) -> "PupilMask":
         """Return the mask turned, degrees from +η towards +ξ; the same object where that makes no difference."""
@@ -285,7 +307,7 @@ class PupilMask:
     def opens(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return which points of the disc no obscuration, vane or blade covers, bool."""
         xi, eta = np.asarray(xi, float), np.asarray(eta, float)
-        open_: np.ndarray = xi * xi + eta * eta >= self.obscuration**2
+        open_: np.ndarray = self.disc.depth(xi, eta) <= 0
         for edge in self.edges:
             open_ &= edge.lies_inside(xi, eta)
         if self.spider:
@@ -310,6 +332,41 @@ class PupilMask:
     def edges(self) -> "tuple[BladeEdge, ...]":
         """Return the edges of the blades; none for a round stop."""
         return tuple(BladeEdge(angle + pi / self.blades, self.blades, self.roundness) for angle in self.corner_angles)
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A disc about (ξ, η) of this radius, all in radii of the rim."""
+
+    xi: float
+    eta: float
+    radius: float
+
+    @property
+    def centred(self) -> bool:
+        """Return whether it stands in the middle of the stop."""
+        return not (self.xi or self.eta)
+
+    def depth(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return how far inside the disc points lie, negative outside."""
+        depth: np.ndarray = self.radius - np.hypot(xi - self.xi, eta - self.eta)
+        return depth
+
+    def chord(
+        self, xi: np.ndarray, eta: np.ndarray, sine: FloatOrArray, cosine: FloatOrArray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return where lines from points enter the disc and leave it, along the directions (sine, cosine).
+
+        Where a line passes the disc both are its nearest point.
+        """
+        across, up = xi - self.xi, eta - self.eta
+        along = across * sine + up * cosine
+        half = np.sqrt(np.maximum(along**2 + self.radius**2 - across * across - up * up, 0))
+        return -half - along, half - along
+
+    def outline(self, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return ξ and η of its edge in directions from its middle, radians from +η towards +ξ."""
+        return self.xi + self.radius * np.sin(theta), self.eta + self.radius * np.cos(theta)
 
 
 @dataclass(frozen=True)
@@ -379,13 +436,25 @@ class BladeEdge:
             rise * cosine - sine,
         )
 
-    def crossing(self, radius: float) -> float | None:
-        """Return how far from its middle, in radians about the centre, the edge crosses a circle; None if not."""
+    def crossings(self, disc: Disc) -> tuple[float, ...]:
+        """Return the directions from the middle of a disc in which its edge crosses that of the blade, radians.
+
+        On the circle the depth inside is a constant and a cosine of the angle from one direction. Only crossings
+        between the corners of the blade count.
+        """
         square, linear, constant = self._numbers()
-        if linear == 0 or radius == 0:
-            return None
-        cosine = (square * radius**2 + constant) / (radius * linear)
-        return float(np.arccos(cosine)) if cos(pi / self.blades) < cosine < 1 else None
+        normal_xi, normal_eta = sin(self.angle), cos(self.angle)
+        across, up = linear * normal_xi - 2 * square * disc.xi, linear * normal_eta - 2 * square * disc.eta
+        swing = disc.radius * hypot(across, up)
+        mean = linear * (disc.xi * normal_xi + disc.eta * normal_eta) - constant
+        mean -= square * (disc.xi**2 + disc.eta**2 + disc.radius**2)
+        if not abs(mean) < swing:
+            return ()
+        middle, apart = atan2(across, up), acos(-mean / swing)
+        found = (middle - apart, middle + apart)
+        places = np.stack(disc.outline(np.array(found)))
+        along = places[0] * normal_eta - places[1] * normal_xi  # from the middle of the chord
+        return tuple(angle for angle, at in zip(found, along, strict=True) if abs(at) < self.half_length)
 
 
 @dataclass(frozen=True)
@@ -414,7 +483,7 @@ def _terms(count: int) -> tuple:
     return zernike_terms("noll", count) if count else ()
 
 
-def _turned_points(xi: np.ndarray, eta: np.ndarray, angle_deg: float) -> tuple[np.ndarray, np.ndarray]:
+def _turned_points(xi: FloatOrArray, eta: FloatOrArray, angle_deg: float) -> tuple[FloatOrArray, FloatOrArray]:
     """Return points turned from +η towards +ξ."""
     if not angle_deg:
         return xi, eta
@@ -440,6 +509,20 @@ def _check_between(name: str, value: float, low: float, high: float) -> None:
             value=value,
             low=low,
             high=high,
+        )
+
+
+def _check_within(radius: float, x: float, y: float) -> None:
+    check_finite("obscuration_x", x)
+    check_finite("obscuration_y", y)
+    if radius and (x or y) and not radius + hypot(x, y) <= 1 + SAME_PLACE:
+        raise RequestError(
+            "{parameter} is {value:g} about ({x:g}, {y:g}), which reaches beyond the rim of the stop; make it smaller "
+            "or put it nearer to the middle",
+            parameter="obscuration",
+            value=radius,
+            x=x,
+            y=y,
         )
 
 

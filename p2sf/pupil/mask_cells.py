@@ -17,8 +17,8 @@ def open_share(mask: PupilMask, xi: np.ndarray, eta: np.ndarray, width: np.ndarr
     Linear across every edge, as cells of any direction are on average; a vane narrower than a cell takes its part.
     """
     share = np.ones(np.shape(xi), np.result_type(xi))
-    if mask.obscuration:
-        share *= inside_share(np.hypot(xi, eta) - np.float32(mask.obscuration), width)
+    if mask.obscured:
+        share *= inside_share(-mask.disc.depth(xi, eta), width)
     for edge in mask.edges:
         share *= inside_share(edge.depth(xi, eta), width)
     for angle in mask.vane_angles:

@@ -92,6 +92,8 @@ def mask_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes:
 @lru_cache(maxsize=16)
 def _kept_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes:
     pieces = [_sectors(mask, radial, angular) if mask.iris else _rings(mask, radial, angular)]
+    if not mask.disc.centred:
+        pieces.append(_dark_disc(mask, radial, angular))
     for angle in mask.vane_angles:
         pieces += _vane(mask, angle, radial)
     if mask.even:
@@ -118,24 +120,45 @@ def ring_count(radial: int, width: float) -> int:
 
 
 def _rings(mask: PupilMask, radial: int, angular: int) -> Piece:
-    """Return nodes from the obscuration to the rim in uniform directions, of an even mask over half the disc."""
+    """Return nodes from an obscuration in the middle to the rim in uniform directions, of an even mask over half."""
     angular += angular % 2
     count = angular // 2 if mask.even else angular
     theta = (np.arange(count) + 0.5) * (2 * pi / angular)
-    return _polar(theta, np.full(count, 2 * pi / angular), np.full(count, mask.obscuration), np.ones(count), radial)
+    return _polar(theta, np.full(count, 2 * pi / angular), np.full(count, _inner_radius(mask)), np.ones(count), radial)
 
 
 def _sectors(mask: PupilMask, radial: int, angular: int) -> Piece:
-    """Return nodes from the obscuration to the blades, in directions between corners and wherever those two meet."""
-    theta, step = _directions(mask, angular)
+    """Return nodes from an obscuration in the middle to the blades, in directions between corners."""
+    angles = [*mask.corner_angles]
+    if mask.disc.centred:
+        angles += [angle for edge in mask.edges for angle in edge.crossings(mask.disc)]
+    theta, step = _directions(angles, mask.even, angular)
     outer = outline_radius(mask, theta)
-    return _polar(theta, step, np.minimum(mask.obscuration, outer), outer, radial)
+    return _polar(theta, step, np.minimum(_inner_radius(mask), outer), outer, radial)
 
 
-def _directions(mask: PupilMask, angular: int) -> tuple[np.ndarray, np.ndarray]:
+def _inner_radius(mask: PupilMask) -> float:
+    return mask.obscuration if mask.disc.centred else 0.0
+
+
+def _dark_disc(mask: PupilMask, radial: int, angular: int) -> Piece:
+    """Return what an obscuration beside the middle covers within the iris, with negative areas."""
+    disc = mask.disc
+    middle = np.full(1, disc.xi), np.full(1, disc.eta)
+    if not all(edge.lies_inside(*middle)[0] for edge in mask.edges):
+        raise GeometryError("the middle of the obscuration lies behind a blade of the iris; move it or open the iris")
+    angles = [angle for edge in mask.edges for angle in edge.crossings(disc)]
+    theta, step = _directions(angles or [0.0], mask.even, angular)
+    one, sine, cosine = np.ones_like(theta), np.sin(theta), np.cos(theta)
+    outer = np.minimum(disc.radius, exit_distance(mask, disc.xi * one, disc.eta * one, sine, cosine))
+    xi, eta, area = _polar(theta, step, 0 * one, outer, radial)
+    return disc.xi + xi, disc.eta + eta, -area
+
+
+def _directions(angles: list[float], even: bool, angular: int) -> tuple[np.ndarray, np.ndarray]:
     """Return directions between those of corners, Gauss–Legendre nodes, and the angles that they stand for."""
     thetas, steps = [], []
-    for low, high in pairwise(_breaks(mask).tolist()):
+    for low, high in pairwise(_breaks(angles, even).tolist()):
         count = ceil(GAUSS_EXCESS * angular * (high - low) / (2 * pi)) + EDGE_NODES
         node, weight = gauss_legendre(count)
         thetas.append((low + high + (high - low) * node) / 2)
@@ -143,15 +166,10 @@ def _directions(mask: PupilMask, angular: int) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(thetas), np.concatenate(steps)
 
 
-def _breaks(mask: PupilMask) -> np.ndarray:
-    """Return the directions over one turn, of an even mask over the half ξ > 0, where the open radii have a corner."""
-    angles = list(mask.corner_angles)
-    for edge in mask.edges:
-        crossing = edge.crossing(mask.obscuration)
-        if crossing is not None:
-            angles += [edge.angle - crossing, edge.angle + crossing]
+def _breaks(angles: list[float], even: bool) -> np.ndarray:
+    """Return directions over one turn, of an even mask over the half ξ > 0, ascending and with both ends."""
     turned = np.unique(np.round(np.mod(angles, 2 * pi), 12))
-    if mask.even:
+    if even:
         inside = turned[(turned > 1e-9) & (turned < pi - 1e-9)]
         return np.concatenate([[0.0], inside, [pi]])
     return np.append(turned, turned[0] + 2 * pi)
@@ -187,37 +205,70 @@ def _polar(theta: np.ndarray, step: np.ndarray, inner: np.ndarray, outer: np.nda
 
 
 def _vane(mask: PupilMask, angle: float, radial: int) -> list[Piece]:
-    """Return the pieces of one vane, with negative areas, from where it leaves the obscuration and the other vanes."""
-    return [_strip(mask, angle, *ends, radial) for ends in zip(*_across(mask, angle), strict=True)]
+    """Return the pieces of one vane, with negative areas, outside the obscuration and the other vanes."""
+    return [piece for ends in zip(*_across(mask, angle), strict=True) for piece in _strips(mask, angle, *ends, radial)]
 
 
 def _across(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
     """Return the ends of the intervals across a vane between which both its ends are smooth."""
-    half = mask.vane_width
-    meeting = mask.obscuration * (sin(pi / mask.vanes) if mask.vanes > 2 else 1.0)
+    half, disc = mask.vane_width, mask.disc
+    meeting = _inner_radius(mask) * (sin(pi / mask.vanes) if mask.vanes > 2 else 1.0)
     corners = [sin(corner - angle) for corner in mask.corner_angles if cos(corner - angle) > 0]
     # A vane that meets its neighbours outside the obscuration starts with a corner in its middle; one on the line of
     # symmetry is halved by it.
     middle = [0.0] if half > meeting or (mask.even and abs(sin(angle)) < UPRIGHT) else []
-    breaks = [x for x in (*middle, meeting, -meeting, *corners) if abs(x) < half]
+    beside = [] if disc.centred else corners_of_disc(mask, angle)
+    breaks = [x for x in (*middle, meeting, -meeting, *corners, *beside) if abs(x) < half]
     ends = np.unique(np.round([-half, *breaks, half], 14))
     return ends[:-1], ends[1:]
 
 
-def _strip(mask: PupilMask, angle: float, low: float, high: float, radial: int) -> Piece:
-    """Return the nodes of one interval across a vane."""
+def corners_of_disc(mask: PupilMask, angle: float) -> list[float]:
+    """Return how far aside of a vane's line an obscuration ends, and meets the blades and where the vane starts."""
+    disc = mask.disc
+    middle = disc.xi * cos(angle) - disc.eta * sin(angle)
+    found = [middle - disc.radius, middle + disc.radius]
+    for edge in mask.edges:
+        xi, eta = disc.outline(np.array(edge.crossings(disc)))
+        found += (xi * cos(angle) - eta * sin(angle)).tolist()
+    lean = pi / max(mask.vanes, 2)
+    for side in (-lean, lean):
+        sine, cosine = sin(angle + side), cos(angle + side)
+        found += [float(end) * sin(side) for end in disc.chord(np.zeros(()), np.zeros(()), sine, cosine) if end > 0]
+    return found
+
+
+def _strips(mask: PupilMask, angle: float, low: float, high: float, radial: int) -> list[Piece]:
+    """Return the nodes of one interval across a vane: behind the obscuration, and before one beside the middle."""
     sine, cosine = sin(angle), cos(angle)
     node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * (high - low) / 2))
-    place, share = gauss_legendre(ring_count(radial, 1 - mask.obscuration))
     aside = (low + high + (high - low) * node) / 2
     foot_xi, foot_eta = aside * cosine, -aside * sine
-    meeting = np.abs(aside) / tan(pi / mask.vanes) if mask.vanes > 2 else np.zeros_like(aside)
-    start = np.maximum(np.sqrt(np.maximum(mask.obscuration**2 - aside**2, 0)), meeting)
+    start = np.abs(aside) / tan(pi / mask.vanes) if mask.vanes > 2 else np.zeros_like(aside)
     one = np.ones_like(aside)
     end = np.maximum(exit_distance(mask, foot_xi, foot_eta, sine * one, cosine * one), start)
-    along = (start + end + (end - start) * place[:, None]) / 2
-    area = -share[:, None] * (end - start) / 2 * weight * (high - low) / 2 / pi
-    return (foot_xi + along * sine).ravel(), (foot_eta + along * cosine).ravel(), area.ravel()
+    near, far = (np.clip(part, start, end) for part in mask.disc.chord(foot_xi, foot_eta, sine, cosine))
+    count, across = ring_count(radial, 1 - _inner_radius(mask)), weight * (high - low) / 2
+    ends = ((start, near), (far, end))
+    return [strip((foot_xi, foot_eta), (sine, cosine), two, across, count) for two in ends if (two[1] > two[0]).any()]
+
+
+def strip(
+    foot: tuple[np.ndarray, np.ndarray],
+    direction: tuple[float, float],
+    ends: tuple[np.ndarray, np.ndarray],
+    across: np.ndarray,
+    count: int,
+) -> Piece:
+    """Return ``count`` nodes along each of the lines from ``foot`` between ``ends``, with negative areas.
+
+    ``across``: the width that each line stands for, all in radii of the rim.
+    """
+    (sine, cosine), (first, last) = direction, ends
+    place, share = gauss_legendre(count)
+    along = (first + last + (last - first) * place[:, None]) / 2
+    area = -share[:, None] * (last - first) / 2 * across / pi
+    return (foot[0] + along * sine).ravel(), (foot[1] + along * cosine).ravel(), area.ravel()
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ def opening_radius(mask: PupilMask, theta: np.ndarray) -> np.ndarray:
 def obstructions(mask: PupilMask) -> tuple[np.ndarray, ...]:
     """Return ξ and η of the obscuration and of each vane from the middle to the rim, closed lines, (2, points) each."""
     turn = np.linspace(0.0, 2 * pi, POINTS)
-    disc = (mask.obscuration * np.stack([np.sin(turn), np.cos(turn)]),) if mask.obscuration else ()
+    disc = (np.stack(mask.disc.outline(turn)),) if mask.obscured else ()
     return *disc, *(vane(angle, mask.vane_width) for angle in mask.vane_angles)
 
 
@@ -46,5 +46,7 @@ def dark_heights(mask: PupilMask) -> tuple[tuple[float, float], ...]:
     Vanes are thin, and one that lay on this line would hide what else there is.
     """
     top, bottom = (float(radius) for radius in opening_radius(mask, np.array([0.0, pi])))
-    covered = (-1.0, -bottom), (-min(mask.obscuration, bottom), min(mask.obscuration, top)), (top, 1.0)
+    middle = (float(end) for end in mask.disc.chord(np.zeros(()), np.zeros(()), 0.0, 1.0))
+    low, high = (min(max(end, -bottom), top) for end in middle)
+    covered = (-1.0, -bottom), (low, high), (top, 1.0)
     return tuple((low, high) for low, high in covered if high > low)

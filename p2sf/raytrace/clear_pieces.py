@@ -18,7 +18,16 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import FEWEST_ACROSS, ClearNodes, Piece, circle_exit, ring_count, shaded_nodes
+from p2sf.pupil.mask_nodes import (
+    FEWEST_ACROSS,
+    ClearNodes,
+    Piece,
+    circle_exit,
+    corners_of_disc,
+    ring_count,
+    shaded_nodes,
+    strip,
+)
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.clear_radius import Standing, clear_radius
@@ -90,7 +99,7 @@ class Region:
             distance = circle_exit(1.0, xi, eta, sine, cosine)
             label = np.zeros(distance.shape, int)
         if OBSCURATION in self.within:
-            near = circle_exit(self.mask.obscuration, xi, eta, sine, cosine)
+            near = self.mask.disc.chord(xi, eta, sine, cosine)[1]
             label = np.where(near < distance, LEFT_OBSCURATION, label)
             distance = np.minimum(near, distance)
         return distance, label
@@ -136,7 +145,8 @@ def check_without_holes(lens: Lens, clip: bool) -> None:
 def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool, mask: PupilMask) -> ClearNodes:
     """Return nodes over what mask, rims, holes and lost rays leave open; GeometryError where that is nothing."""
     region = Region(lens, source, clip, mask)
-    shadows = (*((OBSCURATION,) if mask.obscuration else ()), *(holes_of(lens) if clip else ()))
+    holes = holes_of(lens) if clip else ()
+    shadows = (*((OBSCURATION,) if mask.obscured else ()), *holes)
     outline = outline_of(region)
     if outline is None:
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
@@ -152,7 +162,7 @@ def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool,
             else:
                 pieces.append(_nodes(part, shape, counts, (-1) ** size))
     for angle in mask.vane_angles:
-        pieces += _vane(region, shadows, angle, counts[0])
+        pieces += _vane(region, holes, angle, counts[0])
     if region.even:
         pieces = [(xi, eta, 2 * area) for xi, eta, area in pieces if xi.mean() > 0]
     xi, eta, area = (np.concatenate(column) for column in zip(*pieces, strict=True))
@@ -203,10 +213,10 @@ def _along(region: Region, centre: tuple[float, float], theta: np.ndarray) -> tu
 def _centre(region: Region) -> tuple[float, float] | None:
     """Return a point well inside a region: where the axis of a hole is seen through it, else the mean of its points."""
     xi, eta = hexapolar(SEARCH_RINGS)
-    tried = [_axis_seen(region, number) for number in region.within]
+    tried = [_middle_of(region, number) for number in region.within]
     for place in (place for place in tried if place is not None):
-        if _inside(region, np.zeros(1), np.array([place]))[0]:
-            return 0.0, place
+        if _inside(region, *np.array(place)[:, None])[0]:
+            return place
     held = _inside(region, xi, eta)
     if not held.any():
         return None
@@ -225,14 +235,17 @@ def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     for edge in region.mask.edges:
         held = held & edge.lies_inside(xi, eta)
     if OBSCURATION in region.within:
-        held = held & (xi * xi + eta * eta < region.mask.obscuration**2)
+        held = held & (region.mask.disc.depth(xi, eta) > 0)
     return held
 
 
-def _axis_seen(region: Region, number: int) -> float | None:
-    """Return the η at which a ray in the plane ξ = 0 meets the axis on a surface; None where none of the pupil does."""
+def _middle_of(region: Region, number: int) -> tuple[float, float] | None:
+    """Return the middle of the obscuration, or where a ray in the plane ξ = 0 meets the axis on a surface.
+
+    None where none of the pupil does.
+    """
     if number == OBSCURATION:
-        return 0.0
+        return region.mask.disc.xi, region.mask.disc.eta
 
     def height(eta: np.ndarray) -> np.ndarray:
         rays = pupil_rays(region.lens, region.source, 0 * eta, eta)
@@ -250,7 +263,7 @@ def _axis_seen(region: Region, number: int) -> float | None:
         if ends[0] == ends[1]:
             break
         low, high = high, float(np.clip(low - ends[0] * (high - low) / (ends[1] - ends[0]), -1, 1))
-    return float(high)
+    return 0.0, float(high)
 
 
 def _nodes(region: Region, outline: Outline, counts: tuple[int, int], sign: int) -> Piece:
@@ -270,12 +283,14 @@ def _nodes(region: Region, outline: Outline, counts: tuple[int, int], sign: int)
 
 
 def _vane(region: Region, shadows: tuple[int, ...], angle: float, radial: int) -> list[Piece]:
-    """Return what a vane covers outside the shadows, up to where the clear part ends, with negative areas."""
-    half, count = region.mask.vane_width, region.mask.vanes
+    """Return what a vane covers outside holes and the obscuration, up to where the clear part ends; areas negative."""
+    half, count, disc = region.mask.vane_width, region.mask.vanes, region.mask.disc
     sine, cosine = sin(angle), cos(angle)
+    corners = () if disc.centred else corners_of_disc(region.mask, angle)
+    breaks = np.unique(np.round([-half, 0.0, half, *(corner for corner in corners if abs(corner) < half)], 14))
     pieces = []
-    for low, high in ((-half, 0.0), (0.0, half)):
-        node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * half / 2))
+    for low, high in pairwise(breaks.tolist()):
+        node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * (high - low) / 2))
         aside = (low + high + (high - low) * node) / 2
         begin = np.abs(aside) / tan(pi / count) if count > 2 else np.zeros_like(aside)
         foot = aside * cosine + begin * sine, -aside * sine + begin * cosine
@@ -292,10 +307,11 @@ def _vane(region: Region, shadows: tuple[int, ...], angle: float, radial: int) -
             )
         outer = np.maximum(region.edge(*foot, *directions)[0], inner)
         _check_open(region, shadows, foot, directions, (inner, outer))
-        place, share = gauss_legendre(radial)
-        along = (inner + outer + (outer - inner) * place[:, None]) / 2
-        area = -share[:, None] * (outer - inner) / 2 * weight * (high - low) / 2 / pi
-        pieces.append(((foot[0] + along * sine).ravel(), (foot[1] + along * cosine).ravel(), area.ravel()))
+        near, far = (np.clip(end, inner, outer) for end in disc.chord(*foot, sine, cosine))
+        across = weight * (high - low) / 2
+        for first, last in ((inner, near), (far, outer)):
+            if (last > first).any():
+                pieces.append(strip(foot, (sine, cosine), (first, last), across, radial))
     return pieces
 
 

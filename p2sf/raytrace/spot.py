@@ -1,6 +1,6 @@
 """The spot diagram: where exact rays meet the sensor, and means over all of their light (handbook 8.3)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf
 
@@ -171,8 +171,9 @@ def _rim_points(mask: PupilMask, even: bool) -> tuple[np.ndarray, np.ndarray]:
     theta = np.linspace(0, np.pi, RIM_RAYS + 1) if even else np.arange(2 * RIM_RAYS) * (np.pi / RIM_RAYS)
     if mask.clear:
         return np.sin(theta), np.cos(theta)
-    radius = np.append(JUST_INSIDE * outline_radius(mask, theta), np.full(theta.size, mask.obscuration / JUST_INSIDE))
-    xi, eta = radius * np.tile(np.sin(theta), 2), radius * np.tile(np.cos(theta), 2)
+    radius = JUST_INSIDE * outline_radius(mask, theta)
+    rim, disc = np.stack([radius * np.sin(theta), radius * np.cos(theta)]), mask.disc
+    xi, eta = np.concatenate([rim, replace(disc, radius=disc.radius / JUST_INSIDE).outline(theta)], axis=1)
     open_there = mask.opens(xi, eta) & (mask.amplitude(xi, eta) > 0)
     return xi[open_there], eta[open_there]
 

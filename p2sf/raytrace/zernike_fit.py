@@ -88,8 +88,8 @@ def open_nodes(lens: Lens, source: Source, counts: tuple[int, int]) -> ClearNode
     mask = lens.mask
     if not (mask.clear or mask.annular):
         raise GeometryError(
-            "Zernike terms are over a disc or a ring, and more than an obscuration stands in the stop; remove vanes, "
-            "blades, filters and phases"
+            "Zernike terms are over a disc or a ring, and more than an obscuration in its middle stands in the stop; "
+            "remove vanes, blades, filters and phases, and put an obscuration in the middle"
         )
     radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as else in the disc
     return pupil_nodes(lens, source, (radial, counts[1]))

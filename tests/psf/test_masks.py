@@ -217,7 +217,7 @@ def test_throughput_of_a_gaussian():
 
 def test_what_knows_no_mask_says_so():
     lens = with_mask(find_lens("cooke_triplet"), EVEN[2])
-    with pytest.raises(GeometryError, match="more than an obscuration stands in the stop"):
+    with pytest.raises(GeometryError, match="over a disc or a ring"):
         p2sf.zernike(lens)
 
 

@@ -1,7 +1,7 @@
 """Triangle meshes: elements of revolution with a quarter cut away, stop, sensor. No Qt and no pyvista in here."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -178,8 +178,9 @@ def masked_stop(mask: PupilMask, rim: float, outer: float, z: float, thick: floa
     inner = rim * opening_radius(mask, np.pi / 2 - np.linspace(*CUT, steps + 1))  # turns go from +x to +y
     radii = np.stack([inner, np.full(inner.size, outer)], axis=1)
     parts = [revolved(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2), steps=steps)]
-    if mask.obscuration:
-        parts.append(ring(0.0, mask.obscuration * rim, z, thick))
+    if mask.obscured:
+        disc = ring(0.0, mask.disc.radius * rim, z, thick)
+        parts.append(replace(disc, points=disc.points + rim * np.array([mask.disc.xi, mask.disc.eta, 0.0])))
     for angle in mask.vane_angles:
         corners = vane(angle, mask.vane_width)[:, 3::-1].T  # counter-clockwise
         parts.append(slab(rim * corners, z - thick / 2, thick))
