@@ -13,22 +13,28 @@ from itertools import pairwise
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned
+from p2sf.lens.lens import Lens, check_aligned, seen_from
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, changes_of, check_without_holes, holes_of, piece_nodes
 from p2sf.raytrace.clear_radius import Standing, clear_radius
 from p2sf.raytrace.fit import FittedPencil, Gradient, Level, determinant, fit, map_slopes
 from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.surface import ended_at
+from p2sf.raytrace.surface import BESIDE, Status, ended_at, rooms
+from p2sf.raytrace.trace import lens_rims, run
 
 SEARCH_RINGS = 12
 SCAN = 192  # directions in which corners are looked for: an arc shorter than 1/192 of the half circle may be missed
 CORNER_STEPS = 7  # a corner's direction to 6e-11
+CROSSING_STEPS = 5  # of Newton's method from 1/192 of a turn or less
+CROSSING_DIFFERENCE = 1e-5  # of the pupil's radius, far above what aiming leaves
+CROSSING_FARTHEST = 1.1  # in the pupil's radius
+CROSSING_ENOUGH = 1e-9  # of the last step, which leaves a hundred-thousandth of itself
 FEWEST_PER_ARC = 6
 BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
@@ -124,11 +130,63 @@ def _corners(lens: Lens, source: Source, clip: bool, centre: tuple[float, float]
     """Return the directions where one rim takes over from another, over half a turn, without symmetry over a whole."""
     count = 2 * SCAN + 1 if lens.misaligned else SCAN
     theta = (np.arange(count) + 0.5) * (np.pi / SCAN)
-    rim = _edge(lens, source, clip, centre, theta)[1]
-    corners: list[float] = changes_of(
-        lambda angle: _edge(lens, source, clip, centre, angle)[1], theta, rim, CORNER_STEPS
-    ).tolist()
-    return corners
+    radius, rim = _edge(lens, source, clip, centre, theta)
+    corners = _crossings(lens, source, centre, theta, radius, rim) if clip and np.ptp(rim) else None
+    if corners is None:
+        corners = changes_of(lambda angle: _edge(lens, source, clip, centre, angle)[1], theta, rim, CORNER_STEPS)
+    directions: list[float] = corners.tolist()
+    return directions
+
+
+def _crossings(
+    lens: Lens, source: Source, centre: tuple[float, float], theta: np.ndarray, radius: np.ndarray, rim: np.ndarray
+) -> np.ndarray | None:
+    """Return the directions of points of the edge that have no room at both rims that end neighbouring directions.
+
+    ``radius``, ``rim``: as `_edge` returns them at ``theta``. By Newton's method from midway; None where that leads
+    to no such point, as where rays are lost at one of the two.
+    """
+    change = np.flatnonzero(np.diff(rim))
+    labels, (low, high) = np.stack([rim[change], rim[change + 1]]), (theta[change], theta[change + 1])
+    far, angle = (radius[change] + radius[change + 1]) / 2, (low + high) / 2
+    xi, eta = centre[0] + far * np.sin(angle), centre[1] + far * np.cos(angle)
+    for _ in range(CROSSING_STEPS):
+        if not (np.hypot(xi, eta) < CROSSING_FARTHEST).all():
+            return None
+        beside = np.stack([xi, xi + CROSSING_DIFFERENCE, xi]), np.stack([eta, eta, eta + CROSSING_DIFFERENCE])
+        room = _rooms(lens, source, *(column.ravel() for column in beside))
+        if not all(label in room for label in labels.ravel()):
+            return None
+        here, right, up = np.stack([_of_each(room, label) for label in labels]).swapaxes(0, 1)
+        (a, c), (b, d) = (right - here) / CROSSING_DIFFERENCE, (up - here) / CROSSING_DIFFERENCE
+        area = a * d - b * c
+        with np.errstate(invalid="ignore", divide="ignore"):
+            xi, eta = xi - (d * here[0] - b * here[1]) / area, eta - (a * here[1] - c * here[0]) / area
+    least = np.minimum.reduce([each.reshape(3, -1)[0] for each in room.values()])
+    found = np.arctan2(xi - centre[0], eta - centre[1])
+    found += 2 * np.pi * np.round((angle - found) / (2 * np.pi))
+    moved = np.hypot(xi - beside[0][0], eta - beside[1][0])
+    good = (moved < CROSSING_ENOUGH) & (least > -CROSSING_ENOUGH) & (low <= found) & (found <= high)
+    return found if good.all() else None
+
+
+def _rooms(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> dict[int, np.ndarray]:
+    """Return how far inside each rim, by the label of `ended_at`, rays land that none stops; 0: the pupil's own."""
+    lens = seen_from(lens, source.azimuth_deg)
+    rays, rims = pupil_rays(lens, source, xi, eta), lens_rims(lens, keep_stop=False)
+    beam, found = start(rays), {0: 1 - xi * xi - eta * eta}
+
+    def visit(number: int) -> None:
+        for why, room in rooms(beam, rims[number - 1], lens.surfaces[number - 1].rim):
+            found[number + BESIDE * (why == Status.CLIPPED_BESIDE)] = room
+
+    run(lens, beam, rays.index, last=len(lens.surfaces), visit=visit)
+    return found
+
+
+def _of_each(room: dict[int, np.ndarray], labels: np.ndarray) -> np.ndarray:
+    """Return of three rays about each point, one behind the other, the room at one rim per point, (3, points)."""
+    return np.stack([room[label].reshape(3, -1)[:, i] for i, label in enumerate(labels)], axis=-1)
 
 
 def clear_outline(

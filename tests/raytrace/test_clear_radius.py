@@ -5,8 +5,11 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lens.rim import Rim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.raytrace import vignetting
 from p2sf.raytrace.clear_radius import BISECTIONS, clear_radius
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.surface import Status
@@ -84,3 +87,40 @@ def test_the_clearance_of_rays_is_the_room_at_the_rim_that_stops_them(name, angl
     for edge in edges:  # continuous: no step at the edge but that from one ray to the next
         steps = np.abs(np.diff(rays.clearance[edge - 2 : edge + 4]))
         assert steps.max() < 2 * np.median(steps) + 1e-3
+
+
+FRAME = Surface(thickness=0.0, rim=Rim((0.4, -0.6), (4.5, 3.0), 25.0))
+RECTANGLE = Lens(
+    (Surface(thickness=20.0), FRAME, Surface(thickness=100.0, ideal_focal_length=100.0)),
+    Aperture("stop_semi_diameter", 5.0),
+    1,
+)
+
+
+@pytest.mark.parametrize(
+    ("lens", "angle", "count"),
+    [("petzval", 7.0, 3), ("fast_gauss_f14", 15.0, 3), ("double_gauss_28", 14.0, 3), (RECTANGLE, 2.0, None)],
+)
+def test_corners_by_newtons_method_are_those_that_a_search_finds(lens, angle, count, monkeypatch):
+    """The search tells from the labels of rays on either side alone where one rim takes over from another."""
+    lens = find_lens(lens) if isinstance(lens, str) else lens
+    source, centre = Source(field_deg=angle), (0.0, 0.01)
+    theta = (np.arange(vignetting.SCAN) + 0.5) * (np.pi / vignetting.SCAN)
+    edge = vignetting._edge(lens, source, True, centre, theta)
+    assert vignetting._crossings(lens, source, centre, theta, *edge) is not None
+    corners = vignetting._corners(lens, source, True, centre)
+    assert len(corners) == count or (count is None and len(corners) >= 4)
+    monkeypatch.setattr(vignetting, "_crossings", lambda *_: None)
+    searched = vignetting._corners(lens, source, True, centre)
+    # Radii of 2e-11, where rims cross at some hundredths of a radian.
+    assert corners == pytest.approx(searched, abs=2e-9)
+
+
+def test_where_rays_are_lost_the_corners_are_searched_for():
+    """A rim that no ray reaches has no room to speak of."""
+    lens, source = find_lens("petzval"), Source(field_deg=7.0)
+    theta = np.array([0.1, 0.5])
+    radius, rim = vignetting._edge(lens, source, True, (0.0, 0.01), theta)
+    assert rim[0] != rim[1]
+    missing = np.array([rim[0], 999])
+    assert vignetting._crossings(lens, source, (0.0, 0.01), theta, radius, missing) is None
