@@ -1,6 +1,7 @@
 """The package holds: folders import only downwards, the core knows no Qt, and importing does no work."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 from tests.support.interpreter import loaded_by
@@ -65,6 +66,7 @@ def module_of(path: Path) -> str:
     return ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
 
 
+@cache
 def imported(path: Path) -> set[str]:
     """Return every module, or name in a module, that a file imports, inside functions too."""
     found = set()

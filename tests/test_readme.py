@@ -33,6 +33,7 @@ def test_every_command_shown_exists(line):
 LONG = {"tradeoff", "paper"}  # seconds each, and run by tests/studies
 
 
+@pytest.mark.slow
 def test_the_commands_run_in_their_order(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shutil.copy(ROOT / "tests/data/import/doublet.zmx", "YOURS.zmx")

@@ -103,6 +103,7 @@ def test_what_is_missing_or_wrong_is_said(picture, tmp_path, capsys):
     assert "not a measurement" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_percent_and_what_is_left_are_told_on_a_terminal_alone(picture, monkeypatch, capsys):
     """To the end and never back, one thread or two with the same numbers."""
     command = ["measure", str(picture), "--lens", "cooke_triplet", *SCALE, "--unknowns", "sensor_shift_um", "--json"]

@@ -25,6 +25,7 @@ from p2sf.pupil.mask_cells import wings
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf.scene.reference import exact_pixels
+from tests.support.tiers import in_tiers
 from tests.support.waves import relative_l2
 
 LENS = find_lens("double_gauss_28")
@@ -81,7 +82,7 @@ def test_by_six_coefficients_too(mask):
     assert relative_l2(one, other) < 0.25  # the method's own error: of higher orders, 0.2 of the clear disc
 
 
-@pytest.mark.parametrize("mask", [RING, SPIDER], ids=repr)
+@pytest.mark.parametrize("mask", in_tiers([RING, SPIDER], [SPIDER]), ids=repr)
 def test_rays_are_where_waves_are(mask):
     """Pixels of 32 µm average what diffraction adds: 1 to 2 % of L2 for the clear disc, 4 % beside the thin vanes."""
     lens, source = with_mask(find_lens("fast_gauss_f14"), mask), Source(field_deg=12)
@@ -144,7 +145,7 @@ def light_without(view: SensorMap, across: np.ndarray, along: np.ndarray) -> flo
     return found[0] / found[1]
 
 
-@pytest.mark.parametrize("mask", [RING, SPIDER], ids=repr)
+@pytest.mark.parametrize("mask", in_tiers([RING, SPIDER], [SPIDER]), ids=repr)
 def test_the_image_of_a_point_is_its_psf_within_what_the_plan_predicts(mask):
     """On a sensor beside the axis and one about it, whose quarters are mirror images only where the mask's are."""
     lens = with_mask(LENS, mask)

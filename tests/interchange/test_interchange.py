@@ -191,6 +191,7 @@ printf('%s %s %s\\n', optics.model, class(rt.name), class(rt.program));
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("octave"), reason="GNU Octave is not installed: apt-get install octave")
 def test_octave_reads_the_iset_file_and_finds_sums_axes_and_centre(file, tmp_path):
     path = write_iset(open_stored(file), tmp_path / "rt.mat", IsetOptions(depth_mm=20_000.0, pixels=64, pixel_um=1.5))

@@ -187,6 +187,7 @@ def test_lenses_are_found_in_a_checkout_and_in_an_installed_package(tmp_path):
         lenses_folder(tmp_path / "nothing" / "p2sf")
 
 
+@pytest.mark.slow
 def test_the_wheel_carries_the_lenses_and_lessons(tmp_path):
     """Build the wheel with the project's own backend, from a copy without git, and look inside."""
     from hatchling.builders.wheel import WheelBuilder

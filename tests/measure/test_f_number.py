@@ -51,6 +51,7 @@ def test_light_through_another_stop_and_its_derivative(triplet, beside):
     assert np.abs(nominal - direct).max() > 0.015 * direct.max()
 
 
+@pytest.mark.slow
 def test_an_f_number_that_is_3_per_cent_wrong_moves_nothing(triplet):
     """Pictures at f/4, taken for f/4.12: W40 was 29 standard deviations off, and χ² 0.99; now all are within 4."""
     exposure = Exposure(sensor_shift_um=25.0, tilt_deg=(0.1, -0.05))
@@ -75,6 +76,7 @@ def test_an_f_number_is_found_without_a_lens():
     assert np.abs((found.values - truth) / found.bounds).max() < 5 and found.bounds[-1] < 1.0 and found.explains
 
 
+@pytest.mark.slow
 def test_what_no_picture_tells_is_known_to_the_prior_at_least():
     """Points far apart but all alike, and so faint that they tell next to nothing of the f-number."""
     model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "f_number"))

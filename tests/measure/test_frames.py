@@ -35,6 +35,7 @@ from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import fit
 from tests.support.reference import DATA
+from tests.support.tiers import in_tiers
 
 PITCH = 3.45
 LISTED = DATA / "opticstudio"
@@ -52,7 +53,7 @@ def frame(triplet):
     return simulated_frame(triplet, grid_of_points(5, 3, 4.0, 2.0), FrameGeometry(680, 1260, PITCH), exposure)
 
 
-@pytest.mark.parametrize("azimuth", [0.0, 0.7, 2.5, -1.9])
+@pytest.mark.parametrize("azimuth", in_tiers([0.0, 0.7, 2.5, -1.9], [0.7]))
 def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimuth):
     """Kernels of plans settle for fewer samples: with four times the window and fine ones they converge to the sum.
 
@@ -335,7 +336,7 @@ def test_eight_bits_are_made_linear_and_that_is_said(ending, tmp_path):
     assert [note.values["parameter"] for note in found.notes] == ["encoding"]
 
 
-@pytest.mark.parametrize("ending", ["npz", "tiff"])
+@pytest.mark.parametrize("ending", in_tiers(["npz", "tiff"], ["npz"]))
 def test_pixels_of_a_psf_are_read_as_pixels(ending, tmp_path, triplet):
     """The PSF is one of the six coefficients, on pixels of 1.6 λ·N: taken for points, W40 misses by 0.3 waves."""
     made = render_integrated(triplet, Source(wavelength_nm=550.0), "seidel", 41, PITCH)
@@ -369,6 +370,7 @@ def test_hot_pixels_are_no_points(triplet, frame):
     assert len(find_points(hot)) > 15 and len(find_points(hot, optics)) == len(find_points(frame, optics)) == 15
 
 
+@pytest.mark.slow
 def test_a_point_that_one_focus_has_lost_is_left_out(triplet):
     places, geometry = grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, PITCH)
     first, second = (
@@ -389,6 +391,7 @@ def test_points_are_found_above_the_noise_there_is(frame):
     assert len(find_points(low)) == len(find_points(frame)) == 15 and low.read_noise == 1.0
 
 
+@pytest.mark.slow
 def test_noise_that_is_less_than_stated_is_said(triplet, frame):
     optics = lens_optics(triplet, np.inf, 0.55, PITCH)
     stated = replace(frame, noise=Noise(read_noise=20.0))

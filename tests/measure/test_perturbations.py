@@ -69,6 +69,7 @@ def test_light_of_two_wavelengths_is_that_of_huygens_sums_in_each(triplet):
     assert whole.explains and np.abs((whole.values - [20.0, -0.05, 0.0]) / whole.errors).max() < 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("f_number", "away", "pixels", "unknowns", "truth"),
     [
@@ -120,6 +121,7 @@ def test_a_frame_that_nothing_explains_has_reasons_and_no_numbers(triplet, tmp_p
     assert not has_lens_as_built(found) and not whole_rows(found)
 
 
+@pytest.mark.slow
 def test_a_single_point_that_nothing_explains_has_reasons_and_no_numbers(triplet, tmp_path):
     """A point taken twice, the sensor moved by 5 pixels between: no wavefront of four coefficients makes two points."""
     once = simulated_frame(triplet, np.array([[0.0, 0.0]]), FrameGeometry(80, 80, PITCH), Exposure(read_noise=2.0))

@@ -124,6 +124,7 @@ def test_a_lens_puts_a_target_where_similar_triangles_do(triplet):
         expected_places(target, triplet, np.inf, 0.5876)
 
 
+@pytest.mark.slow
 def test_a_cropped_picture_of_a_target_has_the_axis_and_the_fields_of_the_target(triplet):
     """The picture's middle is 0.83 mm beside the axis, where a sensor tilted by 0.4° is farther by 5.8 µm.
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from math import inf
 
 import numpy as np
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -191,6 +192,7 @@ def test_arrays_in_any_order_give_each_its_own_answer(lens, depth, wavelength):
         np.testing.assert_array_equal(values, again[::-1, :, ::-1])
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(lenses(), depths, slopes, wavelengths)
 def test_no_public_function_of_the_core_returns_nan(lens, depth, slope, wavelength):

@@ -26,6 +26,7 @@ from p2sf.pupil.transform import sum_plane_waves
 from p2sf.raytrace.pencil import pupil_rays, trace
 from p2sf.raytrace.seen_mask import mask_seen
 from tests.support.masked_sum import masked_sum
+from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, r_squared, relative_l2, waves
 
 EVEN = (
@@ -98,7 +99,7 @@ def test_every_method_makes_the_same_picture(mask):
     assert fitted.energy == pytest.approx(reference.energy, rel=0.02)
 
 
-@pytest.mark.parametrize("mask", [EVEN[0], EVEN[3], *UNEVEN[:3]], ids=repr)
+@pytest.mark.parametrize("mask", in_tiers([EVEN[0], EVEN[3], *UNEVEN[:3]], [UNEVEN[0]]), ids=repr)
 def test_the_reference_is_the_sum_over_a_grid(mask):
     """The grid of 1.8e5 points is good to some 3e-4, by its edges; tests.long.pupil_masks takes 1e7."""
     lens, source = find_lens("double_gauss_28"), Source(field_deg=10)

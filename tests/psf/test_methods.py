@@ -129,6 +129,7 @@ def test_a_choice_gives_its_reason(choice, reason):
     assert str(choice.reason) == reason
 
 
+@pytest.mark.slow
 def test_choose_never_picks_a_method_below_the_tolerance(capsys):
     outcomes = list(trials(20, seed=2))
     with capsys.disabled():
@@ -151,6 +152,7 @@ def test_every_method_predicts_at_least_the_error_it_makes(method):
     assert method == "fitted" or (made.predicted_error > CAUTION) == (method in ("seidel", "gaussian"))
 
 
+@pytest.mark.slow
 def test_a_fit_that_fails_near_total_reflection_says_so():
     """No polynomial follows a phase of unbounded slope; the sum of the fit itself is as exact as ever."""
     lens = with_aim(
@@ -163,6 +165,7 @@ def test_a_fit_that_fails_near_total_reflection_says_so():
     assert made.predicted_error > CAUTION
 
 
+@pytest.mark.slow
 def test_six_coefficients_promise_nothing_where_rays_are_lost():
     lens = with_aim(with_f_number(find_lens("double_gauss_28"), 2.8), "paraxial")  # the stop's own rays all arrive
     source = Source(inf, np.tan(np.deg2rad(34.0)), 0.5876)

@@ -24,6 +24,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.studies import validate
 from tests.support.masked_sum import masked_sum
+from tests.support.tiers import in_tiers
 from tests.support.waves import r_squared
 
 LISTED = np.load(Path(__file__).parents[1] / "data" / "telescope_psf.npz")
@@ -38,7 +39,7 @@ def telescope(rim: float) -> Lens:
     return replace(lens, aperture=Aperture("stop_semi_diameter", rim))
 
 
-@pytest.mark.parametrize(("field", "sampled"), [(0, False), (1, True), (2, False), (3, True)])
+@pytest.mark.parametrize(("field", "sampled"), in_tiers([(0, False), (1, True), (2, False), (3, True)], [(0, False)]))
 def test_the_telescope_of_another_program(field, sampled):
     """A primary with a hole behind the stop, and rims: OpticStudio's Huygens PSFs, as near as their grid allows."""
     lens, source = telescope(SAMPLED_RIM if sampled else RIM), Source(wavelength_nm=500, field_deg=FIELDS_DEG[field])
@@ -120,7 +121,7 @@ def test_shadows_over_the_rim_count_as_far_as_they_lie_inside():
 @pytest.mark.parametrize(
     "mask",
     [
-        PupilMask(obscuration=0.3, vanes=4, vane_width=0.03),
+        pytest.param(PupilMask(obscuration=0.3, vanes=4, vane_width=0.03), marks=pytest.mark.slow),
         PupilMask(obscuration=0.2, vanes=3, vane_width=0.03, vane_angle_deg=20, blades=5, roundness=0.6),
     ],
     ids=["even", "uneven"],
@@ -134,6 +135,7 @@ def test_rims_and_a_mask_together_are_the_sum_over_a_grid(mask):
     assert r_squared(masked_sum(lens, source, mask, 24, 3.0, 320, clip=True), found.values) > 0.998
 
 
+@pytest.mark.slow
 def test_the_choice_takes_rays_where_a_hole_clips():
     lens, source = telescope(RIM), Source(wavelength_nm=500, field_deg=1.225)
     assert choose(lens, source, 0.999, clip=True).method == "traced"

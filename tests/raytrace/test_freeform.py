@@ -136,6 +136,7 @@ def test_every_method_but_six_coefficients_forms_the_picture_of_a_freeform():
     assert p2sf.render(lens, source, "auto", pixels=48, pixel_um=1.5).method != "seidel"
 
 
+@pytest.mark.slow
 def test_databases_and_plans_of_a_freeform_are_fitted():
     """From the database as from rays: at places between its nodes, to the error that it states."""
     lens = with_sensor(freeform_singlet(XYPolynomial((0, 0, 2e-3, -1e-3, -1e-3, 1e-3), 5.0), rim=2.0), 47.0)

@@ -91,6 +91,7 @@ def test_a_lens_turned_about_its_centres_has_the_picture_of_the_straight_one(str
     assert distance(one, other) <= sum(each.predicted_error for each in both)
 
 
+@pytest.mark.slow
 def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
     mirrored = displaced(straight, 3, 5, Placement(-0.15, 0.1, 0.02, 0.2, -0.3))
     scene = replace(SCENE, sensor=replace(SCENE.sensor, centre_mm=(-3.0, 6.0)))
@@ -101,6 +102,7 @@ def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
     assert distance(two, unlike) > 2 * planned.predicted_error
 
 
+@pytest.mark.slow
 def test_layers_of_depth_have_their_own_kernels(deep, values):
     """Two halves at the ends of the depths; away from their seam each is the picture of its depth alone."""
     depth = np.full((40, 60), inf)

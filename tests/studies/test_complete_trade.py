@@ -106,6 +106,7 @@ def short(monkeypatch):
     monkeypatch.setattr(study, "TESTED_QUICK", 4)
 
 
+@pytest.mark.slow
 def test_the_command_compares_prints_and_goes_on_from_what_it_kept(short, answer, tmp_path, said):
     command = ("tradeoff", "reverse_telephoto", "--complete", "--quick", "--keep", tmp_path)
     found = answer(*command)

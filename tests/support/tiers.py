@@ -10,6 +10,7 @@ import pytest
 LENSES = ("double_gauss_28", "reverse_telephoto", "petzval", "phone_f28", "cassegrain_f10", "eye_navarro")
 
 
-def in_tiers(values: Iterable[str], kept: Collection[str] = LENSES) -> list[Any]:
-    """Return the values as parameters; all but those kept are slow."""
-    return [value if value in kept else pytest.param(value, marks=pytest.mark.slow) for value in values]
+def in_tiers(values: Iterable[Any], kept: Collection[Any] = LENSES) -> list[Any]:
+    """Return the values, or tuples of them, as parameters; all but those kept are slow."""
+    given = ((value, value if isinstance(value, tuple) else (value,)) for value in values)
+    return [value if value in kept else pytest.param(*parts, marks=pytest.mark.slow) for value, parts in given]

@@ -11,6 +11,7 @@ from p2sf.tolerance.files import back_focus, with_compensators
 from tests.support.depths import RELAYS_MM
 from tests.support.perturbed_rays import harm
 from tests.support.pupil_sums import LostRays
+from tests.support.tiers import in_tiers
 from tests.support.tolerances import exact_quality
 
 RELATIVE = 1e-4  # of the harm
@@ -19,6 +20,7 @@ UNEVEN = 5e-4  # the same of irregularities, which the referee adds to first ord
 FORM = 2e-3  # the same of the quadratic form, of a small error of a lens with much aberration
 
 
+@pytest.mark.slow
 def test_one_error_at_a_time():
     lens = find_lens("cooke_triplet")
     errors = (
@@ -37,7 +39,9 @@ def test_one_error_at_a_time():
         assert harm(lens, sources, one) == pytest.approx(value, rel=rel), one
 
 
-@pytest.mark.parametrize(("name", "surface"), [("achromat_f6", 1), ("double_gauss_28", 7)])
+@pytest.mark.parametrize(
+    ("name", "surface"), in_tiers([("achromat_f6", 1), ("double_gauss_28", 7)], [("achromat_f6", 1)])
+)
 def test_an_irregularity_that_is_refocused(name, surface):
     """It bends rays, and so changes what a shift of the sensor does: 1 to 2 % of the harm."""
     lens = find_lens(name)
@@ -60,7 +64,8 @@ def told(name, *errors):
 
 
 @pytest.mark.parametrize(
-    ("kind", "surface", "amount"), [("thickness", 6, 0.05), ("radius", 3, 0.1), ("index", 2, 5e-4)]
+    ("kind", "surface", "amount"),
+    in_tiers([("thickness", 6, 0.05), ("radius", 3, 0.1), ("index", 2, 5e-4)], [("radius", 3, 0.1)]),
 )
 def test_an_object_at_a_finite_depth_stays_where_it_is(kind, surface, amount):
     """Errors move the entrance pupil of a nearly telecentric lens by metres; a field angle there was another object."""
@@ -75,7 +80,9 @@ def test_an_object_at_a_finite_depth_stays_where_it_is(kind, surface, amount):
     assert harms(by_form(known, places), "rms_waves", places)[0] == pytest.approx(true, rel=FORM, abs=1e-6)
 
 
-@pytest.mark.parametrize(("name", "surface", "off"), [("phone_f28", 3, 0.1), ("tessar", 2, -0.03)])
+@pytest.mark.parametrize(
+    ("name", "surface", "off"), in_tiers([("phone_f28", 3, 0.1), ("tessar", 2, -0.03)], [("tessar", 2, -0.03)])
+)
 def test_an_error_beyond_the_quadratic_form_is_of_exact_rays(name, surface, off):
     """The form said 0.336 waves for 0.269, without a word."""
     one = Tolerance("thickness", surface, 0.05)
@@ -84,6 +91,7 @@ def test_an_error_beyond_the_quadratic_form_is_of_exact_rays(name, surface, off)
     assert abs(form[0] / exact[0] - 1) > abs(off) and (form[0] > exact[0]) == (off > 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "kind", "surface"), [("phone_f28", "decentre_y", 4), ("petzval", "thickness", 2)])
 def test_a_wavefront_that_is_steep_at_the_rim_has_as_many_rays_as_it_needs(name, kind, surface):
     """With 16 × 40 rays the phone's decentre is 2e-4 off. Of the Petzval's rays none are lost, near the rim at 7°."""
@@ -92,6 +100,7 @@ def test_a_wavefront_that_is_steep_at_the_rim_has_as_many_rays_as_it_needs(name,
     assert exact[0] == pytest.approx(harm(lens, sources, one), rel=RELATIVE)
 
 
+@pytest.mark.slow
 def test_the_form_takes_tilts_along_the_frequencies_of_the_perturbed_lens():
     """At 30° the phone's image lies far from its chief ray: a percent of its radius made 0.9 % of the harm too much."""
     one = Tolerance("radius", 2, 0.1)

@@ -6,12 +6,14 @@ import pytest
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QTabBar, QToolButton
 
+from p2sf.errors import Cancelled
 from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.misalign import PIECE_TIP
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import PanelChoices, State, entry
+from p2sf_explorer.tolerancing import analysis
 from tests.support.events import choose
 
 KINDS = QComboBox, QAbstractButton, QAbstractSpinBox, QTabBar
@@ -68,10 +70,16 @@ def check(window, part) -> None:
         assert chosen(choosers(part)[number]) == was, f"{name} does not follow the state"
 
 
+@pytest.fixture
+def idle(monkeypatch):
+    """Leave panels without what takes them long: the view of 3D is there without its renderer, and no lens is built."""
+    monkeypatch.setattr(SolidPanel, "_probe", lambda panel: None)
+    monkeypatch.setattr(analysis.Analyst, "answer", lambda *_: (_ for _ in ()).throw(Cancelled("none")))
+
+
 @pytest.mark.parametrize("key", [entry.key for entry in REGISTRY])
-def test_every_chooser_of_a_panel_is_in_the_state(window, key, monkeypatch):
+def test_every_chooser_of_a_panel_is_in_the_state(window, key, idle):
     """Those of every registered panel, one that is added later too."""
-    monkeypatch.setattr(SolidPanel, "_probe", lambda panel: None)  # the view is there without its renderer
     window.open_panel(key)
     check(window, window.panels[key].widget)
 
@@ -82,8 +90,7 @@ def test_every_chooser_around_the_panels_is_in_the_state(window, key):
     check(window, BARS[key](window))
 
 
-def test_every_choice_of_a_panel_has_one_chooser_that_offers_its_values(window, monkeypatch):
-    monkeypatch.setattr(SolidPanel, "_probe", lambda panel: None)
+def test_every_choice_of_a_panel_has_one_chooser_that_offers_its_values(window, idle):
     bound = [("exactness_measure", window.top.tolerance.panel.measure), ("playback_subject", window.play.subject)]
     for panel in REGISTRY:
         window.open_panel(panel.key)

@@ -43,12 +43,14 @@ def test_every_fence_of_a_page_is_the_beginning_or_the_end_of_a_block():
         assert len(re.findall(r"^```", page(name), re.MULTILINE)) == 2 * len(list(blocks(page(name)))), name
 
 
+@pytest.mark.slow
 def test_the_pictures_that_a_page_shows_are_written_by_its_examples(ran):
     for name in PAGES:
         for picture in MADE.findall(page(name)):
             assert picture in WINDOW or (ran[name][0] / picture).read_bytes().startswith(b"\x89PNG"), picture
 
 
+@pytest.mark.slow
 def test_the_tutorial_says_the_order_of_the_methods(ran):
     """Its sentence is that six coefficients are not enough at 10° and a fit is."""
     found = dict(re.findall(r"^(\w+) +R² = (-?[\d.]+)$", ran["tutorial"][1], re.MULTILINE))
