@@ -1,4 +1,5 @@
 import os
+from functools import lru_cache
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"  # before Qt is imported: tests need no screen
 
@@ -7,6 +8,8 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.theme import configure_plots
+from p2sf_explorer.compute import deferred_sums
+from p2sf_explorer.panels import image
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
 from tests.support.windows import start_again
@@ -19,6 +22,14 @@ def own_memory(tmp_path_factory):
         path = tmp_path_factory.mktemp("memory") / "p2sf" / "recent.json"
         patch.setattr("p2sf_explorer.files.recent.recent_path", lambda: path)
         yield path
+
+
+@pytest.fixture(autouse=True, scope="session")
+def known_sums():
+    """Sum the waves of six coefficients once for each picture: a window asks anew whatever changes, in every test."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(deferred_sums, "by_coefficients", lru_cache(maxsize=100)(deferred_sums.by_coefficients))
+        yield
 
 
 # The stage is so small that the PSF on it has no more samples than the answer.
@@ -50,8 +61,9 @@ def window(only_window, qtbot):
 
 
 @pytest.fixture
-def image_panel(window, qtbot):
-    """Return the image panel of the window, photographing print."""
+def image_panel(window, qtbot, monkeypatch):
+    """Return the image panel of the window, photographing print; no plans are made."""
+    monkeypatch.setattr(image, "fine_enough", lambda _: False)
     window.store.update(tab="image", photo_pixel_um=16.0, photo_source="text")
     made = window.panels["image"]
     qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
