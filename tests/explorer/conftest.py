@@ -12,7 +12,8 @@ from p2sf_explorer.compute import deferred_sums
 from p2sf_explorer.panels import image
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
-from tests.support.windows import start_again
+from p2sf_explorer.tolerancing import analysis
+from tests.support.windows import LONGEST_MS, start_again
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -24,11 +25,23 @@ def own_memory(tmp_path_factory):
         yield path
 
 
+FEW_BUILDS = 400  # enough for what is told apart here
+
+
 @pytest.fixture(autouse=True, scope="session")
-def known_sums():
-    """Sum the waves of six coefficients once for each picture: a window asks anew whatever changes, in every test."""
+def known_answers():
+    """Work out once, for all tests, what the window asks again and again: sums of six coefficients, and builds."""
+    work_out, known = analysis.Analyst.answer, {}
+
+    def answer(analyst, asked, *others):
+        if asked not in known:
+            known[asked] = work_out(analyst, asked, *others)
+        return known[asked]
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(deferred_sums, "by_coefficients", lru_cache(maxsize=100)(deferred_sums.by_coefficients))
+        patch.setattr(analysis, "BUILDS", FEW_BUILDS)
+        patch.setattr(analysis.Analyst, "answer", answer)
         yield
 
 
@@ -66,7 +79,7 @@ def image_panel(window, qtbot, monkeypatch):
     monkeypatch.setattr(image, "fine_enough", lambda _: False)
     window.store.update(tab="image", photo_pixel_um=16.0, photo_source="text")
     made = window.panels["image"]
-    qtbot.waitUntil(lambda: not made._stale(), timeout=30000)
+    qtbot.waitUntil(lambda: not made._stale(), timeout=LONGEST_MS)
     return made
 
 

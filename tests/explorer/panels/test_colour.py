@@ -8,6 +8,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.results import colour
 from p2sf_explorer.state.state import changed, new_state
+from tests.support.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
 
@@ -87,7 +88,8 @@ def panel(window, qtbot):
 
 
 def filled(made, qtbot):
-    qtbot.waitUntil(lambda: not made.asking.worker.busy and made.found and made.found[0] == made.asking.asked)
+    settled(made, qtbot)
+    assert made.found[0] == made.asking.asked
 
 
 def test_choosing_and_typing_a_spectrum(window, panel, qtbot):
@@ -130,7 +132,7 @@ def test_a_refused_spectrum_says_so_until_there_is_a_picture_again(window, panel
     window.store.update(spectrum="lines:200")
     refusal = panel.widget.readout.text()
     assert "200" in refusal and refusal != words
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy)
+    settled(panel, qtbot)
     assert panel.widget.readout.text() == refusal
     window.store.update(f_number=8.0)
     window.store.update(spectrum="lines:486,656")

@@ -18,6 +18,7 @@ from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.tile_charts import LightChart, arranged
 from tests.support.events import choose
+from tests.support.windows import settled
 
 QUICK = {"method": "seidel", "f_number": 8.0}
 
@@ -32,10 +33,8 @@ def panel(window, qtbot):
 
 
 def rested(panel, qtbot):
-    qtbot.waitUntil(
-        lambda: not panel.asking.worker.busy and all(tile.settled for row in panel.shown[1] for tile in row),
-        timeout=20000,
-    )
+    settled(panel, qtbot)
+    assert all(tile.settled for row in panel.shown[1] for tile in row)
 
 
 def headings(panel):
@@ -250,7 +249,8 @@ def test_curves_have_a_legend_and_pictures_have_none(window, panel, qtbot):
     assert panel.widget.readout.text() == ""
     for what, names in (("ray_fan", {"sagittal", "tangential"}), ("mtf", {"perfect lens", "sagittal", "tangential"})):
         window.store.update(matrix_what=what)
-        qtbot.waitUntil(lambda names=names: all(name in panel.widget.readout.text() for name in names), timeout=10000)
+        rested(panel, qtbot)
+        assert all(name in panel.widget.readout.text() for name in names)
     window.store.update(matrix_what="psf")
     rested(panel, qtbot)
     assert panel.widget.readout.text() == ""

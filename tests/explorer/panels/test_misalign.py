@@ -11,6 +11,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
+from tests.support.windows import settled
 
 
 @pytest.fixture
@@ -116,7 +117,8 @@ def test_panels_of_paraxial_figures_say_what_they_leave_out(window, panel):
 def test_a_point_of_the_field_map_is_dragged_to_any_field(window, panel, qtbot):
     window.store.update(tab="field_map", errors=(("tilt_y", 3, 5, 0.1),), f_number=8.0)
     chart = window.panels["field_map"].chart
-    qtbot.waitUntil(lambda: bool(chart.tiles) and chart.skew, timeout=20_000)
+    settled(window.panels["field_map"], qtbot)
+    assert chart.tiles and chart.skew
     at = QPoint(*(round(float(v)) for v in chart.to_pixels(-0.5, -0.25)))
     QTest.mousePress(chart, Qt.MouseButton.LeftButton, pos=at)
     QTest.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=at)

@@ -13,6 +13,7 @@ from p2sf_explorer.compute.measured import MeasureRequest, measure_request, meas
 from p2sf_explorer.results.mtf import contrast
 from p2sf_explorer.state.state import changed, new_state
 from tests.support.overlap import overlap
+from tests.support.windows import settled
 
 ALONE = new_state(method="seidel", theme="light", free_pupil=True)
 
@@ -52,7 +53,7 @@ def test_a_slow_transfer_function_follows_and_no_wrong_curve_is_shown(window, qt
     panel = window.panels["mtf"]
     request = window.live.views["mtf"]
     assert isinstance(request, MeasureRequest) and panel.asking.asked == request
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy, timeout=30_000)
+    settled(panel, qtbot)
     frequency, contrast = panel.curves["tangential"].data()
     at_20 = mtf_of(measured_parts(request), "", [20.0]).tangential[0]
     assert np.interp(20.0, frequency, contrast) == pytest.approx(at_20, abs=0.02)
@@ -84,7 +85,7 @@ def test_behind_a_ring_the_perfect_curve_is_that_of_the_same_pupil_and_the_clear
     window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="mtf"))
     panel = window.panels["mtf"]
     beside = panel.curves["perfect, clear pupil"]
-    qtbot.waitUntil(lambda: bool(np.isfinite(beside.data()[1]).any()), timeout=30_000)
+    settled(panel, qtbot)
     frequency, perfect = panel.curves["perfect lens"].data()
     apart = 2 * frequency / frequency[-1]
     ring = circles(apart, 1, 1) - 2 * circles(apart, 1, 0.5) + circles(apart, 0.5, 0.5)
@@ -100,7 +101,7 @@ def test_energy_behind_a_ring_is_beside_that_of_the_same_pupil(window, qtbot):
     """That of the annular Airy pattern, 2J₁(v)/v − ε²·2J₁(εv)/(εv) over 1 − ε², summed over rings."""
     window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="profiles"))
     panel = window.panels["profiles"]
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy and len(panel.within.data()[0]) > 0, timeout=30_000)
+    settled(panel, qtbot)
     (radius, perfect), (_, clear) = panel.perfect.data(), panel.clear.data()
     unit = 2 * np.pi * float(window.live.setup.coefficients.na) / float(window.live.setup.coefficients.wavelength_um)
     v = np.linspace(1e-6, 60 * unit, 40_000)

@@ -7,6 +7,7 @@ from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import new_state
 from tests.support.events import choose
+from tests.support.windows import settled
 
 
 @pytest.fixture
@@ -14,18 +15,14 @@ def panel(window, qtbot):
     """Return the panel once its first curves are there."""
     window.store.update(tab="curves", f_number=8.0)
     made = window.panels["curves"]
-    rested(made, qtbot)
+    settled(made, qtbot)
     return made
-
-
-def rested(panel, qtbot):
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy and panel.found is not None, timeout=30000)
 
 
 @pytest.mark.parametrize("of", CHOICES["curves_of"])
 def test_every_kind_has_its_curves_and_a_legend(window, panel, qtbot, of):
     choose(panel.of, of)
-    rested(panel, qtbot)
+    settled(panel, qtbot)
     found = panel.found[1]
     assert window.store.state.curves.of == of and panel.chart.labels == found.axes
     drawn = [curve for curve in panel.curves if curve.x.size]
@@ -42,7 +39,7 @@ def test_frequencies_are_typed(window, panel, qtbot):
     panel.frequencies.edit.selectAll()
     qtbot.keyClicks(panel.frequencies.edit, "5; 12,5/mm")
     qtbot.keyClick(panel.frequencies.edit, Qt.Key.Key_Return)
-    rested(panel, qtbot)
+    settled(panel, qtbot)
     assert window.store.state.curves.frequencies_per_mm == (5.0, 12.5)
     assert [str(name) for name in panel.found[1].names] == ["5/mm", "12.5/mm"]
 

@@ -16,6 +16,7 @@ from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.widgets.card import chart_at
 from p2sf_explorer.widgets.copying import copy_menu, data_of, picture_of
+from tests.support.windows import LONGEST_MS, at_rest
 
 # Tables, sliders, photos, a 3D scene; nothing until a picture is measured.
 WITHOUT = {"coefficients", "lens", "misalign", "first_order", "solid", "import", "image", "measured"}
@@ -34,7 +35,7 @@ def charts(window, qtbot, request):
     panel = window.panels[key]
     if key == "accuracy":
         panel.show_accuracy(measure(window.live, True, Event(), lambda part: None), stale=False)
-    qtbot.waitUntil(lambda: not window.is_busy(), timeout=30000)
+    at_rest(window, qtbot)
     QApplication.processEvents()
     found = [chart for chart in panel.widget.findChildren(Chart) if chart.isVisible()]
     assert found, "a panel with plots shows one"
@@ -277,7 +278,7 @@ def test_space_for_a_drag_of_the_charts_own(window, qtbot):
     """On the strip a drag moves the sensor; with Shift, or the middle button, it pans."""
     window.store.update(tab="through_focus")
     chart = window.panels["through_focus"].chart
-    qtbot.waitUntil(lambda: bool(chart.tiles) and not window.is_busy(), timeout=20000)
+    at_rest(window, qtbot)
     at = point(chart, 0.3, 0.5)
     before = window.store.state.optics.sensor_shift_um
     qtbot.mousePress(chart, Qt.MouseButton.MiddleButton, pos=at.toPoint())
@@ -293,13 +294,13 @@ def test_a_psf_that_is_zoomed_is_summed_for_the_pixels_it_then_has(window, qtbot
     """The whole picture gets as many samples as it would have pixels, as far as sums of some seconds go."""
     window.store.update(method="fitted", f_number=8.0, field_deg=5.0)
     heat = window.panels["psf"].map
-    qtbot.waitUntil(lambda: len(heat.indices) >= heat.device_pixels, timeout=20000)
+    at_rest(window, qtbot)
     before, whole = len(heat.indices), heat.device_pixels
     heat.chart.zoom(heat.chart.area.center(), 0.5)
     try:
         assert heat.device_pixels == pytest.approx(2 * whole)
         most = min(heat.device_pixels, window.live.finest)
-        qtbot.waitUntil(lambda: before < len(heat.indices) >= most, timeout=20000)
+        qtbot.waitUntil(lambda: before < len(heat.indices) >= most, timeout=LONGEST_MS)
     finally:
         heat.chart.go_home()
 

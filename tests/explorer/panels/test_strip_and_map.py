@@ -15,6 +15,7 @@ from p2sf_explorer.panels.field_map import FieldMapPanel
 from p2sf_explorer.results import field_map, through_focus
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.what_if import UNTOUCHED
+from tests.support.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
 PURE = changed(FIRST, free_pupil=True)
@@ -30,7 +31,8 @@ def strip(window, qtbot):
 
 
 def filled(panel, qtbot):
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy and panel.found and panel.found[0] == panel.asking.asked)
+    settled(panel, qtbot)
+    assert panel.found[0] == panel.asking.asked
 
 
 def worked(question, module):

@@ -20,39 +20,24 @@ from p2sf_explorer.tolerance_view.arrangement import TolerancesBody
 from p2sf_explorer.tolerance_view.tables import LOST, ErrorTable
 from p2sf_explorer.tolerancing import analysis
 from p2sf_explorer.widgets.copying import data_of
+from tests.explorer.conftest import FEW_BUILDS
 from tests.support.tolerances import exact_quality
+from tests.support.windows import LONGEST_MS
 
 LENS = "achromat_f6"
-BUILDS = 400  # enough for what is told apart here
-
-
-@pytest.fixture(scope="module", autouse=True)
-def few_builds():
-    """Have few builds, and each request worked out once for all tests."""
-    answer, known = analysis.Analyst.answer, {}
-
-    def kept(analyst, asked, *others):
-        if asked not in known:
-            known[asked] = answer(analyst, asked, *others)
-        return known[asked]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(analysis, "BUILDS", BUILDS)
-        patch.setattr(analysis.Analyst, "answer", kept)
-        yield
 
 
 @pytest.fixture
 def panel(window, qtbot):
     window.store.update(lens=LENS, lens_text=None, field_deg=0.0, tab="tolerances")
     made = window.panels["tolerances"]
-    qtbot.waitUntil(lambda: not made._stale(), timeout=60000)
+    qtbot.waitUntil(lambda: not made._stale(), timeout=LONGEST_MS)
     yield made
     window.store.update(tab="profiles")
 
 
 def wait(panel, qtbot):
-    qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy, timeout=60000)
+    qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy, timeout=LONGEST_MS)
 
 
 def test_no_limit_is_shown_before_there_are_builds(window, monkeypatch):
@@ -68,7 +53,7 @@ def test_errors_yield_and_worst_builds_are_shown(panel):
     assert panel.limit.isEnabled() and panel.limit.value() > 0
     assert panel.errors.rowCount() == len(usual_tolerances(find_lens(LENS)))
     view = analysis.figures(panel._found, state.tolerances)
-    assert view.counts.sum() >= 0.99 * BUILDS, "all but the worst are in the histogram"
+    assert view.counts.sum() >= 0.99 * FEW_BUILDS, "all but the worst are in the histogram"
     assert view.share == pytest.approx(0.8, abs=0.01), "four lenses of five keep the limit"
     assert (np.diff(view.yields[1]) >= 0).all()
     values = [value for _, value in view.worst]

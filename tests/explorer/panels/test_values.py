@@ -34,6 +34,7 @@ from p2sf_explorer.compute.reference import REFERENCE_TOLERANCE, measure
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.workspaces import on_stage
+from tests.support.windows import at_rest
 
 STATE = new_state(method="seidel", theme="light", f_number=8.0, field_deg=5.0, psf_units="peak", phase="waves")
 PLACES = ((0.5, 0.5), (0.37, 0.45), (0.61, 0.58), (0.29, 0.7), (0.8, 0.3))
@@ -60,7 +61,7 @@ def readings(window, qtbot, key: str, number: int = 0, stage: bool = False):
     window.open_panel(key)
     if stage:  # where there is room for every plot
         window.store.update(**on_stage(window.store.state.display, key))
-    qtbot.waitUntil(lambda: not window.is_busy(), timeout=30000)
+    at_rest(window, qtbot)
     QApplication.processEvents()
     charts = [chart for chart in window.panels[key].widget.findChildren(Chart) if chart.isVisible()]
     chart, seen = charts[number], 0
@@ -329,7 +330,7 @@ def test_matrix(window, qtbot, setup):
     """Each tile's sample is that of its field's and colour's PSF, as light per area."""
     window.store.replace(STATE)
     window.open_panel("matrix")
-    qtbot.waitUntil(lambda: not window.is_busy(), timeout=30000)
+    at_rest(window, qtbot)
     QApplication.processEvents()
     charts = [chart for chart in window.panels["matrix"].widget.findChildren(Chart) if chart.isVisible()]
     points = [(field, nm) for field in (0.0, 10.0, 14.0) for nm in (486.1327, 587.5618, 656.2725)]

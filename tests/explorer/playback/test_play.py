@@ -19,6 +19,7 @@ from p2sf_explorer.state.limits import PLAYABLE
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.terms import NAMES
 from tests.support.events import choose
+from tests.support.windows import LONGEST_MS, at_rest, settled
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])
@@ -186,7 +187,7 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
     bar, path = window.play, tmp_path / "way.png"
     choose(bar.subject, "psf")
     state = window.store.state
-    with qtbot.waitSignal(bar.filming.ended, timeout=20000) as told:
+    with qtbot.waitSignal(bar.filming.ended, timeout=LONGEST_MS) as told:
         assert bar.film(str(path))
         assert bar.progress.isVisible()
     assert told.args[0].values["count"] == 3
@@ -194,7 +195,7 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
     assert not bar.progress.isVisible()
     for number, wd in enumerate((0.0, 0.5, 1.0), 1):
         window.store.update(added_waves=(0.0, 0.0, 0.0, 0.0, wd, 0.0))
-        qtbot.waitUntil(lambda: not window.is_busy(), timeout=20000)
+        at_rest(window, qtbot)
         middle = frame_pixels(window.panels["psf"].map.chart)
         film = np.asarray(Image.open(tmp_path / f"way_{number:04d}.png").convert("RGB"))
         chart = window.panels["psf"].map.chart
@@ -206,10 +207,10 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
 def filmed(window, qtbot, path, subject: str, meanwhile=lambda: None) -> str:
     bar = window.play
     choose(bar.subject, subject)
-    with qtbot.waitSignal(bar.filming.ended, timeout=60000) as told:
+    with qtbot.waitSignal(bar.filming.ended, timeout=LONGEST_MS) as told:
         assert bar.film(str(path))
         assert not bar.close_bar.isEnabled()
-        with qtbot.waitSignal(bar.filming.progressed, timeout=20000):
+        with qtbot.waitSignal(bar.filming.progressed, timeout=LONGEST_MS):
             pass
         meanwhile()
     assert bar.close_bar.isEnabled()
@@ -253,7 +254,7 @@ def test_a_film_waits_for_the_panels_that_fill_in_the_background(window, qtbot, 
     assert "2 frames" in filmed(window, qtbot, tmp_path / "way.png", "tabs")
     for number, f_number in enumerate((4.0, 8.0), 1):
         window.store.update(f_number=f_number)
-        qtbot.waitUntil(lambda: not panel.asking.worker.busy, timeout=20000)
+        settled(panel, qtbot)
         found = part_of(tmp_path / f"way_{number:04d}.png", window.tabs, getattr(panel, chart))
         assert np.array_equal(found, frame_pixels(getattr(panel, chart)))
 
@@ -265,9 +266,9 @@ def frame_pixels(widget) -> np.ndarray:
 
 def test_a_film_can_be_cancelled(window, qtbot, tmp_path):
     window.store.update(playback_slider="field_deg", playback_seconds=60.0)
-    with qtbot.waitSignal(window.play.filming.ended, timeout=20000) as told:
+    with qtbot.waitSignal(window.play.filming.ended, timeout=LONGEST_MS) as told:
         assert window.play.film(str(tmp_path / "way.gif"))
-        with qtbot.waitSignal(window.play.filming.progressed):
+        with qtbot.waitSignal(window.play.filming.progressed, timeout=LONGEST_MS):
             pass
         qtbot.mouseClick(window.play.stop_film, Qt.MouseButton.LeftButton)
     assert "cancelled" in str(told.args[0])

@@ -17,6 +17,7 @@ from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.copying import copy_menu, data_of, table
 from tests.long.crash import small_disk
+from tests.support.windows import settled
 
 
 def test_the_curves_of_the_panel_on_the_stage_are_copied_as_they_are(window, qtbot):
@@ -81,7 +82,7 @@ def test_other_panels_have_their_numbers_too(window, key):
 def test_small_pictures_are_copied_as_one_grid_each(window, qtbot, key):
     window.open_panel(key)
     panel = window.panels[key]
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy and bool(panel.chart.grids), timeout=10000)
+    settled(panel, qtbot)
     asked, found = panel.found
     pictures = (found.light if key == "through_focus" else found).reshape(-1, *(asked.window[0],) * 2)
     kept = [picture for picture in pictures if np.isfinite(picture).any()]

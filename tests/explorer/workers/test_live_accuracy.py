@@ -14,6 +14,7 @@ from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.scales import written_r_squared
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.workers.live_accuracy import fits
+from tests.support.windows import at_rest
 
 
 @pytest.fixture
@@ -27,7 +28,8 @@ def measured(qapp, qtbot):
 
 def test_the_badge_and_every_method_arrive_by_themselves(measured, qtbot):
     badge = measured.panels["psf"].badge
-    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    at_rest(measured, qtbot)
+    assert "vs Huygens" in badge.text()
     known = measured.measuring._last
     results = {method.method: method for method in known.results}
     assert set(results) == {"gaussian", "seidel", "fitted", "traced", "huygens"}
@@ -40,7 +42,8 @@ def test_the_badge_and_every_method_arrive_by_themselves(measured, qtbot):
 def test_the_panel_in_a_window_of_its_own_is_told_whatever_tab_is_in_front(measured, qtbot):
     measured.store.update(tab="mtf", windows=("accuracy",), field_deg=1.0)
     message = measured.panels["accuracy"].message
-    qtbot.waitUntil(lambda: "vs Huygens" in message.text() and "earlier" not in message.text(), timeout=30000)
+    at_rest(measured, qtbot)
+    assert "vs Huygens" in message.text() and "earlier" not in message.text()
     assert measured.measuring._last.live.state.optics.field_deg == 1.0 and measured.measuring._last.results
 
 
@@ -59,7 +62,8 @@ def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
 
 def test_no_figure_of_an_earlier_picture_stands_beside_the_next(measured, qtbot):
     badge, message = measured.panels["psf"].badge, measured.panels["accuracy"].message
-    qtbot.waitUntil(lambda: "vs Huygens" in badge.text() and "vs Huygens" in message.text(), timeout=30000)
+    at_rest(measured, qtbot)
+    assert "vs Huygens" in badge.text() and "vs Huygens" in message.text()
     with measured.store.drag():
         measured.store.update(field_deg=3.0)
         assert "vs Huygens" not in badge.text() and "R²" not in message.text()
@@ -71,14 +75,16 @@ def test_no_figure_of_an_earlier_picture_stands_beside_the_next(measured, qtbot)
 
 def test_a_resized_panel_keeps_the_measured_figure(measured, qtbot):
     panel = measured.panels["psf"]
-    qtbot.waitUntil(lambda: "vs Huygens" in panel.badge.text(), timeout=30000)
+    at_rest(measured, qtbot)
+    assert "vs Huygens" in panel.badge.text()
     panel._settled.timeout.emit()
     assert "vs Huygens" in panel.badge.text()
 
 
 def test_a_lesson_claims_what_the_panel_says(measured, qtbot):
     badge = measured.panels["psf"].badge
-    qtbot.waitUntil(lambda: "vs Huygens" in badge.text(), timeout=30000)
+    at_rest(measured, qtbot)
+    assert "vs Huygens" in badge.text()
     said = written_r_squared(MEASURES["r_squared"](measured.store.state))
     assert f"R² {said} " in measured.panels["accuracy"].message.text()
 
