@@ -103,6 +103,7 @@ write.write_stack(*small(), sys.argv[1], SAMPLING)
 """
 
 
+@pytest.mark.slow
 def test_kill_9_loses_the_chunk_in_flight_and_no_more(stack, tmp_path):
     path = tmp_path / "killed.zarr"
     process = subprocess.Popen([sys.executable, "-c", SLOW_BUILD, str(path)], cwd=ROOT)

@@ -34,6 +34,7 @@ from p2sf.tolerance.differentials import NODES, usual_sources
 from p2sf.tolerance.errors_of_build import IRREGULAR
 from tests.long.tolerances import agreement, gauss
 from tests.support.simple_lenses import in_the_stop
+from tests.support.tiers import in_tiers
 from tests.support.tolerances import exact_quality, masked_quality
 
 UM = 0.5875618
@@ -366,7 +367,7 @@ MASKS = {
 }
 
 
-@pytest.fixture(scope="module", params=MASKS)
+@pytest.fixture(scope="module", params=in_tiers(MASKS, ["iris"]))
 def behind(request, lens):
     """Return the differentials of the lens with a mask in its stop, by errors that leave it symmetric."""
     few = [one for one in FEW if one.kind in ("radius", "thickness", "index")]

@@ -12,7 +12,7 @@ from tests.support.tiers import in_tiers
 from tests.support.windows import LONGEST_MS
 
 TABS = [entry.key for entry in REGISTRY if entry.key != "solid"]
-DIFFERENT = ("psf", "lens", "matrix")  # a picture, a table, and choosers
+DIFFERENT = ("lens", "matrix")  # a table, and choosers
 MOST = 200
 
 

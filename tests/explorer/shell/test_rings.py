@@ -9,16 +9,21 @@ from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf_explorer.compute.setup import paraxial_setup, prescription, with_lens
 from p2sf_explorer.shell.choices import choices
 from p2sf_explorer.state.link import link, state_of_link
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from tests.support.zooms import focusing_zoom, two_group_zoom, zoom_lens_at
 
 ZOOM, BOTH = lens_to_toml(two_group_zoom()), lens_to_toml(focusing_zoom())
 
 
+def take(window, text: str | None) -> None:
+    """Open a lens, stopped down, so that the wide blurs of a ring's ends are painted at once."""
+    window.store.replace(changed(with_lens(window.store.state, "double_gauss_28", text), f_number=16.0))
+
+
 @pytest.fixture
 def rows(window):
-    window.store.replace(with_lens(window.store.state, "double_gauss_28", ZOOM))
+    take(window, ZOOM)
     return window.controls.rows
 
 
@@ -32,7 +37,7 @@ def type_into(qtbot, edit, text: str) -> None:
 def test_only_lenses_that_have_rings_show_their_sliders(window):
     shown = {}
     for name, text in (("none", None), ("zoom", ZOOM), ("both", BOTH)):
-        window.store.replace(with_lens(window.store.state, "double_gauss_28", text))
+        take(window, text)
         shown[name] = tuple(window.controls.rows[key].isVisible() for key in ("zoom", "focus_position"))
     assert shown == {"none": (False, False), "zoom": (True, False), "both": (True, True)}
 
@@ -76,7 +81,7 @@ def test_keys_and_the_palette_turn_the_ring(window, rows, qtbot):
 
 
 def test_a_focus_distance_turns_the_ring_of_focus_and_the_ring_takes_over(window, drag):
-    window.store.replace(with_lens(window.store.state, "double_gauss_28", BOTH))
+    take(window, BOTH)
     row = window.controls.rows["focus_position"]
     window.store.update(focus_mm=4000.0, zoom=60.0)
     setup = paraxial_setup(window.store.state)
