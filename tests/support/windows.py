@@ -10,17 +10,15 @@ from p2sf_explorer.state.workspaces import on_show
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.workers.worker import LatestWins
 
-LONGEST_MS = 60_000  # on a machine with other work
-
 
 def settled(panel, qtbot) -> None:
     """Wait until a panel shows the answer to what it was asked last: nothing runs or waits."""
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not panel.asking.worker.busy)
 
 
 def at_rest(window, qtbot) -> None:
     """Wait until nothing that the window shows is still being computed."""
-    qtbot.waitUntil(lambda: not window.is_busy(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not window.is_busy())
 
 
 def start_again(window, state) -> None:

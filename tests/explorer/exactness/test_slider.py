@@ -8,7 +8,6 @@ from p2sf_explorer.exactness.bounds import Cost
 from p2sf_explorer.exactness.slider import MEASURES, rounded
 from p2sf_explorer.widgets.slider import STEPS
 from tests.support.events import choose
-from tests.support.windows import LONGEST_MS
 
 FOUND = (Cost("seidel", 1.0, 0.2), Cost("fitted", 5.0, 1e-3), Cost("traced", 40.0, 5e-5))
 
@@ -19,7 +18,7 @@ def panel(window, qtbot):
     window.top.tolerance.click()
     found = window.top.tolerance.panel
     take(found, "r2")
-    qtbot.waitUntil(lambda: not found.worker.busy, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not found.worker.busy)
     yield found
     found.hide()
 

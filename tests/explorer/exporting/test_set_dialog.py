@@ -17,7 +17,6 @@ from p2sf_explorer.files.snapshot import side_car
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.state_files import read_state
-from tests.support.windows import LONGEST_MS
 
 TEXTS = SetTexts("2 m; ∞", "0; 7,5°", "486.1; 587,6 nm", "5 µm", "80 %", "21")
 
@@ -101,7 +100,7 @@ def test_a_set_is_written_with_its_state_while_the_window_goes_on(window, dialog
     fill(dialog, TEXTS)
     assert "8" in dialog.count.text()
     path = tmp_path / "set.npz"
-    with qtbot.waitSignal(dialog.ended, timeout=LONGEST_MS):
+    with qtbot.waitSignal(dialog.ended):
         assert dialog.write(str(path))
         assert dialog.bar.isVisible() and not dialog.export.isEnabled()
     with np.load(path) as file:
@@ -114,7 +113,7 @@ def test_a_cancelled_set_writes_nothing(window, dialog, qtbot, tmp_path):
     fill(dialog, SetTexts("1 m; 2 m; 3 m; 4 m; ∞", "0; 4; 8; 12; 14", "486; 587; 656", "4", "100 %", "65"))
     assert dialog.write(str(tmp_path / "set.npz"))
     dialog.stop_button.click()
-    qtbot.waitUntil(lambda: not dialog.worker.busy, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not dialog.worker.busy)
     assert not list(tmp_path.iterdir())
     assert "nothing was written" in dialog.note.text() and dialog.export.isEnabled()
 
@@ -167,7 +166,7 @@ def test_the_fields_follow_a_lens_that_comes_while_the_dialog_is_open(window, di
 def test_a_set_of_a_misaligned_lens_is_written(window, dialog, qtbot, tmp_path):
     window.store.update(errors=(("decentre_x", 3, 5, 0.1), ("tilt_x", 1, 2, 0.05)))
     fill(dialog, TEXTS)
-    with qtbot.waitSignal(dialog.ended, timeout=LONGEST_MS):
+    with qtbot.waitSignal(dialog.ended):
         assert dialog.write(str(tmp_path / "set.npz"))
     with np.load(tmp_path / "set.npz") as file:
         assert file["psf"].shape == (2, 2, 2, 21, 21) and (file["chief_x_mm"] != 0).all()

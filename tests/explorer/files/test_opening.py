@@ -21,7 +21,6 @@ from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.results.import_report import described
 from p2sf_explorer.state.state import changed, new_state
-from tests.support.windows import LONGEST_MS
 
 FILES = Path(__file__).parents[2] / "data" / "import"
 FOREIGN = ("bench.txt", "doublet.seq", "doublet.zmx", "gauss.dat", "singlet.csv", "triplet.json")
@@ -147,10 +146,10 @@ def test_a_file_changed_on_disk_is_read_again(window, qtbot, zemax):
     beside = zemax.with_suffix(".new")  # as editors save: a new file renamed into its place
     beside.write_text(zemax.read_text().replace("DISZ 6.0", "DISZ 6.5"))
     os.replace(beside, zemax)
-    qtbot.waitUntil(lambda: prescription(window.live.state).surfaces[0].thickness == 6.5, timeout=LONGEST_MS)
-    qtbot.waitUntil(lambda: window.live.setup.lens.surfaces[0].thickness == 6.5, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: prescription(window.live.state).surfaces[0].thickness == 6.5)
+    qtbot.waitUntil(lambda: window.live.setup.lens.surfaces[0].thickness == 6.5)
     zemax.write_text(zemax.read_text().replace("DISZ 6.5", "DISZ 7.5"))  # and written in place, a second time
-    qtbot.waitUntil(lambda: window.live.setup.lens.surfaces[0].thickness == 7.5, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: window.live.setup.lens.surfaces[0].thickness == 7.5)
     assert "read again" in window.status.warning.text()
 
 
@@ -158,7 +157,7 @@ def test_a_file_spoilt_on_disk_is_a_sentence_and_the_picture_stays(window, qtbot
     window.commands.open_path(str(zemax))
     live = window.live
     zemax.write_text("nothing")
-    qtbot.waitUntil(window.banner.isVisible, timeout=LONGEST_MS)
+    qtbot.waitUntil(window.banner.isVisible)
     assert window.live is live
 
 
@@ -168,7 +167,7 @@ def test_edits_outlive_a_change_on_disk(window, qtbot, zemax):
     model = window.panels["lens"].model
     model.setData(model.index(0, 0), "70")
     zemax.write_text(zemax.read_text().replace("DISZ 6.0", "DISZ 6.5"))
-    qtbot.waitUntil(lambda: "your edits are kept" in window.status.warning.text(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "your edits are kept" in window.status.warning.text())
     assert window.live.setup.lens.surfaces[0].radius == 70
 
 

@@ -9,7 +9,6 @@ from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
 from p2sf_explorer.state.state import changed
 from tests.support.events import choose
-from tests.support.windows import LONGEST_MS
 
 FIRST, SECOND = shipped_lessons()[:2]
 ALT = Qt.KeyboardModifier.AltModifier
@@ -170,7 +169,7 @@ def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, 
     monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
     made = LessonController(window.store, window, window.lesson_room)
     assert len(made.lessons()) == len(shipped_lessons())
-    qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text())
     window.store.changed.disconnect(made.follow)
     window.banner.hide()
 

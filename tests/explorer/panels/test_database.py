@@ -18,7 +18,6 @@ from p2sf_explorer.results.database import ATLAS_DEFOCUS, answer, question
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.workspaces import on_stage
 from tests.support.events import choose
-from tests.support.windows import LONGEST_MS
 
 
 def asked(**changes):
@@ -29,7 +28,7 @@ def asked(**changes):
 def panel(window, qtbot):
     window.open_panel("database")
     made = window.panels["database"]
-    qtbot.waitUntil(lambda: made._answer is not None and not made._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: made._answer is not None and not made._stale())
     return made
 
 
@@ -102,7 +101,7 @@ def test_another_wavelength_brings_other_maps_by_itself(window, panel, qtbot):
     before = panel._answer
     window.store.update(wavelength_nm=450.0)
     assert "working" in panel.widget.readout.text()
-    qtbot.waitUntil(lambda: panel._answer is not before and not panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel._answer is not before and not panel._stale())
     assert panel.widget.readout.text() == "at 450.0 nm"
     assert not np.array_equal(panel._answer.maps["w40"], before.maps["w40"])
 
@@ -212,7 +211,7 @@ def test_an_edited_lens_has_its_own_maps(window, panel, qtbot):
 
     before, state = panel._answer, window.store.state
     window.store.replace(edited_state(state, with_value(prescription(state), 1, "radius", "57")))
-    qtbot.waitUntil(lambda: panel._answer is not before and not panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel._answer is not before and not panel._stale())
     assert panel._answer.question.lens == replace(window.live.setup.lens)
 
 

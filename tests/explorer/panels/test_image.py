@@ -44,7 +44,6 @@ from p2sf_explorer.results.image import (
 )
 from p2sf_explorer.results.photos import channels_of, fitted, full_shape, scene_values
 from p2sf_explorer.state.state import changed, new_state
-from tests.support.windows import LONGEST_MS
 
 FAST = new_state(method="seidel", photo_pixel_um=16.0, theme="light")
 LIVE = compute.live(FAST)
@@ -259,7 +258,7 @@ def test_the_panel_shows_the_split_picture_and_marks_an_earlier_one(window, imag
     assert image_panel.split_view.names == ("scene", "image")
     window.store.update(field_deg=3.0)
     assert "earlier picture" in image_panel.widget.readout.text()
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert "earlier" not in image_panel.widget.readout.text()
     window.store.update(psf_scale="log")  # nothing the picture depends on
     assert not image_panel._stale()
@@ -302,7 +301,7 @@ def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
 
 def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     window.store.update(photo_source="/nowhere/photo.png")
-    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text)
     assert image_panel.widget.readout.text() == "no picture"
     window.store.update(psf_scale="log")  # nothing the picture depends on
     assert image_panel.widget.readout.text() == "no picture" and not image_panel.headline.isVisible()
@@ -310,7 +309,7 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     image_panel.save_as("/nowhere/out.png")
     assert "there is no picture yet" in window.banner.text.text().lower()
     window.store.update(photo_source="text")
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert not image_panel.overlay.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
 
 
@@ -330,7 +329,7 @@ def test_a_late_answer_to_an_earlier_question_does_not_cover_the_present_picture
     assert image_panel._answer is earlier and "earlier" in image_panel.widget.readout.text(), (
         "better than one older still"
     )
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
 
 
 def test_every_pixel_of_a_photo_goes_through_the_lens_and_is_planned_as_such(tmp_path):
@@ -406,7 +405,7 @@ def test_a_photo_taken_by_a_tilted_sensor_is_sharpened_by_a_plan(tmp_path, clip)
 @pytest.mark.parametrize("view", [{"photo_show": "taken"}, {"photo_pixel_um": None, "photo_full": True}])
 def test_a_photo_that_is_missing_leaves_the_button_to_choose_another(window, image_panel, qtbot, tmp_path, view):
     window.store.update(**view, photo_source=str(tmp_path / "moved.png"))
-    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text)
     assert image_panel.show_box.currentData() == window.store.state.photo.show
     at = image_panel.open.mapTo(window, image_panel.open.rect().center())
     assert window.childAt(at) is image_panel.open

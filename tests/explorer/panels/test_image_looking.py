@@ -37,7 +37,6 @@ from p2sf_explorer.results.photos import cut_away, scene_values
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.widgets.copying import png_of
 from p2sf_explorer.widgets.split_view import close_up, places
-from tests.support.windows import LONGEST_MS
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):
@@ -95,7 +94,7 @@ def test_a_dropped_photo_is_opened_another_picture_refused_and_a_lens_left_to_th
     write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
     assert drop(image_panel.widget, tmp_path / "grey.png").isAccepted()
     assert window.store.state.photo.source == str(tmp_path / "grey.png")
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert image_panel.split_view.before[5, 5] & 0xFF == pytest.approx(188, abs=1)  # sRGB of half the light
     said = []
     window.store.refused.connect(said.append)
@@ -135,7 +134,7 @@ def test_the_plan_is_told_behind_a_button_and_a_few_words_stand_under_the_contro
 def orders(window, image_panel, qtbot, monkeypatch):
     """Return what plans are ordered from now on: none is made, so that a test tells how far one is."""
     monkeypatch.undo()  # plans may be ordered
-    qtbot.waitUntil(lambda: not image_panel.fine.busy, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel.fine.busy)
     made = []
     monkeypatch.setattr(image_panel.fine, "submit", lambda key, job: made.append(key))
     image_panel._answer = replace(image_panel._answer, quality="coarse")
@@ -195,7 +194,7 @@ def test_a_planned_picture_that_came_too_late_to_be_cancelled_is_no_cancelled_on
 def test_a_plan_is_ordered_though_the_one_before_has_not_yet_stopped(window, image_panel, orders, qtbot, monkeypatch):
     monkeypatch.setattr(image_panel.fine, "_cancelled", Event())  # as while a job is running
     window.store.update(field_deg=3.0)
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert orders == [image_panel._asked]
 
 
@@ -210,11 +209,11 @@ def test_another_photo_is_made_by_the_plan_there_is(window, image_panel, orders,
     by_plan = replace(image_panel._answer, quality="planned", plan=plan)
     image_panel._on_answer(image_panel._asked, by_plan)
     window.store.update(photo_source="siemens_star")
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert image_panel._answer.plan is by_plan.plan and image_panel._answer.lattice is by_plan.lattice and not orders
     assert np.array_equal(image_panel._answer.before, scene_values("siemens_star", (ROWS, COLUMNS)))
     window.store.update(field_deg=5.0)
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert image_panel._answer.plan is not by_plan.plan and orders == [image_panel._asked]
 
 
@@ -244,7 +243,7 @@ def test_a_low_panel_in_a_small_window_gives_the_picture_its_height(window, imag
 def test_a_photo_of_other_proportions_is_cut_and_the_panel_says_where(window, image_panel, qtbot, tmp_path):
     write_photo(tmp_path / "wide.png", np.full((20, 60, 3), 0.5, np.float32))
     window.store.update(photo_source=str(tmp_path / "wide.png"))
-    qtbot.waitUntil(lambda: not image_panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not image_panel._stale())
     assert image_panel._answer.cut == Message("sides of the photo cut off")
     assert image_panel.headline.text().startswith("Sides of the photo cut off")
     frame = dict(image_panel._answer.notes)[Message("Frame")]

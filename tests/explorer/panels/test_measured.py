@@ -19,7 +19,6 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.results import image
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
-from tests.support.windows import LONGEST_MS
 
 SHIFT_UM = 60.0
 
@@ -45,7 +44,7 @@ def panel(window):
 def test_a_picture_is_measured_and_taken_into_the_window(panel, picture, window, qtbot, tmp_path):
     panel.open_picture(str(picture))
     assert panel.overlay.text and not panel.save.isVisibleTo(panel.widget)
-    qtbot.waitUntil(lambda: panel._found is not None, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel._found is not None)
     assert panel.list.rowCount() == 6 and not panel.overlay.text
     assert panel.chart.read(*panel.chart.from_pixels(panel.chart.room(panel.chart.tiles[0]).center()))
     values = dict(zip((row[0] for row in panel.table.rows), panel.table.values, strict=True))
@@ -117,7 +116,7 @@ def test_the_encoding_is_chosen_and_what_was_done_is_said(panel, picture, window
         panel.encoding.activated.emit(panel.encoding.currentIndex())
         assert window.store.state.measured.encoding == choice
         wanted = "srgb" if choice == "automatic" else choice
-        qtbot.waitUntil(lambda: not panel.worker.busy, timeout=LONGEST_MS)
+        qtbot.waitUntil(lambda: not panel.worker.busy)
         assert panel._found.frames[0].encoding == wanted
         said[choice] = panel.widget.readout.text()
     assert "sRGB" in said["automatic"] and "linear counts" in said["linear"]
@@ -126,20 +125,20 @@ def test_the_encoding_is_chosen_and_what_was_done_is_said(panel, picture, window
 
 def test_stop_ends_a_measurement_before_it_is_done(panel, picture, qtbot):
     panel.open_picture(str(picture))
-    qtbot.waitUntil(lambda: "%" in panel.widget.readout.text(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "%" in panel.widget.readout.text())
     panel.stop_button.click()
-    qtbot.waitUntil(lambda: not panel.worker.busy, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not panel.worker.busy)
     assert panel._found is None and "stopped" in panel.overlay.text
 
 
 def test_what_is_no_picture_of_points_is_said(panel, window, qtbot, tmp_path):
     np.save(tmp_path / "noise.npy", np.random.default_rng(0).normal(50, 5, (40, 40)))
     panel.open_picture(str(tmp_path / "noise.npy"))
-    qtbot.waitUntil(lambda: bool(panel._refusal), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: bool(panel._refusal))
     assert "o point rises above" in panel._refusal
     assert not panel.save.isEnabled() and not panel.take.isEnabled() and not panel.sharpen.isEnabled()
     window.store.update(measured_picture=str(tmp_path / "moved.npy"))
-    qtbot.waitUntil(lambda: "moved.npy is not in" in panel._refusal, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "moved.npy is not in" in panel._refusal)
     window.store.undo()
     assert window.store.state.measured.picture.endswith("noise.npy")
-    qtbot.waitUntil(lambda: "o point rises above" in panel._refusal, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: "o point rises above" in panel._refusal)

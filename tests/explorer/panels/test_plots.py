@@ -16,7 +16,7 @@ from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.widgets.card import chart_at
 from p2sf_explorer.widgets.copying import copy_menu, data_of, picture_of
-from tests.support.windows import LONGEST_MS, at_rest
+from tests.support.windows import at_rest
 
 # Tables, sliders, photos, a 3D scene; nothing until a picture is measured.
 WITHOUT = {"coefficients", "lens", "misalign", "first_order", "solid", "import", "image", "measured"}
@@ -300,7 +300,7 @@ def test_a_psf_that_is_zoomed_is_summed_for_the_pixels_it_then_has(window, qtbot
     try:
         assert heat.device_pixels == pytest.approx(2 * whole)
         most = min(heat.device_pixels, window.live.finest)
-        qtbot.waitUntil(lambda: before < len(heat.indices) >= most, timeout=LONGEST_MS)
+        qtbot.waitUntil(lambda: before < len(heat.indices) >= most)
     finally:
         heat.chart.go_home()
 

@@ -8,7 +8,6 @@ from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.panels.psf import badge_words, tip_words, top_value, unit_of
 from p2sf_explorer.shell.bars import shortened
 from p2sf_explorer.state.state import changed, new_state
-from tests.support.windows import LONGEST_MS
 
 BLURRED = changed(default_state("double_gauss_28"), depth_mm=10.0, method="auto")
 
@@ -20,14 +19,12 @@ def test_the_picture_is_summed_for_the_pixels_it_is_shown_on(window, qtbot):
     own = window.floating.open["psf"]
     for side in (500, 800):
         own.resize(side, side)
-        qtbot.waitUntil(
-            lambda least=side / 2: len(panel.map.indices) >= panel.map.device_pixels > least, timeout=LONGEST_MS
-        )
+        qtbot.waitUntil(lambda least=side / 2: len(panel.map.indices) >= panel.map.device_pixels > least)
         assert window.live.psf.values.shape == (128, 128), "figures are of the picture, however large it is shown"
     with window.store.drag():
         window.store.update(field_deg=3.0)
         assert panel.map.indices.shape == (64, 64)
-    qtbot.waitUntil(lambda: len(panel.map.indices) >= panel.map.device_pixels, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: len(panel.map.indices) >= panel.map.device_pixels)
     assert panel._finer[0].source == window.live.setup.source
 
 

@@ -22,7 +22,6 @@ from p2sf_explorer.tolerancing import analysis
 from p2sf_explorer.widgets.copying import data_of
 from tests.explorer.conftest import FEW_BUILDS
 from tests.support.tolerances import exact_quality
-from tests.support.windows import LONGEST_MS
 
 LENS = "achromat_f6"
 
@@ -31,13 +30,13 @@ LENS = "achromat_f6"
 def panel(window, qtbot):
     window.store.update(lens=LENS, lens_text=None, field_deg=0.0, tab="tolerances")
     made = window.panels["tolerances"]
-    qtbot.waitUntil(lambda: not made._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not made._stale())
     yield made
     window.store.update(tab="profiles")
 
 
 def wait(panel, qtbot):
-    qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy)
 
 
 def test_no_limit_is_shown_before_there_are_builds(window, monkeypatch):

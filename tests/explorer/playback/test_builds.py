@@ -13,14 +13,14 @@ from p2sf_explorer.playback.filming import frame_of, picture_of
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.tolerancing import analysis
 from tests.support.tolerances import exact_quality
-from tests.support.windows import LONGEST_MS, at_rest
+from tests.support.windows import at_rest
 
 
 @pytest.fixture
 def panel(window, qtbot):
     window.store.update(lens="achromat_f6", lens_text=None, field_deg=0.0, tab="tolerances")
     made = window.panels["tolerances"]
-    qtbot.waitUntil(lambda: not made._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not made._stale())
     yield made
     window.store.update(tab="profiles")
 
@@ -48,7 +48,7 @@ def test_layout_psf_and_words_are_in_the_film(panel, window, qtbot, tmp_path):
     """What the window shows of the same build; the sweep's bar stands, so that the room is the same."""
     window.store.update(playback_slider="field_deg")
     moments, before, bar = moments_of_builds(*panel.drawn(), count=2), window.store.state, window.play
-    with qtbot.waitSignal(bar.filming.ended, timeout=LONGEST_MS) as told:
+    with qtbot.waitSignal(bar.filming.ended) as told:
         assert bar.film_builds(str(tmp_path / "builds.png"), moments)
         assert bar.progress.isVisible() and bar.stop_film.isVisible()
     assert told.args[0].values["count"] == 3
@@ -66,9 +66,9 @@ def test_layout_psf_and_words_are_in_the_film(panel, window, qtbot, tmp_path):
 
 def test_a_film_of_builds_can_be_cancelled(panel, window, qtbot, tmp_path):
     moments = moments_of_builds(*panel.drawn())
-    with qtbot.waitSignal(window.play.filming.ended, timeout=LONGEST_MS) as told:
+    with qtbot.waitSignal(window.play.filming.ended) as told:
         assert window.play.film_builds(str(tmp_path / "builds.gif"), moments)
-        with qtbot.waitSignal(window.play.filming.progressed, timeout=LONGEST_MS):
+        with qtbot.waitSignal(window.play.filming.progressed):
             pass
         qtbot.mouseClick(window.play.stop_film, Qt.MouseButton.LeftButton)
     assert "cancelled" in str(told.args[0]) and list(tmp_path.iterdir()) == []
@@ -96,7 +96,7 @@ def test_without_builds_it_is_said_what_to_wait_for(window, qtbot, monkeypatch):
 def test_a_telescope_that_is_refocused_by_metres_is_filmed(panel, window, qtbot):
     """Hubble is f/24, its primary f/2.3: 0.5 % of a radius of 11 m move the focus by (24/2.3)² times 28 mm."""
     window.store.update(lens="hubble", tolerances_grade="commercial")
-    qtbot.waitUntil(lambda: not panel._stale(), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not panel._stale())
     moments = moments_of_builds(*panel.drawn())
     shifts = [amount for moment in moments for kind, *_, amount in moment.state.optics.errors if kind == "thickness"]
     assert max(map(abs, shifts)) > 1000 and len(moments) == 41

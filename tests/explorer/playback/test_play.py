@@ -19,7 +19,7 @@ from p2sf_explorer.state.limits import PLAYABLE
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.terms import NAMES
 from tests.support.events import choose
-from tests.support.windows import LONGEST_MS, at_rest, settled
+from tests.support.windows import at_rest, settled
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])
@@ -187,7 +187,7 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
     bar, path = window.play, tmp_path / "way.png"
     choose(bar.subject, "psf")
     state = window.store.state
-    with qtbot.waitSignal(bar.filming.ended, timeout=LONGEST_MS) as told:
+    with qtbot.waitSignal(bar.filming.ended) as told:
         assert bar.film(str(path))
         assert bar.progress.isVisible()
     assert told.args[0].values["count"] == 3
@@ -207,10 +207,10 @@ def test_a_film_of_the_psf_shows_what_the_window_shows_at_each_moment(window, qt
 def filmed(window, qtbot, path, subject: str, meanwhile=lambda: None) -> str:
     bar = window.play
     choose(bar.subject, subject)
-    with qtbot.waitSignal(bar.filming.ended, timeout=LONGEST_MS) as told:
+    with qtbot.waitSignal(bar.filming.ended) as told:
         assert bar.film(str(path))
         assert not bar.close_bar.isEnabled()
-        with qtbot.waitSignal(bar.filming.progressed, timeout=LONGEST_MS):
+        with qtbot.waitSignal(bar.filming.progressed):
             pass
         meanwhile()
     assert bar.close_bar.isEnabled()
@@ -266,9 +266,9 @@ def frame_pixels(widget) -> np.ndarray:
 
 def test_a_film_can_be_cancelled(window, qtbot, tmp_path):
     window.store.update(playback_slider="field_deg", playback_seconds=60.0)
-    with qtbot.waitSignal(window.play.filming.ended, timeout=LONGEST_MS) as told:
+    with qtbot.waitSignal(window.play.filming.ended) as told:
         assert window.play.film(str(tmp_path / "way.gif"))
-        with qtbot.waitSignal(window.play.filming.progressed, timeout=LONGEST_MS):
+        with qtbot.waitSignal(window.play.filming.progressed):
             pass
         qtbot.mouseClick(window.play.stop_film, Qt.MouseButton.LeftButton)
     assert "cancelled" in str(told.args[0])

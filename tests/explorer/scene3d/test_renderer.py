@@ -16,7 +16,6 @@ from p2sf_explorer.state.camera import CAMERA, Camera
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.store.store import Store
 from tests.long.crash import small_disk
-from tests.support.windows import LONGEST_MS
 
 FIRST = new_state(method="seidel", theme="light")
 MAPS = "CET-D1A", "inferno"
@@ -116,16 +115,16 @@ def test_where_opengl_is_missing_a_sentence_says_what_to_do(panel, qtbot, monkey
         monkeypatch.setenv(name, "/nowhere")
     panel.show(answer())
     assert panel.busy
-    qtbot.waitUntil(lambda: panel.view.message_is_final, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel.view.message_is_final)
     assert "libgl1-mesa-dri" in panel.view.accessibleDescription()
     assert panel.renderer is None and not panel.busy and not panel.save_button.isEnabled()
 
 
 def test_the_panel_opens_turns_and_keeps_its_eye_in_the_state(panel, qtbot, tmp_path):
     panel.show(answer())
-    qtbot.waitUntil(lambda: panel.renderer is not None, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel.renderer is not None)
     assert "W × 200" in panel.factors.text() and "PSF × 50" in panel.factors.text()
-    qtbot.waitUntil(lambda: panel.view.image is not None, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel.view.image is not None)
     first, store = panel.view.image.copy(), panel.view._store
     panel.view.setFocus()
     qtbot.keyClick(panel.view, Qt.Key.Key_Left)
@@ -135,7 +134,7 @@ def test_the_panel_opens_turns_and_keeps_its_eye_in_the_state(panel, qtbot, tmp_
     qtbot.mouseRelease(panel.view, Qt.MouseButton.LeftButton, pos=QPoint(130, 120))
     assert store.state.camera.tilt_deg == pytest.approx(CAMERA.tilt + 8)
     panel.show(answer(store.state))
-    qtbot.waitUntil(lambda: panel.view.image is not None, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: panel.view.image is not None)
     assert panel.view.image != first
     store.undo()
     store.undo()

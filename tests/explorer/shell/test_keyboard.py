@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWid
 from p2sf_explorer.panels import REGISTRY
 from tests.explorer.panels.test_strip_and_map import filled
 from tests.support.tiers import in_tiers
-from tests.support.windows import LONGEST_MS
 
 TABS = [entry.key for entry in REGISTRY if entry.key != "solid"]
 DIFFERENT = ("lens", "matrix")  # a table, and choosers
@@ -43,7 +42,7 @@ def named(parts) -> str:
 def test_tab_reaches_everything_of_a_panel_and_comes_round(window, key, qtbot):
     window.open_panel(key)
     if key == "image":  # its buttons are for a picture
-        qtbot.waitUntil(window.panels[key].save.isEnabled, timeout=LONGEST_MS)
+        qtbot.waitUntil(window.panels[key].save.isEnabled)
     window.store.update(playback_slider="field_deg")
     QApplication.processEvents()
     met, hoped = walked(window, Qt.Key.Key_Tab), wanted(window)

@@ -9,7 +9,6 @@ from p2sf_explorer.shell.lens_cards import lens_card, shown_title
 from p2sf_explorer.shell.lens_chooser import NAME
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import State, new_state
-from tests.support.windows import LONGEST_MS
 
 
 @pytest.fixture
@@ -29,7 +28,7 @@ def test_the_gallery_opens_on_the_present_lens_and_draws_what_is_in_sight(window
     assert gallery.isVisible()
     assert gallery.list.currentIndex().data(NAME) == window.store.state.optics.lens
     assert gallery.list.model().rowCount() == len(shipped())
-    qtbot.waitUntil(lambda: len(gallery.cards.known) >= 8, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: len(gallery.cards.known) >= 8)
     before = gallery.list.viewport().grab().toImage()
     gallery.cards.known = {}
     assert gallery.list.viewport().grab().toImage() != before

@@ -10,7 +10,6 @@ from p2sf_explorer.docking.stage import SETTLE_MS
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import PANEL_MIME
-from tests.support.windows import LONGEST_MS
 
 TITLE = QPoint(30, 14)
 
@@ -172,7 +171,7 @@ def test_handles_go_into_the_state_and_survive_a_resize(window, qtbot):
     QTest.mouseMove(room.handle(1), QPoint(-97, 100))
     QTest.mouseRelease(room.handle(1), Qt.MouseButton.LeftButton, pos=QPoint(3, 100))
     before = window.store.state.display.stage_share
-    qtbot.waitUntil(lambda: window.store.state.display.stage_share != before, timeout=LONGEST_MS * SETTLE_MS)
+    qtbot.waitUntil(lambda: window.store.state.display.stage_share != before * SETTLE_MS)
     share = window.store.state.display.stage_share
     assert share == pytest.approx(before - 100 / (sum(room.sizes())), abs=0.01)
     for size in ((1100, 720), (1440, 900)):

@@ -21,7 +21,6 @@ from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.pinning import optics
 from p2sf_explorer.state.state import State, changed, new_state
 from tests.explorer.conftest import FIRST
-from tests.support.windows import LONGEST_MS
 
 CORNER = changed(with_lens(new_state(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
 WIDE = changed(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=60.0)
@@ -57,14 +56,14 @@ def test_a_slow_sum_is_never_made_by_the_thread_that_paints(window, qtbot, monke
         window.store.replace(state)
         assert window.live.pending and window.live.psf.method != state.optics.method
         assert str(window.live.why) == f"{state.optics.method} follows: its sum of waves takes a moment"
-        qtbot.waitUntil(lambda: window.live.pending is None, timeout=LONGEST_MS)
+        qtbot.waitUntil(lambda: window.live.pending is None)
         assert threads and get_ident() not in threads
     assert window.live.psf.method == "traced"
 
 
 def test_what_follows_is_what_waiting_would_have_given(window, qtbot):
     window.store.replace(WIDE)
-    qtbot.waitUntil(lambda: window.live.pending is None, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: window.live.pending is None)
     waited = live(WIDE).psf
     assert window.live.psf.method == waited.method
     np.testing.assert_array_equal(window.live.psf.values, waited.values)
@@ -84,7 +83,7 @@ def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch
         window.store.update(field_deg=13.0)
         second = window.live.pending
         gate.set()
-        qtbot.waitUntil(lambda: window.live.pending is None, timeout=LONGEST_MS)
+        qtbot.waitUntil(lambda: window.live.pending is None)
         assert first != second and window.deferred.cache.get(second)
         with noted(monkeypatch) as threads:
             window.store.update(psf_scale="log")
@@ -100,7 +99,7 @@ def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeyp
 
     monkeypatch.setattr(deferred, "by_rays", fail)
     window.store.replace(WIDE)
-    with qtbot.waitSignal(window.deferred.worker.failed, timeout=LONGEST_MS):
+    with qtbot.waitSignal(window.deferred.worker.failed):
         assert window.live.pending
     assert window.banner.isVisible() and "stop down" in window.banner.text.text()
     monkeypatch.undo()
@@ -132,7 +131,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
     window.store.update(field_deg=13.0)
     window.store.undo()
     gate.set()
-    qtbot.waitUntil(lambda: window.live.pending is None, timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: window.live.pending is None)
     assert sums == [True, False] and said == []
 
 
@@ -149,7 +148,7 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
     monkeypatch.setattr(deferred, "by_rays", counted)
     window.store.replace(changed(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
-    qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending), timeout=LONGEST_MS)
+    qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending))
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 
