@@ -14,7 +14,7 @@ from p2sf.cli.options import Json, LensName, Threads, Whole, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space
-from p2sf.database.accuracy import Accuracy, accuracy, build_by
+from p2sf.database.accuracy import DatabaseAccuracy, accuracy, build_by
 from p2sf.database.render import Database, Sampling
 from p2sf.database_files import load_database, provenance, save_database
 from p2sf.database_files.place import is_stack, place_of, size_bytes
@@ -92,7 +92,7 @@ class CameraOptions:
 
 
 @dataclass(frozen=True)
-class Kind:
+class DatabaseKind:
     """Which numbers are kept, and as what kind of file.
 
     Attributes
@@ -142,7 +142,7 @@ def build(
     ],
     nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
     camera: Annotated[CameraOptions, Parameter(name="*")] = CameraOptions(),
-    kind: Annotated[Kind, Parameter(name="*")] = Kind(),
+    kind: Annotated[DatabaseKind, Parameter(name="*")] = DatabaseKind(),
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
@@ -233,11 +233,11 @@ def _check_ending(output: str, ending: str) -> None:
         check_place(output)
 
 
-def _write_stack(database: Database, lens: Lens, output: str, kind: Kind) -> None:
+def _write_stack(database: Database, lens: Lens, output: str, kind: DatabaseKind) -> None:
     """Fill a stack, with a line of progress on a terminal."""
-    from p2sf.database_files.stack_write import Progress, StackProgress, write_stack
+    from p2sf.database_files.stack_write import StackProgress, StackStatus, write_stack
 
-    def tell(now: Progress) -> None:
+    def tell(now: StackStatus) -> None:
         line = f"{now.done} of {now.total} chunks, {now.psfs_per_second:.0f} PSFs/s, {now.seconds_left:.0f} s left"
         print(f"\r{line:60}", end="", file=sys.stderr, flush=True)
 
@@ -272,7 +272,7 @@ def info(file: str, /, *, as_json: Json = False) -> None:
     )
 
 
-def about_rows(meta: dict[str, Any], held: dict[str, Any], known: Accuracy) -> list[Row]:
+def about_rows(meta: dict[str, Any], held: dict[str, Any], known: DatabaseAccuracy) -> list[Row]:
     """Return the rows that tell a person what a database holds."""
     covers = {
         key: f"{text(low)} to {'∞' if high is None else text(high)}" for key, (low, high) in meta["covers"].items()

@@ -11,7 +11,7 @@ from p2sf.cli.lookups import accuracy_rows, is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, Whole, check_output, check_samples
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.colour.spectrum import WORDS
-from p2sf.database.accuracy import Accuracy
+from p2sf.database.accuracy import DatabaseAccuracy
 from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
@@ -314,7 +314,7 @@ def prediction(error: float | None) -> tuple[float | None, Message | str]:
 
 
 def summary(
-    result: Psf, aim: str, output: Path | None, energy: Energy | None = None, accuracy: Accuracy | None = None
+    result: Psf, aim: str, output: Path | None, energy: Energy | None = None, accuracy: DatabaseAccuracy | None = None
 ) -> list[Row]:
     """Return the rows that tell a person what was computed; ``accuracy``: of the database it was looked up in."""
     known, measured = facts(result), figures(result, energy)

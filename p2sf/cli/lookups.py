@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database import ExactDatabase
-from p2sf.database.accuracy import Accuracy
+from p2sf.database.accuracy import DatabaseAccuracy
 from p2sf.database.render import pixels_psf
 from p2sf.database_files import Stored
 from p2sf.errors import RequestError
@@ -42,7 +42,7 @@ class LookedUp:
     psf: Psf
     about: dict[str, Any]
     title: str
-    accuracy: Accuracy
+    accuracy: DatabaseAccuracy
 
 
 def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) -> LookedUp:
@@ -66,7 +66,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
     return LookedUp(psf, description(stored, source), _heading(stored, source), stored.accuracy)
 
 
-def accuracy_rows(known: Accuracy, of: str = "") -> list[Row]:
+def accuracy_rows(known: DatabaseAccuracy, of: str = "") -> list[Row]:
     """Return the predicted 1 − R² of the PSFs against exact rays, its median and the worst, and where that is.
 
     Neither is a number where the estimate tells no more than that PSFs are not alike.

@@ -19,9 +19,9 @@ from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.frame import Frame, Noise
 from p2sf.measure.frame_fit import FrameFit
 from p2sf.measure.frame_terms import F_NUMBER_ERROR, FIELD, FOCUS, lens_optics
-from p2sf.measure.measurement import Comparison, Measurement, compared, measured, write_measurement
+from p2sf.measure.measurement import Measurement, MeasurementComparison, compared, measured, write_measurement
 from p2sf.measure.point_fit import PointFit
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.reading import read_frame
 from p2sf.measure.target import TargetMatch, read_target
 from p2sf.messages import Message
@@ -64,7 +64,7 @@ Built = Annotated[
 
 
 @dataclass(frozen=True)
-class Camera:
+class SensorOptions:
     """What is known of the sensor that took the pictures.
 
     Attributes
@@ -104,7 +104,7 @@ class Camera:
         return read_frame(path, self.pixel_um, **fields, noise=noise, channel=self.channel, encoding=self.encoding)
 
 
-ANY_CAMERA = Camera()
+ANY_CAMERA = SensorOptions()
 ANY_FIELD = (*FIELDS, "field_x_deg")
 
 
@@ -114,7 +114,7 @@ def measure(
     *,
     lens: LensOption = None,
     request: Asked = AS_IN_THE_FILE,
-    camera: Annotated[Camera, Parameter(name="*")] = ANY_CAMERA,
+    camera: Annotated[SensorOptions, Parameter(name="*")] = ANY_CAMERA,
     focus_um: FocusUm | None = None,
     light: Light | None = None,
     target: TargetFile = None,
@@ -187,7 +187,7 @@ def _write_built(found: Measurement, path: Path) -> None:
         warn(why)
 
 
-def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, Optics, float | None]:
+def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, PictureOptics, float | None]:
     """Return the lens as asked, if any, the scale of its PSFs, and the field, if it is asked for."""
     pitch, fields = frame.geometry.pixel_um, [name for name in ANY_FIELD if getattr(request, name) is not None]
     for name in fields:
@@ -208,7 +208,7 @@ def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | Non
             )
     assert request.f_number is not None and request.wavelength_nm is not None
     mask = mask_of(None, request)
-    return None, Optics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask), None
+    return None, PictureOptics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask), None
 
 
 def record(found: Measurement) -> dict[str, Any]:
@@ -339,7 +339,7 @@ def compare(first: Path, second: Path, /, *, as_json: Json = False) -> None:
     return print_table(head, ("number", first.name, second.name, "difference", "σ"), rows)
 
 
-def _comparison(found: Comparison) -> dict[str, Any]:
+def _comparison(found: MeasurementComparison) -> dict[str, Any]:
     return {
         "points": found.points,
         "rows": [

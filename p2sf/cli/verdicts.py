@@ -20,7 +20,7 @@ CERTAIN = (".zmx", ".seq", ".roa", ".len")
 
 
 @dataclass(frozen=True)
-class Verdict:
+class FileVerdict:
     """What became of one file: first-order data where it is read, the refusal with its surface and line where not.
 
     ``focal_length`` in mm and ``f_number`` are those of the reference wavelength; None where the lens has none.
@@ -75,7 +75,7 @@ def _marked(path: Path) -> bool:
     return any(known.mark.search(source.text) for known in FORMATS if known.ending == path.suffix.lower())
 
 
-def verdict(path: Path, name: str, accept_substitutes: bool, catalogues: Sequence[Catalogue]) -> Verdict:
+def verdict(path: Path, name: str, accept_substitutes: bool, catalogues: Sequence[Catalogue]) -> FileVerdict:
     """Return what becomes of one file, which the list calls ``name``."""
     try:
         found = import_lens(path, accept_substitutes, catalogues)
@@ -84,11 +84,11 @@ def verdict(path: Path, name: str, accept_substitutes: bool, catalogues: Sequenc
         inside = refusal.message.values.get("message", refusal.message)  # without the path and the line
         reason = inside if isinstance(inside, Message) else refusal.message
         surface = next(_surfaces(reason), None)
-        return Verdict(name, _format(path), False, surface=surface, line=line, reason=reason)
+        return FileVerdict(name, _format(path), False, surface=surface, line=line, reason=reason)
     lens, count = found.lens, len(found.report.notes)
     wavelength = lens.reference_wavelength_um
     focal_length = float(cardinal_points(lens, wavelength).effective_focal_length)
-    return Verdict(name, found.report.format, True, focal_length, _f_number(lens), count)
+    return FileVerdict(name, found.report.format, True, focal_length, _f_number(lens), count)
 
 
 def _f_number(lens: Lens) -> float | None:
@@ -117,5 +117,5 @@ def _surfaces(message: Message) -> Iterator[int]:
             yield value
 
 
-def _record(row: Verdict) -> dict[str, Any]:
+def _record(row: FileVerdict) -> dict[str, Any]:
     return {**asdict(row), "reason": str(row.reason) if row.reason else None}

@@ -38,7 +38,7 @@ POINTS = 32  # between the corners of a space
 
 
 @dataclass(frozen=True)
-class Accuracy:
+class DatabaseAccuracy:
     """The predicted 1 − R² of a database's PSFs: the median over its space, the worst, and where that is.
 
     An infinite one says that rays are lost, which no database knows. ``field_x_deg`` is 0 but over a rectangle.
@@ -131,7 +131,7 @@ def where(depth_mm: float, field_deg: float, wavelength_nm: float) -> Message:
 
 @lru_cache(maxsize=4)
 @one_blas_thread
-def accuracy(database: Database, lens: Lens) -> Accuracy:
+def accuracy(database: Database, lens: Lens) -> DatabaseAccuracy:
     """Return the predicted accuracy of a database of this lens, at the corners of its space and points between."""
     points = list(_points(database.space, getattr(database, "last_depth_mm", inf)))
     errors = [_error(database, lens, database.space.source(*point)) for point in points]
@@ -139,13 +139,13 @@ def accuracy(database: Database, lens: Lens) -> Accuracy:
     depth, *slopes, wave = points[worst]
     field, *across = (float(degrees_from_slope(slope)) for slope in slopes)
     place = depth, field, across[0] if across else 0.0, wave * NM_PER_UM
-    return Accuracy(float(np.median(errors)), errors[worst], *place, database.method)
+    return DatabaseAccuracy(float(np.median(errors)), errors[worst], *place, database.method)
 
 
-def accuracy_from(record: dict[str, Any], method: str) -> Accuracy:
+def accuracy_from(record: dict[str, Any], method: str) -> DatabaseAccuracy:
     """Return the accuracy that a file states, where infinite values are null; KeyError and TypeError for another."""
     values = {name: inf if value is None else float(value) for name, value in record.items()}
-    return Accuracy(**{"field_x_deg": 0.0, **values}, method=method)
+    return DatabaseAccuracy(**{"field_x_deg": 0.0, **values}, method=method)
 
 
 def _points(space: Space, last_depth_mm: float) -> Iterator[tuple[float, ...]]:

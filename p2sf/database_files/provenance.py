@@ -10,7 +10,7 @@ import numpy as np
 
 from p2sf.arguments import checked
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
-from p2sf.database.accuracy import Accuracy, accuracy, accuracy_from
+from p2sf.database.accuracy import DatabaseAccuracy, accuracy, accuracy_from
 from p2sf.database.render import Database, pixels_psf
 from p2sf.files.writing import plain
 from p2sf.glass.media import Medium
@@ -62,7 +62,7 @@ class Stored:
         return with_aim(parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"]), self.meta["aim"])
 
     @cached_property
-    def accuracy(self) -> Accuracy:
+    def accuracy(self) -> DatabaseAccuracy:
         """Return the predicted 1 − R² of the PSFs against exact rays; where no file states it, from the lens."""
         stated = self.meta.get("predicted_error")
         return accuracy_from(stated, self.meta["method"]) if stated else accuracy(self.database, self.lens)

@@ -19,7 +19,7 @@ from typing import Any
 from p2sf import __version__
 from p2sf.database_files.place import Place
 from p2sf.database_files.stack import Chunk, Stack, needed, open_stack
-from p2sf.database_files.stack_write import Work, write_chunk
+from p2sf.database_files.stack_write import StackWork, write_chunk
 from p2sf.errors import DatabaseError
 from p2sf.threads import one_blas_thread
 
@@ -38,7 +38,7 @@ M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 LARGEST_MMAP_THRESHOLD = 4 * 1024 * 1024 * 8  # DEFAULT_MMAP_THRESHOLD_MAX there, at 8 bytes a word
 
 
-def fill(work: Work, scheduler: str) -> None:
+def fill(work: StackWork, scheduler: str) -> None:
     """Fill a stack by the workers of a scheduler; DatabaseError where that cannot go on, done chunks stay."""
     _check_shared(work.stack.path)
     if work.chunks and not work.watch.cancelled():
@@ -121,7 +121,7 @@ def _check_shared(place: Place) -> None:
 class _Filling:
     """Groups of chunks on their way to the workers and back."""
 
-    def __init__(self, work: Work, client: Any, scheduler: str) -> None:
+    def __init__(self, work: StackWork, client: Any, scheduler: str) -> None:
         self._work, self._client, self._scheduler = work, client, scheduler
         self._waiting = deque(work.chunks)
         self._under_way: dict[Any, Group] = {}

@@ -20,7 +20,7 @@ from p2sf.threads import for_each
 
 
 @dataclass(frozen=True)
-class Progress:
+class StackStatus:
     """How far a stack is: chunks that are there and all chunks, the PSFs of this run and its rate, what is left."""
 
     done: int
@@ -34,7 +34,7 @@ class Progress:
 class StackProgress:
     """``progress(now)`` is called after each chunk, ``cancelled()`` before and after: True ends the filling."""
 
-    progress: Callable[[Progress], None] = lambda now: None
+    progress: Callable[[StackStatus], None] = lambda now: None
     cancelled: Callable[[], bool] = lambda: False
 
 
@@ -76,7 +76,7 @@ def write_stack(
         if isinstance(place, Path):
             for torn in place.rglob(f"*{TEMPORARY}*"):
                 torn.unlink()  # left by a writer that was killed
-        work = Work(stack, stack.missing, watch)
+        work = StackWork(stack, stack.missing, watch)
         if scheduler:
             from p2sf.database_files.stack_cluster import fill
 
@@ -99,7 +99,7 @@ def _write_errors(path: str | PathLike[str]) -> Iterator[None]:
         ) from error
 
 
-class Work:
+class StackWork:
     """The chunks that a stack lacks, the costliest first, so that at the end no worker waits for a long one.
 
     ``costs``: about how many products each takes that is not done (`database.cost`).
@@ -123,7 +123,7 @@ class Work:
         seconds = max(time.monotonic() - self._start, 1e-9)
         left = seconds / self._cost * self._left if self.costs else 0.0
         done, total = self._before + self._done, self._before + self._done + len(self.costs)
-        self.watch.progress(Progress(done, total, self._psfs, self._psfs / seconds, left))
+        self.watch.progress(StackStatus(done, total, self._psfs, self._psfs / seconds, left))
 
 
 def psf_count(stack: Stack, chunk: Chunk) -> int:
@@ -154,7 +154,7 @@ class _Stopped(Exception):
     """Whoever watches has cancelled."""
 
 
-def _fill_here(work: Work, threads: int | None) -> None:
+def _fill_here(work: StackWork, threads: int | None) -> None:
     """Fill a stack by threads of this process."""
 
     def written(chunk: Chunk) -> Chunk:

@@ -27,7 +27,7 @@ ANY_WAVELENGTH_NM = 50.0, 50_000.0
 LETTERS = {power: letter for letter, power in ORDERS.items()}
 
 
-class Row(NamedTuple):
+class CodeVRow(NamedTuple):
     """One surface of the file: what it is and the medium behind it, its number, and how it stands.
 
     ``number`` is 0 for a plane that only carries a break, and negative where such planes follow with the thickness.
@@ -74,20 +74,20 @@ def _head(lens: Lens) -> list[str]:
     ]
 
 
-def _rows(lens: Lens, number: int) -> list[Row]:
+def _rows(lens: Lens, number: int) -> list[CodeVRow]:
     """Return a surface, and the planes that its breaks need before and behind it."""
     surface, here = lens.surfaces[number - 1], lens.media[number - 1]
     behind = lens.media[number]
     kind, own = _own_break(surface)
     if kind:
-        return [Row(surface, surface.medium, number, kind, own)]
+        return [CodeVRow(surface, surface.medium, number, kind, own)]
     *before, last = surface.before or (Placement(),)
-    rows = [Row(Surface(), here, 0, "", placement) for placement in before]
+    rows = [CodeVRow(Surface(), here, 0, "", placement) for placement in before]
     if not surface.after:
-        return [*rows, Row(surface, surface.medium, number, "", last)]
+        return [*rows, CodeVRow(surface, surface.medium, number, "", last)]
     gaps = [0.0] * (len(surface.after) - 1) + [surface.thickness]
-    planes = [Row(Surface(thickness=t), behind, 0, "", p) for p, t in zip(surface.after, gaps, strict=True)]
-    return [*rows, Row(surface, surface.medium, -number, "", last), *planes]
+    planes = [CodeVRow(Surface(thickness=t), behind, 0, "", p) for p, t in zip(surface.after, gaps, strict=True)]
+    return [*rows, CodeVRow(surface, surface.medium, -number, "", last), *planes]
 
 
 def _own_break(surface: Surface) -> tuple[str, Placement]:
@@ -101,7 +101,7 @@ def _own_break(surface: Surface) -> tuple[str, Placement]:
     return "", Placement()
 
 
-def _surface(lens: Lens, row: Row, stop: int, private: dict[Medium, str]) -> list[str]:
+def _surface(lens: Lens, row: CodeVRow, stop: int, private: dict[Medium, str]) -> list[str]:
     """Return the commands of a row."""
     surface, number = row.surface, abs(row.number)
     radius = surface.radius if isfinite(surface.radius) else 0.0

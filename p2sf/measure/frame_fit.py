@@ -16,7 +16,7 @@ import numpy as np
 from p2sf.errors import Cancelled, RequestError
 from p2sf.measure.frame_terms import F_NUMBER, FOCUS, FrameModel, FramePoint, PointPupil, six_of_unknowns
 from p2sf.measure.point_fit import MOST_CHI2, chi2_warning, fit_point, most_chi2
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import blurred, frame_starts, landings, ray_moments, seen, significant
@@ -151,7 +151,7 @@ class FrameFit:
 class _Colour:
     """One point's sum over its pupil in one colour, of a stop ``ratio`` times as large as the pupil's."""
 
-    def __init__(self, pupil: PointPupil, focus_um: float, shape: tuple[int, ...], optics: Optics, ratio: float):
+    def __init__(self, pupil: PointPupil, focus_um: float, shape: tuple[int, ...], optics: PictureOptics, ratio: float):
         self.pupil, self.ratio, self.focus_um = pupil.stopped(ratio), ratio, focus_um
         nodes = self.pupil.nodes
         self.phase = self.pupil.phase + focus_um * self.pupil.focus

@@ -13,7 +13,7 @@ from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.measure.lens_pupil import clear_part
 from p2sf.measure.perturbation import perturbation, perturbed, unit_of
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import turned
 from p2sf.measure.pupil_nodes import PupilNodes, counts_for, lens_nodes, paraxial_nodes
@@ -104,7 +104,7 @@ class FrameModel:
     point, and field polynomials are waves at it, wherever it lies. ``clip``: the lens's rims end pupils.
     """
 
-    optics: Optics
+    optics: PictureOptics
     height_mm: float
     unknowns: tuple[str, ...] = (*FOCUS, *FIELD)
     lens: Lens | None = None
@@ -159,7 +159,7 @@ class FrameModel:
         return self.lens if self.lens is None else _with_stop(self.lens, self._about_radius)
 
     @property
-    def near_optics(self) -> Optics:
+    def near_optics(self) -> PictureOptics:
         """Return the scale of PSFs at the f-number near which the pupils are."""
         return replace(self.optics, na=self._about_radius * self.optics.na)
 
@@ -188,7 +188,9 @@ class FrameModel:
         place = x_mm, y_mm, height
         return tuple(self._pupil(colour, place, azimuth, half_um) for colour in self.near_optics.colours)
 
-    def _pupil(self, colour: Optics, place: tuple[float, float, float], azimuth: float, half_um: float) -> PointPupil:
+    def _pupil(
+        self, colour: PictureOptics, place: tuple[float, float, float], azimuth: float, half_um: float
+    ) -> PointPupil:
         counts = counts_for(1.2 * colour.cycles * half_um, colour.cycles, half_um)
         if self.lens is not None:
             return self._of_lens(colour, place, azimuth, counts)
@@ -203,7 +205,7 @@ class FrameModel:
         return self._made(nodes, waves)
 
     def _of_lens(
-        self, colour: Optics, place: tuple[float, float, float], azimuth: float, counts: tuple[int, int]
+        self, colour: PictureOptics, place: tuple[float, float, float], azimuth: float, counts: tuple[int, int]
     ) -> PointPupil:
         lens, height = self.near, place[-1]
         assert lens is not None
@@ -250,7 +252,7 @@ class FrameModel:
 
     def _with_terms(
         self,
-        colour: Optics,
+        colour: PictureOptics,
         nodes: PupilNodes,
         phases: tuple[np.ndarray, np.ndarray],
         place: tuple[float, float, float],
@@ -340,8 +342,8 @@ def chief_rays(lens: Lens, depth_mm: float, wavelength_um: float, height_mm: flo
     return sensor_map(with_mask(lens, CLEAR), depth_mm, wavelength_um, height_mm)
 
 
-def lens_optics(lens: Lens, depth_mm: float, wavelength_um: float, pixel_um: float, fill: float = 1.0) -> Optics:
+def lens_optics(lens: Lens, depth_mm: float, wavelength_um: float, pixel_um: float, fill: float = 1.0) -> PictureOptics:
     """Return the scale of a lens's PSFs. Raises GeometryError where the lens forms no image."""
     c = coefficients(lens, depth_mm, 0.0, wavelength_um)
     mask = mask_seen(lens, Source(depth_mm=depth_mm, wavelength_nm=wavelength_um * NM_PER_UM))
-    return Optics(abs(float(c.reduced_slope)), wavelength_um, pixel_um, fill, mask)
+    return PictureOptics(abs(float(c.reduced_slope)), wavelength_um, pixel_um, fill, mask)

@@ -29,7 +29,7 @@ from p2sf.measure.frame_terms import (
 )
 from p2sf.measure.lens_pupil import designed_pupil
 from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point, no_numbers
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, window_half, window_of
 from p2sf.measure.pupil_model import SIX, pupil_model
@@ -73,7 +73,7 @@ class Measurement:
     """
 
     frames: tuple[Frame, ...]
-    optics: Optics
+    optics: PictureOptics
     points: tuple[FoundPoint, ...]
     half: int
     fits: tuple[PointFit | None, ...]
@@ -103,7 +103,7 @@ class Measurement:
 
 def measured(
     frames: Sequence[Frame],
-    optics: Optics,
+    optics: PictureOptics,
     *,
     focus_um: Sequence[float] = (0.0,),
     model: str = SIX,
@@ -205,7 +205,7 @@ class _Taken:
         others: Sequence[FoundPoint],
         half: int,
         focus_um: Sequence[float],
-        optics: Optics,
+        optics: PictureOptics,
     ):
         self.point, self.focus_um, self.na = point, focus_um, optics.na
         pitch = frames[0].geometry.pixel_um / UM_PER_MM
@@ -415,14 +415,14 @@ class ComparedNumber:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class MeasurementComparison:
     """Two measurements: how many points they have in common, and their numbers."""
 
     points: int
     rows: tuple[ComparedNumber, ...]
 
 
-def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> Comparison:
+def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> MeasurementComparison:
     """Return two files of `write_measurement` beside each other; of points' numbers the means, and the RMS of sigmas.
 
     Raises RequestError for other files, and where they have no number in common.
@@ -450,7 +450,7 @@ def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> C
             first=str(first),
             second=str(second),
         )
-    return Comparison(len(pairs), tuple(rows))
+    return MeasurementComparison(len(pairs), tuple(rows))
 
 
 def _rms(values: np.ndarray) -> float:

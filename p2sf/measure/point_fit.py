@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.measure.lens_pupil import DesignedPupil
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PER_FRAME, PointPicture, Problem
 from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model, turned
 from p2sf.measure.pupil_nodes import has_twin
@@ -67,7 +67,7 @@ class PointFit:
     """
 
     model: PupilModel
-    optics: Optics
+    optics: PictureOptics
     azimuth: float
     numbers: np.ndarray
     covariance: np.ndarray
@@ -127,7 +127,7 @@ class _Minimum:
 @one_blas_thread
 def fit_point(
     pictures: Sequence[PointPicture],
-    optics: Optics,
+    optics: PictureOptics,
     model: str = SIX,
     azimuth_deg: float = 0.0,
     loss: Loss = "linear",
@@ -169,7 +169,7 @@ def _check(pictures: Sequence[PointPicture], model: PupilModel, loss: str) -> No
 
 
 def _six(
-    pictures: Sequence[PointPicture], optics: Optics, azimuth: float, loss: Loss, near: np.ndarray | None
+    pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: float, loss: Loss, near: np.ndarray | None
 ) -> list[_Minimum]:
     """Return minima of the six model, the deepest first; more starts are tried where none explains the pictures."""
     coarse, fine = (Problem(pictures, optics, pupil_model(SIX), azimuth, part) for part in (True, False))
@@ -195,7 +195,7 @@ def _six(
 
 
 def _from_each(
-    pictures: Sequence[PointPicture], optics: Optics, azimuth: float, loss: Loss, first: Start
+    pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: float, loss: Loss, first: Start
 ) -> list[np.ndarray]:
     """Return unknowns that explain one picture alone, and their twins: it has fewer minima than all together."""
     out = []

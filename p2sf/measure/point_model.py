@@ -22,7 +22,7 @@ DTYPE = np.complex64  # errors of 1e-6 of the peak, where noise is hardly below 
 
 
 @dataclass(frozen=True)
-class Optics:
+class PictureOptics:
     """What is known of a picture's scale: numerical aperture in air or image space, wavelength in µm, pixel in µm.
 
     ``fill``: side of a pixel's sensitive square over the pitch; 0 takes the intensity at the pixel's centre.
@@ -49,7 +49,7 @@ class Optics:
                 )
 
     @property
-    def colours(self) -> tuple["Optics", ...]:
+    def colours(self) -> tuple["PictureOptics", ...]:
         """Return the scale in every colour."""
         return tuple(replace(self, wavelength_um=wave, light=()) for wave, _ in self.light) or (self,)
 
@@ -60,7 +60,7 @@ class Optics:
         return tuple(share / total for _, share in self.light) or (1.0,)
 
     @property
-    def finest(self) -> "Optics":
+    def finest(self) -> "PictureOptics":
         """Return the scale in the colour of the shortest wavelength, which asks for most samples."""
         return min(self.colours, key=lambda colour: colour.wavelength_um)
 
@@ -80,7 +80,7 @@ class Optics:
         return min(self.parts, ceil(1.8 * self.cycles * self.pixel_um))
 
 
-def pixel_points(count: int, optics: Optics, parts: int) -> tuple[np.ndarray, np.ndarray]:
+def pixel_points(count: int, optics: PictureOptics, parts: int) -> tuple[np.ndarray, np.ndarray]:
     """Return positions in µm, (count·parts,), that average over pixels about a centred axis, and the parts' weights."""
     node, weight = gauss_legendre(parts)
     centre = (np.arange(count) - count // 2)[:, None]
@@ -100,7 +100,7 @@ def wave(cycles: np.ndarray) -> np.ndarray:
 class PixelSum:
     """Sums over the nodes of one pupil on one window of (y, x) pixels; the kernels are computed once."""
 
-    def __init__(self, nodes: PupilNodes, shape: tuple[int, int], optics: Optics, parts: int | None = None):
+    def __init__(self, nodes: PupilNodes, shape: tuple[int, int], optics: PictureOptics, parts: int | None = None):
         self.nodes, self.shape, self.optics = nodes, shape, optics
         (self.y, share), (self.x, _) = (pixel_points(count, optics, parts or optics.parts) for count in shape)
         self.share = share.astype(np.float32)
@@ -168,7 +168,7 @@ class PixelSum:
 class SpectralSum:
     """`PixelSum` in every colour of the light: optical paths are the same in all, and so W in waves is not."""
 
-    def __init__(self, nodes: PupilNodes, shape: tuple[int, int], optics: Optics, parts: int | None = None):
+    def __init__(self, nodes: PupilNodes, shape: tuple[int, int], optics: PictureOptics, parts: int | None = None):
         self.ratios = [optics.wavelength_um / colour.wavelength_um for colour in optics.colours]
         self.shares = optics.shares
         parts = parts or optics.parts

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.measure.point_model import Optics, SpectralSum
+from p2sf.measure.point_model import PictureOptics, SpectralSum
 from p2sf.measure.pupil_model import PupilModel
 from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
 from p2sf.pupil.mask import PupilMask, mask_slopes
@@ -51,7 +51,7 @@ class Problem:
     def __init__(
         self,
         pictures: Sequence[PointPicture],
-        optics: Optics,
+        optics: PictureOptics,
         model: PupilModel,
         azimuth: float,
         coarse: bool = False,

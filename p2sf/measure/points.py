@@ -13,7 +13,7 @@ import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.measure.frame import Frame
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_nodes import counts_for, paraxial_nodes
 from p2sf.messages import Message
@@ -67,7 +67,7 @@ class FoundPoint:
         return not self.flags
 
 
-def find_points(frame: Frame, optics: Optics | None = None) -> list[FoundPoint]:
+def find_points(frame: Frame, optics: PictureOptics | None = None) -> list[FoundPoint]:
     """Return the points of a frame, the brightest first, those that cannot be used flagged.
 
     Of a PSF, its one point, wherever its light lies. ``optics``: what has more light in one pixel, or in two, than
@@ -116,7 +116,7 @@ def _labels(frame: Frame) -> tuple[np.ndarray, int]:
 
 
 @lru_cache(maxsize=16)
-def _most_light(optics: Optics) -> tuple[float, ...]:
+def _most_light(optics: PictureOptics) -> tuple[float, ...]:
     """Return shares of light that no point has in its brightest pixel, its brightest two, three and four.
 
     They lie halfway from those of a point without aberrations, in the middle of as many pixels, to all of the light.

@@ -13,7 +13,7 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.frame_terms import chief_rays
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.pupil_nodes import counts_for, lens_nodes
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
@@ -108,7 +108,7 @@ def lens_light(
     The chief ray lands at ``place``, and the middle pixel's centre is ``centre``, mm from the axis.
     """
     spread = found.steepness.spread
-    optics = Optics(spread, 1.0, pixel_um)
+    optics = PictureOptics(spread, 1.0, pixel_um)
     counts = counts_for(found.steepness.radial, spread, 1.1 * half * pixel_um)
     nodes = lens_nodes(found, float(np.arctan2(*place)), counts)
     waves = found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]

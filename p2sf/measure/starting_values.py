@@ -15,7 +15,7 @@ import numpy as np
 
 from p2sf.conventions import protected
 from p2sf.errors import RequestError
-from p2sf.measure.point_model import Optics, PixelSum, wave
+from p2sf.measure.point_model import PictureOptics, PixelSum, wave
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import SIX, pupil_model
 from p2sf.measure.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
@@ -65,7 +65,7 @@ class Start:
     frames: np.ndarray
 
 
-def seen(picture: PointPicture, optics: Optics) -> Seen:
+def seen(picture: PointPicture, optics: PictureOptics) -> Seen:
     """Return where a picture's light is. Raises RequestError where nothing exceeds the noise."""
     good = without_spikes(picture, optics)
     border = np.zeros(good.shape, bool)
@@ -103,7 +103,7 @@ def blurred(picture: np.ndarray) -> np.ndarray:
     return out
 
 
-def without_spikes(picture: PointPicture, optics: Optics) -> np.ndarray:
+def without_spikes(picture: PointPicture, optics: PictureOptics) -> np.ndarray:
     """Return the usable pixels but those that stand alone, far above all their neighbours: no point is so narrow."""
     most = SPIKE * max(_sharpest(optics), LEAST_SPIKE / SPIKE)
     good = picture.usable
@@ -120,7 +120,7 @@ def without_spikes(picture: PointPicture, optics: Optics) -> np.ndarray:
 
 
 @lru_cache(maxsize=16)
-def _sharpest(optics: Optics) -> float:
+def _sharpest(optics: PictureOptics) -> float:
     """Return how many times brighter than its neighbours the pixel is on which an unaberrated point is centred."""
     nodes = paraxial_nodes(counts_for(0.0, optics.cycles, 2 * optics.pixel_um), optics.cycles, optics.mask)
     light = PixelSum(nodes, (3, 3), optics).light(np.zeros_like(nodes.xi))
@@ -135,7 +135,7 @@ def blurring(count: int, width: float) -> np.ndarray:
     return blur
 
 
-def starts(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, keep: int) -> list[Start]:
+def starts(pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: float, keep: int) -> list[Start]:
     """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError."""
     found = [seen(picture, optics) for picture in pictures]
     waves = candidates(found, pictures, optics, azimuth)
@@ -153,7 +153,9 @@ def starts(pictures: Sequence[PointPicture], optics: Optics, azimuth: float, kee
     return [Start(waves[k], frames[k]) for k in np.argsort(unlike)[:keep]]
 
 
-def candidates(found: Sequence[Seen], pictures: Sequence[PointPicture], optics: Optics, azimuth: float) -> np.ndarray:
+def candidates(
+    found: Sequence[Seen], pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: float
+) -> np.ndarray:
     """Return wavefronts of the six model, (candidates, 4), as wide as all pictures together were seen to be."""
     from scipy.special import ndtri
 
@@ -266,7 +268,7 @@ def slope_moments(azimuth: float, mask: PupilMask = CLEAR) -> tuple[np.ndarray, 
 def _unlikeness(
     pictures: Sequence[PointPicture],
     found: Sequence[Seen],
-    optics: Optics,
+    optics: PictureOptics,
     azimuth: float,
     waves: np.ndarray,
     places: Sequence[np.ndarray],
@@ -293,7 +295,7 @@ def _unlikeness(
     return out
 
 
-def _coarse_nodes(pictures: Sequence[PointPicture], optics: Optics) -> PupilNodes:
+def _coarse_nodes(pictures: Sequence[PointPicture], optics: PictureOptics) -> PupilNodes:
     """Return nodes that carry what lands in the windows, to some per cent."""
     half = max(max(picture.values.shape) for picture in pictures) / 2 * optics.pixel_um
     counts = counts_for(0.8 * optics.cycles * half, optics.cycles, half / 2)

@@ -52,7 +52,7 @@ UNFOLLOWED = "no polynomial fits the rays of this pupil; stop the lens down or r
 
 
 @dataclass(frozen=True)
-class Sampling:
+class RayCounts:
     """How many radii × directions of rays carry polynomials of an order."""
 
     order: int
@@ -61,20 +61,20 @@ class Sampling:
 
 
 ORDERS = (
-    Sampling(8, 10, 16),
-    Sampling(10, 10, 16),
-    Sampling(14, 14, 24),
-    Sampling(18, 14, 24),
-    Sampling(24, 20, 36),
-    Sampling(32, 28, 48),
-    Sampling(44, 40, 70),
+    RayCounts(8, 10, 16),
+    RayCounts(10, 10, 16),
+    RayCounts(14, 14, 24),
+    RayCounts(18, 14, 24),
+    RayCounts(24, 20, 36),
+    RayCounts(32, 28, 48),
+    RayCounts(44, 40, 70),
 )
 STOP_ORDERS = 4  # more over the stop, which the same rays carry
-EXACT = Sampling(4, 6, 10)  # the six coefficients are a polynomial of fourth order
+EXACT = RayCounts(4, 6, 10)  # the six coefficients are a polynomial of fourth order
 
 
 @dataclass(frozen=True)
-class PupilNodes:
+class PupilSamples:
     """Rays over half the pupil, (nodes,): the last ``rim`` of them on its edge, from the top to the bottom.
 
     ``share``: the area that each stands for, 0 on the edge; ``weight``: of its field; phase in waves, fx and fy in
@@ -348,7 +348,7 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         _check_reach(lens, source)
     edge = _rim(RIM, even) if whole else clear_outline(lens, source, OUTLINE // 4, clip, even)
 
-    def traced(sampling: Sampling) -> PupilNodes:
+    def traced(sampling: RayCounts) -> PupilSamples:
         counts = sampling.radii, 2 * sampling.directions
         inside = whole_nodes(counts) if whole else clear_nodes(lens, source, counts, clip)
         inside = inside if even else inside.unfolded()
@@ -360,7 +360,7 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         across, up = turned(rays.fx, rays.fy, turn_deg)
         columns = xi, eta, _shares(inside.weight, edge), rays.amplitude, rays.phase, across, up
         xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
-        return PupilNodes(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
+        return PupilSamples(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
 
     found = behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
     return with_spot(found, lens, source, clip, turn_deg)
@@ -405,10 +405,10 @@ def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
     even = not (found.level.skew or turn_deg)
     edge = _rim(RIM, even)
 
-    def evaluated(sampling: Sampling) -> PupilNodes:
+    def evaluated(sampling: RayCounts) -> PupilSamples:
         xi, eta, share = _over_disc(sampling, edge, even)
         phase, fx, fy = found.at(xi, eta)
-        return PupilNodes(xi, eta, share, found.amplitude_at(xi, eta), phase, *turned(fx, fy, turn_deg), edge[0].size)
+        return PupilSamples(xi, eta, share, found.amplitude_at(xi, eta), phase, *turned(fx, fy, turn_deg), edge[0].size)
 
     known = _settled(evaluated, ORDERS, True, even)
     known = replace(known, rays=found.rays, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
@@ -416,7 +416,7 @@ def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
 
 
 def _over_disc(
-    sampling: Sampling, edge: tuple[np.ndarray, np.ndarray], even: bool
+    sampling: RayCounts, edge: tuple[np.ndarray, np.ndarray], even: bool
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return ξ, η and shares of the area of nodes over the disc, half of it for an even pupil, and on its edge."""
     inside = whole_nodes((sampling.radii, 2 * sampling.directions))
@@ -432,11 +432,11 @@ def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR, turn_deg: 
     even, scale = not turn_deg, -float(six.reduced_slope) / float(six.wavelength_um)
     edge = _rim(RIM, even)
 
-    def evaluated(sampling: Sampling) -> PupilNodes:
+    def evaluated(sampling: RayCounts) -> PupilSamples:
         xi, eta, share = _over_disc(sampling, edge, even)
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
         across, up = turned(scale * xi, scale * eta, turn_deg)
-        return PupilNodes(xi, eta, share, one, phase, across, up, edge[0].size)
+        return PupilSamples(xi, eta, share, one, phase, across, up, edge[0].size)
 
     found = replace(_settled(evaluated, (EXACT,), True, even), rays=2)
     return behind_mask(found, mask, -float(six.wavelength_um))
@@ -489,7 +489,7 @@ def _rim(intervals: int, even: bool = True) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _settled(
-    nodes_of: Callable[[Sampling], PupilNodes], orders: tuple[Sampling, ...], smooth: bool, even: bool = True
+    nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCounts, ...], smooth: bool, even: bool = True
 ) -> FrequencyPupil:
     """Return the pupil through nodes, of the first order whose residual is small enough."""
     counts, traced, before = (0, 0), 0, 0.0
@@ -512,7 +512,7 @@ def _settled(
     return replace(found, rays=traced)
 
 
-def _through(nodes: PupilNodes, order: int, smooth: bool, even: bool) -> FrequencyPupil:
+def _through(nodes: PupilSamples, order: int, smooth: bool, even: bool) -> FrequencyPupil:
     """Return the polynomials through nodes by least squares, and what else follows from the rays."""
     fx, fy = np.abs(nodes.fx) if even else nodes.fx, nodes.fy  # of a pupil that is even in fx, either half will do
     edge_x, edge_y = (_outline if even else _whole_outline)(fx[-nodes.rim :], fy[-nodes.rim :], smooth)
@@ -599,7 +599,7 @@ class LeastSquares:
 
 
 def _area(
-    nodes: PupilNodes, box: tuple[np.ndarray, np.ndarray], used: np.ndarray, order: int, even: bool
+    nodes: PupilSamples, box: tuple[np.ndarray, np.ndarray], used: np.ndarray, order: int, even: bool
 ) -> np.ndarray:
     """Return ∂(x, y)/∂(ξ, η) at the used nodes, (x, y) in the box: over the stop it is smooth however rays crowd."""
     stop = LeastSquares(order, nodes.xi[used], nodes.eta[used], nodes.share[used], even)

@@ -23,7 +23,7 @@ Grid = tuple[np.ndarray, np.ndarray, np.ndarray, float]
 """Values (y, x), x, y and the pixel."""
 
 
-class Energy(NamedTuple):
+class WindowEnergy(NamedTuple):
     """Encircled energy: radii (n,) in µm and the fraction of the window's light within each, (…, n)."""
 
     radius_um: np.ndarray
@@ -39,7 +39,7 @@ class Cuts(NamedTuple):
     along_y: np.ndarray
 
 
-class Mtf(NamedTuple):
+class WindowMtf(NamedTuple):
     """Contrast against cycles per mm on the sensor: (n,), and (…, n) tangential (along y) and sagittal (along x)."""
 
     frequency_per_mm: np.ndarray
@@ -96,7 +96,7 @@ def _peak_samples(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
 
 def encircled_energy(
     psf: Psf, centre: tuple[ArrayLike, ArrayLike] | None = None, radius_um: ArrayLike | None = None
-) -> Energy:
+) -> WindowEnergy:
     """Return the fraction of the window's light within each radius of ``centre`` (x, y) in µm.
 
     By default the centre is the centroid and the radii run to the corner of the window. Near the centre the
@@ -107,7 +107,7 @@ def encircled_energy(
         radius_um = np.linspace(0, corner, 2 * max(psf.values.shape[-2:]))
     radii = np.asarray(radius_um, dtype=float)
     curves = [_energy_curve(*rings, radii) for rings in _all_rings(psf, centre)]
-    return Energy(radii, np.reshape(curves, (*psf.values.shape[:-2], len(radii))))
+    return WindowEnergy(radii, np.reshape(curves, (*psf.values.shape[:-2], len(radii))))
 
 
 def radius_of_energy(psf: Psf, fraction: float = 0.5, centre: tuple[ArrayLike, ArrayLike] | None = None) -> np.ndarray:
@@ -208,7 +208,7 @@ def profiles(psf: Psf, through: str = "chief") -> Cuts:
     return Cuts(psf.x_um, along_x, psf.y_um, along_y)
 
 
-def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None, na: float | None = None) -> Mtf:
+def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None, na: float | None = None) -> WindowMtf:
     """Return the contrast of sine patterns, |FT of the PSF| over its value at zero, along y and along x.
 
     Frequencies are in cycles per mm, by default from 0 to the Nyquist frequency of the pitch; beyond it is NaN.
@@ -232,7 +232,7 @@ def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None, na: float | None = 
     step = np.exp(-2j * np.pi * psf.pixel_um * frequency / UM_PER_MM)
     waves = _powers(step, max(psf.values.shape[-2:]))  # their phase at the window's edge does not change the modulus
     known = np.where(np.abs(frequency) * psf.pixel_um <= UM_PER_MM / 2 * (1 + 1e-9), 1.0, np.nan)
-    return Mtf(frequency, known * _contrast(line_y, waves), known * _contrast(line_x, waves))
+    return WindowMtf(frequency, known * _contrast(line_y, waves), known * _contrast(line_x, waves))
 
 
 def _contrast(line: np.ndarray, waves: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from p2sf.database.grid import GridDatabase, traced_grid
 from p2sf.database.render import Database, Sampling, rendered
 from p2sf.paraxial.pupils import find_stop
 from p2sf.representations.representation import Representation
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 TERMS = 6, 24  # of a Chebyshev series in wavelength; 24 is what `build_database` starts with
 GRIDS = (3, 3, 3), (5, 5, 3), (9, 9, 5)  # depths, fields, wavelengths
@@ -53,6 +53,6 @@ def _representation(space: LensSpace, database: Database, words: str, numbers: i
     return Representation("seidel", words, numbers, 8 * numbers, seconds, partial(_psf, space, database))
 
 
-def _psf(space: LensSpace, database: Database, points: Points) -> np.ndarray:
+def _psf(space: LensSpace, database: Database, points: SpacePoints) -> np.ndarray:
     places = points.depth_mm, points.field_slope, points.wavelength_um
     return space.window.light(rendered(database, places, Sampling(*space.window.fine)))

@@ -17,7 +17,7 @@ from p2sf.raytrace.fit import fit, level_rays, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
 from p2sf.representations.representation import Representation
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 # Most that a dropped term may change the phase where rays land, waves.
 CUTS = {
@@ -95,7 +95,7 @@ def _reach_um(space: LensSpace) -> float:
     return float(max(found))
 
 
-def _psf(space: LensSpace, database: FittedDatabase, points: Points) -> np.ndarray:
+def _psf(space: LensSpace, database: FittedDatabase, points: SpacePoints) -> np.ndarray:
     pixels, pixel_um = space.window.fine
     pictures = [space.window.light(summed(database.fit_at(s), pixels, pixel_um)[0]) for s in points.sources()]
     return np.stack(pictures)

@@ -21,7 +21,7 @@ from p2sf.representations.representation import (
     mirrored,
     right_half,
 )
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 Weights = list[np.ndarray]
 """A matrix (inputs, outputs) and a vector (outputs,) for each layer, in turn."""
@@ -126,7 +126,7 @@ def _pixels(space: LensSpace) -> np.ndarray:
 
 
 def _blur_field(
-    space: LensSpace, exact: ExactPsfs, points: Points, pictures: np.ndarray, units: int, layers: int, steps: int
+    space: LensSpace, exact: ExactPsfs, points: SpacePoints, pictures: np.ndarray, units: int, layers: int, steps: int
 ) -> Representation:
     """Return a network of (place, pixel) that gives the root of the intensity, relative to the picture's norm."""
     started = process_time()
@@ -161,7 +161,7 @@ def _blur_field(
     return Representation("neural", words, numbers, nbytes, seconds, partial(_field_psf, space, kept))
 
 
-def _field_psf(space: LensSpace, weights: Weights, points: Points) -> np.ndarray:
+def _field_psf(space: LensSpace, weights: Weights, points: SpacePoints) -> np.ndarray:
     pixels, places = _pixels(space), _places(points.cube)
     roots = [outputs_of(weights, np.concatenate([np.tile(p, (len(pixels), 1)), pixels], 1))[:, 0] for p in places]
     return clipped_to_unit_sum(mirrored(np.square(np.maximum(roots, 0)), space.window.pixels))
@@ -169,7 +169,7 @@ def _field_psf(space: LensSpace, weights: Weights, points: Points) -> np.ndarray
 
 def _score_network(
     space: LensSpace,
-    points: Points,
+    points: SpacePoints,
     pictures: np.ndarray,
     components: np.ndarray,
     seconds: float,
@@ -205,6 +205,6 @@ def _score_network(
     return Representation("neural", words, numbers, own + nbytes, seconds, psf)
 
 
-def _score_psf(space: LensSpace, halves: np.ndarray, weights: Weights, points: Points) -> np.ndarray:
+def _score_psf(space: LensSpace, halves: np.ndarray, weights: Weights, points: SpacePoints) -> np.ndarray:
     found = halves[0] + outputs_of(weights, _places(points.cube)) @ halves[1:]
     return clipped_to_unit_sum(mirrored(found, space.window.pixels))

@@ -15,7 +15,7 @@ from p2sf.representations.representation import (
     mirrored,
     right_half,
 )
-from p2sf.representations.space import LensSpace, Points, axis_nodes
+from p2sf.representations.space import LensSpace, SpacePoints, axis_nodes
 
 NODES = 1, 2, 3, 5, 9, 17  # of an axis
 BUDGETS = 1, 2, 4, 8, 16, 32, 64, 128, 256, 450  # nodes; 450 half pictures of 64² in 8 bits are one megabyte
@@ -81,7 +81,7 @@ def grid_representations(space: LensSpace, exact: ExactPsfs, quick: bool = False
         yield Representation("PSF grid", words, table.size, nbytes, len(table) * exact.seconds, psf)
 
 
-def _interpolated(space: LensSpace, counts: Counts, rule: Rule, table: np.ndarray, points: Points) -> np.ndarray:
+def _interpolated(space: LensSpace, counts: Counts, rule: Rule, table: np.ndarray, points: SpacePoints) -> np.ndarray:
     weights = node_weights(counts, rule, points.cube).astype(np.float32)
     return clipped_to_unit_sum(mirrored(weights @ table, space.window.pixels))
 
@@ -149,7 +149,9 @@ def scores_of(pictures: np.ndarray, kept: np.ndarray) -> np.ndarray:
     return found
 
 
-def _composed(space: LensSpace, counts: Counts, halves: np.ndarray, scores: np.ndarray, points: Points) -> np.ndarray:
+def _composed(
+    space: LensSpace, counts: Counts, halves: np.ndarray, scores: np.ndarray, points: SpacePoints
+) -> np.ndarray:
     weights = node_weights(counts, "cubic", points.cube).astype(np.float32)
     found = halves[0] + (weights @ scores) @ halves[1:]
     return clipped_to_unit_sum(mirrored(found, space.window.pixels))

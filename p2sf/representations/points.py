@@ -17,13 +17,13 @@ from p2sf.representations.pictures import STEPS, stored
 from p2sf.representations.rays import ray_representations
 from p2sf.representations.representation import ExactPsfs, Representation, right_half
 from p2sf.representations.shapes import SHAPES, fitted_shape, shape_values
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 from p2sf.representations.zernike_grid import MAP, ORDERS, pencil_of, wavefront
 
 VALUE_BYTES = 4
 
 
-def point_representations(space: LensSpace, exact: ExactPsfs, point: Points) -> Iterator[Representation]:
+def point_representations(space: LensSpace, exact: ExactPsfs, point: SpacePoints) -> Iterator[Representation]:
     """Yield every description of one point's PSF; their ``psf`` knows no other point."""
     [source] = point.sources()
     yield _six(space, source)
@@ -39,7 +39,7 @@ def _six(space: LensSpace, source: Source) -> Representation:
     c = coefficients(space.lens, source.depth_mm, source.field_slope, source.wavelength_um)
     seconds = process_time() - started
 
-    def psf(points: Points) -> np.ndarray:
+    def psf(points: SpacePoints) -> np.ndarray:
         return space.window.light(seidel_psf(c, *space.window.fine).values)[None]
 
     return Representation("seidel", "six coefficients", 6, 6 * VALUE_BYTES, seconds, psf)
@@ -57,7 +57,7 @@ def _fits(space: LensSpace, source: Source) -> Iterator[Representation]:
         )
 
 
-def _summed(space: LensSpace, found: FittedPencil, points: Points) -> np.ndarray:
+def _summed(space: LensSpace, found: FittedPencil, points: SpacePoints) -> np.ndarray:
     return space.window.light(summed(found, *space.window.fine)[0])[None]
 
 
@@ -79,7 +79,7 @@ def _shapes(space: LensSpace, picture: np.ndarray) -> Iterator[Representation]:
         numbers = fitted_shape(picture, shape)
         seconds = process_time() - started
 
-        def psf(points: Points, shape: str = shape, numbers: np.ndarray = numbers) -> np.ndarray:
+        def psf(points: SpacePoints, shape: str = shape, numbers: np.ndarray = numbers) -> np.ndarray:
             return shape_values(numbers, shape, space.window.pixels)[None]
 
         yield Representation(shape, f"{count} numbers", count, VALUE_BYTES * count, seconds, psf)
@@ -89,7 +89,7 @@ def _pictures(picture: np.ndarray) -> Iterator[Representation]:
     for bits in STEPS:
         kept, nbytes = stored(picture, bits)
 
-        def psf(points: Points, kept: np.ndarray = kept) -> np.ndarray:
+        def psf(points: SpacePoints, kept: np.ndarray = kept) -> np.ndarray:
             unit: np.ndarray = kept / kept.sum()
             return unit
 

@@ -7,7 +7,7 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.representations.representation import Representation, huygens_picture, traced_picture
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 PER_SURFACE = 3  # curvature, thickness, clear radius
 PER_GLASS = 6  # of Sellmeier's formula
@@ -19,7 +19,7 @@ def ray_representations(space: LensSpace) -> Iterator[Representation]:
     numbers = prescription_numbers(space.lens)
     for family, picture in (("traced", traced_picture), ("huygens", huygens_picture)):
 
-        def psf(points: Points, picture: Callable[[LensSpace, Source], np.ndarray] = picture) -> np.ndarray:
+        def psf(points: SpacePoints, picture: Callable[[LensSpace, Source], np.ndarray] = picture) -> np.ndarray:
             return np.stack([picture(space, source) for source in points.sources()])
 
         yield Representation(family, "the prescription", numbers, VALUE_BYTES * numbers, 0.0, psf)

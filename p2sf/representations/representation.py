@@ -10,7 +10,7 @@ from p2sf.lens.source import Source
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 KEY_DIGITS = 9  # of a place's coordinates, by which a PSF is remembered
 
@@ -29,7 +29,7 @@ class Representation:
     numbers: int
     nbytes: int
     seconds: float
-    psf: Callable[[Points], np.ndarray]
+    psf: Callable[[SpacePoints], np.ndarray]
 
 
 @dataclass(eq=False)
@@ -40,7 +40,7 @@ class ExactPsfs:
     _known: dict[tuple[float, ...], np.ndarray] = field(default_factory=dict)
     _spent: float = 0.0
 
-    def at(self, points: Points) -> np.ndarray:
+    def at(self, points: SpacePoints) -> np.ndarray:
         """Return unit-sum pictures, (n, pixels, pixels)."""
         keys = [tuple(place) for place in np.round(points.cube, KEY_DIGITS).tolist()]
         for key, source in zip(keys, points.sources(), strict=True):

@@ -15,7 +15,7 @@ from p2sf.conventions import centred_axis
 from p2sf.representations.interpolation import Counts, Rule, node_weights
 from p2sf.representations.pictures import used_counts
 from p2sf.representations.representation import ExactPsfs, Representation, clipped_to_unit_sum
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 SHAPES = {"Gaussian": 3, "generalised Gaussian": 4, "Moffat": 4}  # numbers of each
 GRIDS: tuple[tuple[Counts, Rule], ...] = ((1, 3, 1), "linear"), ((3, 3, 3), "linear"), ((3, 5, 3), "cubic")
@@ -94,6 +94,8 @@ def shape_values(numbers: np.ndarray, shape: str, pixels: int) -> np.ndarray:
     return unit
 
 
-def _psf(space: LensSpace, shape: str, counts: Counts, rule: Rule, table: np.ndarray, points: Points) -> np.ndarray:
+def _psf(
+    space: LensSpace, shape: str, counts: Counts, rule: Rule, table: np.ndarray, points: SpacePoints
+) -> np.ndarray:
     numbers = node_weights(counts, rule, points.cube) @ table
     return clipped_to_unit_sum(np.stack([shape_values(row, shape, space.window.pixels) for row in numbers]))

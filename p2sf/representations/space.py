@@ -33,7 +33,7 @@ EDGE = 0.0, 0.5, 0.75, 1.0  # of the largest field, where the steepest phase is 
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class SpacePoints:
     """Point sources as arrays, each (n,): depth (mm), field slope, wavelength (µm); ``cube``: (n, 3) in 0…1."""
 
     depth_mm: np.ndarray
@@ -44,8 +44,8 @@ class Points:
     def __len__(self) -> int:
         return len(self.cube)
 
-    def __getitem__(self, some: slice | np.ndarray) -> "Points":
-        return Points(*(column[some] for column in vars(self).values()))
+    def __getitem__(self, some: slice | np.ndarray) -> "SpacePoints":
+        return SpacePoints(*(column[some] for column in vars(self).values()))
 
     def sources(self) -> Iterator[Source]:
         """Yield the sources one by one."""
@@ -99,20 +99,20 @@ class LensSpace:
             self.wavelengths_um[0] < self.wavelengths_um[1],
         )
 
-    def at(self, cube: np.ndarray) -> Points:
+    def at(self, cube: np.ndarray) -> SpacePoints:
         """Return the points at places (n, 3) in 0…1."""
         near, far = float(vergence(self.near_mm)), float(vergence(self.far_mm))
         depth = 1 / (near + cube[:, 0] * (far - near))
         slope = self.slopes[0] + cube[:, 1] * (self.slopes[1] - self.slopes[0])
         wavelength = self.wavelengths_um[0] + cube[:, 2] * (self.wavelengths_um[1] - self.wavelengths_um[0])
-        return Points(np.clip(depth, self.near_mm, self.far_mm), slope, wavelength, cube)
+        return SpacePoints(np.clip(depth, self.near_mm, self.far_mm), slope, wavelength, cube)
 
-    def random(self, count: int, seed: int) -> Points:
+    def random(self, count: int, seed: int) -> SpacePoints:
         """Return points at random, even over 1/depth, slope and wavelength."""
         cube = np.random.default_rng(seed).random((count, 3))
         return self.at(np.where(self.spread, cube, 0.0))
 
-    def grid(self, counts: tuple[int, int, int]) -> Points:
+    def grid(self, counts: tuple[int, int, int]) -> SpacePoints:
         """Return even nodes from end to end along depth, field and wavelength, the last fastest; 1: the middle."""
         axes = [axis_nodes(count) for count in counts]
         return self.at(np.array(list(product(*axes))))

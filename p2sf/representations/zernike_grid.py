@@ -22,7 +22,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.representations.interpolation import Counts, Rule, node_weights
 from p2sf.representations.pictures import used_counts
 from p2sf.representations.representation import Representation
-from p2sf.representations.space import LensSpace, Points
+from p2sf.representations.space import LensSpace, SpacePoints
 
 ORDERS = 4, 6, 8
 # Depths, fields and wavelengths. Of few nodes the straight line did better, of more the spline, on the lenses tried.
@@ -80,7 +80,9 @@ def pencil_of(numbers: np.ndarray, order: int, wavelength_um: float) -> FittedPe
     return FittedPencil(level, phase, fx, fy, 0.0, steepness(level, phase, fx, fy), np.nan, 0)
 
 
-def _psf(space: LensSpace, order: int, counts: Counts, rule: Rule, table: np.ndarray, points: Points) -> np.ndarray:
+def _psf(
+    space: LensSpace, order: int, counts: Counts, rule: Rule, table: np.ndarray, points: SpacePoints
+) -> np.ndarray:
     found = node_weights(counts, rule, points.cube) @ table
     pixels, pixel_um = space.window.fine
     pencils = (pencil_of(row, order, wave) for row, wave in zip(found, points.wavelength_um.tolist(), strict=True))

@@ -25,7 +25,7 @@ from p2sf.representations.points import point_representations
 from p2sf.representations.rays import ray_representations
 from p2sf.representations.representation import ExactPsfs, Representation, huygens_picture
 from p2sf.representations.shapes import shape_representations
-from p2sf.representations.space import LensSpace, Points, lens_space
+from p2sf.representations.space import LensSpace, SpacePoints, lens_space
 from p2sf.representations.zernike_grid import zernike_representations
 
 TESTED, TESTED_QUICK, SEED = 40, 12, 2026
@@ -52,7 +52,7 @@ class Spread:
 class Truth:
     """The points a representation is judged at, their unit-sum pictures (n, pixels, pixels) and R80 in pixels, (n,)."""
 
-    points: Points
+    points: SpacePoints
     pictures: np.ndarray
     radius: np.ndarray
 
@@ -187,7 +187,7 @@ def _singles(space: LensSpace, exact: ExactPsfs, quick: bool) -> Iterator[tuple[
         yield field, tuple(measured(one, truth) for one in made if one.family != "huygens")
 
 
-def truth_of(points: Points, pictures: np.ndarray) -> Truth:
+def truth_of(points: SpacePoints, pictures: np.ndarray) -> Truth:
     """Return what representations are judged by at some points, from unit-sum pictures (n, pixels, pixels)."""
     return Truth(points, pictures, _radius_80(pictures))
 

@@ -27,7 +27,7 @@ STAGES = ("SIF", "qSIF", "SVF")
 
 
 @dataclass(frozen=True)
-class Claim:
+class PaperClaim:
     """One claim of the paper, what is measured of it in words and as ``figures``, and the verdict."""
 
     claim: str
@@ -46,16 +46,16 @@ def stage_growth(timing: list[dict]) -> dict[str, float]:
     return growth
 
 
-def time_claim(timing: list[dict]) -> Claim:
+def time_claim(timing: list[dict]) -> PaperClaim:
     """Judge that the time of the spatially variant features does not depend on the number of elements."""
     growth, most = stage_growth(timing), max(row["elements"] for row in timing)
     grown = ", ".join(f"{stage} × {factor:.2f}" for stage, factor in growth.items())
     measured = f"from 1 element to {most}: {grown}; each surface adds its terms to the sums"
     verdict = HOLDS if growth["SVF"] <= CONSTANT else FAILS
-    return Claim("the time of SVF does not grow with the number of elements", measured, verdict, growth)
+    return PaperClaim("the time of SVF does not grow with the number of elements", measured, verdict, growth)
 
 
-def memory_claim(lens: Lens, wavelength_nm: float, pixels: int) -> Claim:
+def memory_claim(lens: Lens, wavelength_nm: float, pixels: int) -> PaperClaim:
     """Judge that coefficients take a small part of the memory of the 12 400 PSFs they stand for."""
     slopes = slope_from_degrees(np.linspace(0, max(lens.fields_deg), NODES[1]))
     space = Space(depth_nodes(1e3, count=NODES[0]), np.asarray(slopes), np.linspace(0.45, 0.68, NODES[2]))
@@ -72,7 +72,7 @@ def memory_claim(lens: Lens, wavelength_nm: float, pixels: int) -> Claim:
         f"{int(np.prod(NODES)):,} PSFs of {pixels} × {pixels}: {psfs / 1e6:.0f} MB; six coefficients each: "
         f"{six / 1e3:.0f} kB, {psfs / six:.0f} times less; the exact polynomials: {exact / 1e3:.1f} kB"
     ).replace(",", " ", 1)
-    return Claim(
+    return PaperClaim(
         "12 400 PSFs fit into little memory as coefficients", measured, HOLDS if psfs > 100 * six else FAILS, figures
     )
 
@@ -93,7 +93,7 @@ def defocus_r_squared(lens: Lens, f_number: float, wavelength_um: float) -> dict
     return scores
 
 
-def defocus_claim(lens: Lens, wavelength_nm: float) -> Claim:
+def defocus_claim(lens: Lens, wavelength_nm: float) -> PaperClaim:
     """Judge that the method holds up to ten waves of defocus; twice as many are measured beside them."""
     table = {f: defocus_r_squared(lens, f, wavelength_nm / NM_PER_UM) for f in F_NUMBERS}
     within = {f: min(r for waves, r in scores.items() if abs(waves) <= LIMIT) for f, scores in table.items()}
@@ -104,10 +104,12 @@ def defocus_claim(lens: Lens, wavelength_nm: float) -> Claim:
     holds = all(score >= GOOD for score in within.values())
     reason = "" if holds else "; the aperture sets the limit, not the defocus"
     figures = {f"f/{f:g}": {f"{waves:g}": r for waves, r in scores.items()} for f, scores in table.items()}
-    return Claim("the method holds up to 10 waves of defocus", measured + reason, HOLDS if holds else FAILS, figures)
+    return PaperClaim(
+        "the method holds up to 10 waves of defocus", measured + reason, HOLDS if holds else FAILS, figures
+    )
 
 
-def off_axis_claim(accuracy: list[dict]) -> Claim:
+def off_axis_claim(accuracy: list[dict]) -> PaperClaim:
     """Judge that six coefficients are stable off axis; say why where they are not."""
     six = {row["field_deg"]: row["r_squared"]["seidel"] for row in accuracy}
     scores = ", ".join(f"{score:.3f} at {field:g}°" for field, score in six.items())
@@ -118,6 +120,6 @@ def off_axis_claim(accuracy: list[dict]) -> Claim:
         f"cosines of image space, is squeezed; 26 numbers fitted to exact rays hold R² ≥ {fitted:.4f} at all fields"
     )
     verdict = HOLDS if min(six.values()) >= GOOD else FAILS
-    return Claim(
+    return PaperClaim(
         "six coefficients are stable off axis", measured, verdict, {f"{field:g}°": r for field, r in six.items()}
     )

@@ -7,7 +7,7 @@ import pytest
 
 from p2sf.database.cost import products
 from p2sf.database.render import fine_sampling
-from p2sf.database_files.stack_write import StackProgress, Work, write_stack
+from p2sf.database_files.stack_write import StackProgress, StackWork, write_stack
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf._seidel_sum import shape_terms
@@ -35,7 +35,7 @@ def test_the_products_are_those_of_the_rows_and_columns_that_are_summed(depth_mm
 def test_the_costliest_chunks_come_first(tmp_path):
     """No chunk takes more than one before it, but for the counts' rounding."""
     stack = write_stack(*small(), tmp_path / "a.zarr", SAMPLING, StackProgress(cancelled=lambda: True))
-    work, database = Work(stack, stack.missing, StackProgress()), stack.stored.database
+    work, database = StackWork(stack, stack.missing, StackProgress()), stack.stored.database
     assert sorted(work.chunks) == stack.chunks
     fine = fine_sampling(SAMPLING, SAMPLING.pixel_um, stack.across)
     true = []

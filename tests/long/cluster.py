@@ -29,7 +29,7 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.render import Sampling
 from p2sf.database_files.stack import open_stack
-from p2sf.database_files.stack_write import Progress, StackProgress, write_stack
+from p2sf.database_files.stack_write import StackProgress, StackStatus, write_stack
 from p2sf.errors import DatabaseError
 from p2sf.lensfile.library import find_lens
 from tests.support.cluster import RunningCluster, running_cluster
@@ -57,7 +57,7 @@ def once(act: Callable[..., object], *on: object) -> StackProgress:
     """Return a watch that acts once, in the middle of the work."""
     left = [partial(act, *on)]
 
-    def tell(now: Progress) -> None:
+    def tell(now: StackStatus) -> None:
         if left and now.done >= MIDDLE * now.total:
             left.pop()()
 

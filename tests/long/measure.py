@@ -27,7 +27,7 @@ from p2sf.measure.frame_terms import F_NUMBER, FIELD, FOCUS, FrameModel, lens_op
 from p2sf.measure.listings import read_listing
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import PointFit, fit_point
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_model import PupilModel, pupil_model
 from p2sf.measure.reading import read_frame
@@ -44,7 +44,7 @@ from p2sf_explorer.results import image
 from p2sf_explorer.state.state import State, changed, new_state
 from tests.support.huygens_frames import cross_of_points, huygens_frame
 
-OPTICS = Optics(0.125, 0.55, 2.2)  # pixels of λ/2NA
+OPTICS = PictureOptics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 PIXELS = 40
 SECOND_FOCUS = 1.5  # waves
 NOISE, PEAK = 0.01, 1000.0

@@ -13,7 +13,7 @@ from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_fit import PointSum, fit_frame
 from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint, lens_optics
 from p2sf.measure.measurement import measured
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.paraxial.pupils import stop_rim
@@ -69,7 +69,7 @@ def test_an_f_number_that_is_3_per_cent_wrong_moves_nothing(triplet):
 
 def test_an_f_number_is_found_without_a_lens():
     """By the width of points alone: a prior of 3 % and a truth 4 % away. Five standard deviations."""
-    model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "w40", "w31", "f_number"))
+    model = FrameModel(PictureOptics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "w40", "w31", "f_number"))
     truth = np.array([20.0, 0.1, 0.6, 4.0])
     points = model_points(model, truth, 3.0, grid_of_points(3, 2, 8.0, 6.0), focus=(0.0, 60.0))
     found = fit_frame(points, model, start=np.zeros(4))
@@ -79,7 +79,7 @@ def test_an_f_number_is_found_without_a_lens():
 @pytest.mark.slow
 def test_what_no_picture_tells_is_known_to_the_prior_at_least():
     """Points far apart but all alike, and so faint that they tell next to nothing of the f-number."""
-    model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "f_number"))
+    model = FrameModel(PictureOptics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "f_number"))
     points = model_points(model, np.array([20.0, 0.0]), 150.0, [(0.0, 0.0), (4.0, 0.0)])
     found = fit_frame(points, model, start=np.array([20.0, 0.0]))
     assert 1.5 < found.bounds[1] <= 3.0 and abs(found.values[1]) < 10

@@ -21,7 +21,7 @@ from p2sf.measure.frame_fit import FrameFit, PointSum, fit_frame
 from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
 from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import measured, read_measurement, write_measurement
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import find_points, in_grid, window_half, window_of
 from p2sf.measure.pupil_nodes import lens_nodes
@@ -197,7 +197,7 @@ def model_points(model, truth, noise, places, focus=(0.0,), pixels=25, seed=0):
 
 def test_a_frame_without_a_lens_starts_from_its_points_and_names_the_twin():
     """Five standard deviations; the sign of all even terms together is open."""
-    model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0)
+    model = FrameModel(PictureOptics(0.125, 0.55, 2.2), 5.0)
     truth = np.array([20.0, 0.1, -0.06, 0.5, 0.9, -0.8, 0.6])
     points = model_points(model, truth, 10.0, grid_of_points(3, 3, 8.0, 6.0))
     found = fit_frame(points, model)
@@ -207,7 +207,7 @@ def test_a_frame_without_a_lens_starts_from_its_points_and_names_the_twin():
 
 def test_unknowns_that_no_picture_tells_apart_have_huge_errors_and_a_warning():
     """On one circle about the axis a shift of the sensor is W20 h²: one combination of the two is known, none alone."""
-    optics = Optics(0.125, 0.55, 2.2)
+    optics = PictureOptics(0.125, 0.55, 2.2)
     places = [(4.0, 0.0), (0.0, 4.0), (-4.0, 0.0)]
     model = FrameModel(optics, 4.0, ("sensor_shift_um", "w20", "w31"))
     points = model_points(model, np.array([20.0, 0.3, 0.5]), 10.0, places)
@@ -261,7 +261,7 @@ def test_the_lens_as_built_has_what_differs(triplet, tmp_path):
 
 
 def test_a_frame_at_two_focus_positions_has_no_twin():
-    model = FrameModel(Optics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "w40", "w31"))
+    model = FrameModel(PictureOptics(0.125, 0.55, 2.2), 5.0, ("sensor_shift_um", "w40", "w31"))
     truth = np.array([20.0, 0.5, 0.9])
     points = model_points(model, truth, 10.0, [(0.0, 0.0), (4.0, 0.0)], focus=(0.0, 60.0))
     found = fit_frame(points, model, start=truth * 0.8)
@@ -480,4 +480,4 @@ def test_frames_that_hold_nothing_are_refused(tmp_path):
     with pytest.raises(RequestError, match="saturated"):
         window_half(find_points(Frame(values, geometry, Noise(full_scale=4000))))
     with pytest.raises(RequestError, match="choose from"):
-        FrameModel(Optics(0.1, 0.5, 2.0), 5.0, ("tilt",))
+        FrameModel(PictureOptics(0.1, 0.5, 2.0), 5.0, ("tilt",))

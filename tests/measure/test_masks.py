@@ -12,7 +12,7 @@ from p2sf.measure.frame_terms import lens_optics
 from p2sf.measure.lens_pupil import clear_part
 from p2sf.measure.measurement import measured
 from p2sf.measure.point_fit import fit_point
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
 from p2sf.measure.pupil_model import pupil_model
 from p2sf.measure.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, paraxial_nodes
@@ -54,7 +54,7 @@ def test_scattered_nodes_are_summed_as_one_by_one():
     xi, eta, weight = radius * np.cos(angle), radius * np.sin(angle), rng.uniform(-0.3, 0.7, count)
     fx, fy, waves = NA / WAVE * xi, NA / WAVE * eta + 0.05, 2 * eta**3 + xi**2
     nodes = PupilNodes(fx, fy, xi, eta, weight / weight.sum(), np.zeros(count))
-    made = PixelSum(nodes, (21, 31), Optics(NA, WAVE, PIXEL))
+    made = PixelSum(nodes, (21, 31), PictureOptics(NA, WAVE, PIXEL))
     found = made.fields(waves, xi[None].astype(np.float32))
     one = nodes.weight * np.exp(2j * np.pi * (waves + np.multiply.outer(made.y, fy)))
     across = np.exp(2j * np.pi * np.multiply.outer(fx, made.x))
@@ -66,7 +66,7 @@ def test_scattered_nodes_are_summed_as_one_by_one():
 def test_light_behind_a_mask_is_that_of_a_plain_sum(mask):
     six = pupil_model("seidel")
     nodes = paraxial_nodes((24, 64), NA / WAVE, mask, WAVE)
-    light = PixelSum(nodes, (11, 11), Optics(NA, WAVE, PIXEL, 0.0, mask)).light(
+    light = PixelSum(nodes, (11, 11), PictureOptics(NA, WAVE, PIXEL, 0.0, mask)).light(
         SIX @ six.waves(nodes.xi, nodes.eta) + nodes.waves
     )
     plain = plain_sum(lambda *at: SIX @ six.waves(*at), lambda *at: (NA / WAVE * at[0], NA / WAVE * at[1]), mask)
@@ -80,7 +80,7 @@ def test_light_of_a_pupil_map_behind_a_mask_is_that_of_a_plain_sum(mask):
     maps = model.paraxial_map + rng.normal(0, 0.01, len(model.map_names))
     numbers = np.concatenate([waves, maps])
     nodes = mapped_nodes(model, numbers, (24, 64), NA / WAVE, mask, WAVE)
-    light = PixelSum(nodes, (11, 11), Optics(NA, WAVE, PIXEL, 0.0, mask)).light(
+    light = PixelSum(nodes, (11, 11), PictureOptics(NA, WAVE, PIXEL, 0.0, mask)).light(
         waves @ model.waves(nodes.xi, nodes.eta) + nodes.waves
     )
     _, across, along = model.split(numbers)
@@ -139,7 +139,7 @@ def test_rims_that_end_nothing_leave_the_disc_as_it_is():
 def test_all_light_behind_a_mask_is_one(mask):
     """What misses a window of 100 pixels of λ/2NA is diffracted by the edges; points across a pixel err by 2e-3."""
     nodes = paraxial_nodes((80, 280), NA / WAVE, mask, WAVE)
-    light = PixelSum(nodes, (100, 100), Optics(NA, WAVE, 2.2, mask=mask)).light(nodes.waves)
+    light = PixelSum(nodes, (100, 100), PictureOptics(NA, WAVE, 2.2, mask=mask)).light(nodes.waves)
     assert 0.96 < light.sum() < 1.002
 
 
@@ -151,7 +151,7 @@ def test_only_pupils_alike_on_both_sides_leave_a_twin():
 
 def picture(mask, noise=0.01, defocus=0.0):
     """Return a noisy picture of a point behind a mask, and its optics."""
-    optics = Optics(NA, WAVE, 2.2, mask=mask)
+    optics = PictureOptics(NA, WAVE, 2.2, mask=mask)
     empty = PointPicture(np.zeros((32, 32)), 1.0, defocus)
     made, at = Problem([empty], optics, pupil_model("seidel"), 0.0), np.concatenate([SIX, [0.3, -0.2, 1.0, 0.0]])
     made.prepare(at)
@@ -171,7 +171,7 @@ def test_an_iris_of_five_blades_tells_the_sign_at_one_focus():
 def test_two_foci_behind_a_ring_give_the_coefficients():
     """Five standard deviations."""
     taken = [picture(RING, defocus=waves)[0] for waves in (0.0, 1.5)]
-    found = fit_point(taken, Optics(NA, WAVE, 2.2, mask=RING))
+    found = fit_point(taken, PictureOptics(NA, WAVE, 2.2, mask=RING))
     assert np.abs((found.numbers - SIX) / found.bounds).max() < 5
 
 

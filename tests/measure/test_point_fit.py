@@ -11,7 +11,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.point_fit import fit_point
-from p2sf.measure.point_model import Optics, PixelSum
+from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
 from p2sf.measure.points import find_points
 from p2sf.measure.pupil_model import pupil_model
@@ -20,7 +20,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fit, summed
 from p2sf.psf.pixel_integrals import render_integrated
 
-OPTICS = Optics(0.125, 0.55, 2.2)  # pixels of λ/2NA
+OPTICS = PictureOptics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 SIX = np.array([1.2, -0.9, 0.7, -1.4])
 
 
@@ -58,7 +58,7 @@ def test_light_of_a_lens_is_that_of_its_seidel_psf(field_deg):
     source = Source(field_deg=field_deg)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     psf = render_integrated(lens, source, "seidel", 33, pixel)
-    optics = Optics(abs(float(c.reduced_slope)), source.wavelength_um, pixel)
+    optics = PictureOptics(abs(float(c.reduced_slope)), source.wavelength_um, pixel)
     made, at = problem("seidel", np.array([c.w40, c.w31, c.w22, c.w20 + c.wd], float), 33, optics)
     light, _ = made.light(at, 0)
     assert light == pytest.approx(psf.values * psf.energy, abs=1e-3 * light.max())
@@ -70,7 +70,7 @@ def test_light_of_26_numbers_is_that_of_the_fitted_method():
     found = fit(lens, source, 26)
     found = replace(found, phase=np.where(np.arange(16) == 1, 0.0, found.phase))  # without tilt, which moves the point
     na = abs(float(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um).reduced_slope))
-    optics = Optics(na, source.wavelength_um, 1.0, fill=0.0)
+    optics = PictureOptics(na, source.wavelength_um, 1.0, fill=0.0)
     numbers = np.concatenate([-found.phase[2:], -found.fx / optics.cycles, -found.fy[1:] / optics.cycles])
     made, at = problem("26", numbers, 33, optics)
     intensity, _ = summed(found, 33, 1.0)
@@ -126,7 +126,7 @@ def test_pixels_average_what_points_sample():
     nodes = paraxial_nodes((32, 88), OPTICS.cycles)
     phase = SIX @ pupil_model("seidel").waves(nodes.xi, nodes.eta)
     light = PixelSum(nodes, (9, 9), OPTICS).light(phase)
-    fine = PixelSum(nodes, (135, 135), Optics(0.125, 0.55, 2.2 / 15, fill=0.0)).light(phase)
+    fine = PixelSum(nodes, (135, 135), PictureOptics(0.125, 0.55, 2.2 / 15, fill=0.0)).light(phase)
     assert light == pytest.approx(fine.reshape(9, 15, 9, 15).sum((1, 3)), abs=2e-3 * light.max())
 
 

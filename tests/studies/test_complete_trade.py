@@ -10,7 +10,7 @@ from p2sf.errors import RequestError
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.representations.representation import Representation
-from p2sf.representations.space import Points
+from p2sf.representations.space import SpacePoints
 from p2sf.studies import complete_trade as study
 from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, measured, truth_of
 from p2sf.studies.sampling import sampling_map
@@ -25,7 +25,7 @@ def blur(sigma, count=4):
 
 
 def points(count=4):
-    return Points(np.full(count, 1e3), np.zeros(count), np.full(count, 0.5), np.zeros((count, 3)))
+    return SpacePoints(np.full(count, 1e3), np.zeros(count), np.full(count, 0.5), np.zeros((count, 3)))
 
 
 def made(pictures):

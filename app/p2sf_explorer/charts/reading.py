@@ -54,7 +54,7 @@ class Reading:
         return next(marks, (self.x, self.y))
 
 
-class Points(Protocol):
+class PlottedPoints(Protocol):
     """A curve: its name, the token of its colour, and its points."""
 
     name: str
@@ -201,7 +201,7 @@ def is_function(at: np.ndarray) -> bool:
 
 
 def curves_at(
-    curves: Sequence[Points],
+    curves: Sequence[PlottedPoints],
     labels: tuple[str, str],
     place: float,
     over: str = "bottom",
@@ -235,7 +235,7 @@ def curves_at(
 
 
 def vertex_at(
-    curves: Sequence[Points], x: float, y: float, per_px: tuple[float, float], labels: tuple[str, str]
+    curves: Sequence[PlottedPoints], x: float, y: float, per_px: tuple[float, float], labels: tuple[str, str]
 ) -> Reading | None:
     """Return the point of curves that is nearest on screen; None without any."""
     tried = []

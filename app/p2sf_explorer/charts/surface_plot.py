@@ -16,7 +16,7 @@ from p2sf_explorer.charts.plots import EMPTY, as_indices, lookup
 from p2sf_explorer.charts.reading import written
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.camera import Camera, turned
+from p2sf_explorer.state.camera import SceneCamera, turned
 
 HEIGHT = 0.6  # pupil radii that the value at the colour bar's end rises
 HALF = 1.2  # pupil radii from the middle of the picture to its edge
@@ -140,7 +140,7 @@ TURNS: dict[int, tuple[float, float]] = {
 }
 DEG_PER_PX = 0.5
 ZOOM, MOST_ZOOM = 1.25, 8.0
-FIRST = Camera(-30.0, 35.0)  # ξ to the right, η away from the camera
+FIRST = SceneCamera(-30.0, 35.0)  # ξ to the right, η away from the camera
 AWAY = 1.12  # pupil radii from the middle to an axis's name
 AXES = (("ξ", (1.0, 0.0)), ("η", (0.0, 1.0)))
 
@@ -162,13 +162,13 @@ class SurfaceView(QWidget):
         self.setToolTip(tr("Drag or use the arrow keys to turn the surface; a double-click goes back"))
         self._theme, self._map, self.camera = LIGHT, "CET-D1A", FIRST
         self.pixels = np.zeros((1, 1), np.uint32)
-        self._held: tuple[QPointF, Camera] | None = None
+        self._held: tuple[QPointF, SceneCamera] | None = None
         self.waves = np.full((1, 1), np.nan)  # of the pixels, rows upwards
         self.zoom = 1.0
         self.at: QPointF | None = None  # the pointer
         self.setMouseTracking(True)
 
-    def show_waves(self, waves: np.ndarray, limit: float, quality: str, camera: Camera) -> None:
+    def show_waves(self, waves: np.ndarray, limit: float, quality: str, camera: SceneCamera) -> None:
         """Show W in waves over the pupil; ``limit`` waves are the colour bar's end."""
         self.camera = camera
         seen = surface_picture(waves, limit, Viewpoint(camera.turn, camera.tilt, COUNTS[quality]))
@@ -259,7 +259,7 @@ class SurfaceView(QWidget):
         turn, tilt = np.deg2rad(self.camera.turn), np.deg2rad(self.camera.tilt)
         return xi * np.cos(turn) + eta * np.sin(turn), np.sin(tilt) * (eta * np.cos(turn) - xi * np.sin(turn))
 
-    def _turn(self, camera: Camera) -> None:
+    def _turn(self, camera: SceneCamera) -> None:
         self.turned.emit(camera.turn, max(0.0, camera.tilt))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:

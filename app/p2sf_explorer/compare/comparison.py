@@ -14,7 +14,7 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
-from p2sf_explorer.compute.pupil import PupilMap, disc, pupil_map
+from p2sf_explorer.compute.pupil import WavefrontMap, disc, pupil_map
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.pinning import side_b
 from p2sf_explorer.state.state import State
@@ -31,7 +31,7 @@ class Difference:
     """
 
     psf: np.ndarray
-    pupil: PupilMap
+    pupil: WavefrontMap
     coefficients: Mapping[str, float]
     why: Mapping[str, Message] = field(default_factory=dict)
 

@@ -14,14 +14,14 @@ STEP = 128  # between the numbers of samples that a panel may ask for, so that r
 
 
 @dataclass(frozen=True)
-class Source:
+class SettledSum:
     """The sum of waves that made a settled picture, and the most samples a side it is made with in some seconds."""
 
     request: SumRequest
     most: int
 
 
-def source(live: Live) -> Source | None:
+def source(live: Live) -> SettledSum | None:
     """Return what the picture on screen is a sum of; None for ray density, what moves, and what stands in.
 
     Raises SamplingError where the method that a person chose has no picture here.
@@ -30,10 +30,10 @@ def source(live: Live) -> Source | None:
         raise SamplingError("{why}", why=live.refused)
     if live.request is None or live.quality != "settled":
         return None
-    return Source(live.request, live.finest)
+    return SettledSum(live.request, live.finest)
 
 
-def finer(found: Source, pixels: float) -> SumRequest | None:
+def finer(found: SettledSum, pixels: float) -> SumRequest | None:
     """Return the same sum with a sample for each pixel of a panel; None where the picture has as many already."""
     have, pitch = found.request.window
     samples = min(STEP * -(-int(pixels) // STEP), found.most)

@@ -27,7 +27,7 @@ Profile = tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
-class Outline:
+class GlassOutline:
     """One closed region of glass: z and y in mm, its index, and the surfaces (from 1) before and behind it."""
 
     z: np.ndarray
@@ -40,7 +40,7 @@ class Outline:
 class Glass:
     """Outlines of the elements, mirrors, ideal lenses, the last surface's profile, the index behind it, the extent."""
 
-    outlines: tuple[Outline, ...]
+    outlines: tuple[GlassOutline, ...]
     mirrors: tuple["MirrorProfile", ...]
     ideal: tuple["IdealProfile", ...]
     last: Profile
@@ -119,7 +119,7 @@ def _placed_glass(lens: Lens) -> Glass:
         if index[i + 1] > GLASS_INDEX and rims[i] > 0:
             behind = Section.of(lens.motions[i + 1]).placed(*back)
             made = element_outline(front, behind, float(index[i + 1]), (i + 1, i + 2))
-            outlines.append(Outline(*places[i].placed(made.z, made.y), made.index, made.surfaces))
+            outlines.append(GlassOutline(*places[i].placed(made.z, made.y), made.index, made.surfaces))
     profiles = [place.placed(*line) for place, line in zip(places, own, strict=False)]
     mirrors = tuple(
         MirrorProfile(*line, _back(place, direction))
@@ -190,7 +190,7 @@ def crossed_before(lens: Lens, at: int, z: list[float]) -> bool:
     )
 
 
-def filling(glass: Glass, sensor: Section) -> tuple[Outline, ...]:
+def filling(glass: Glass, sensor: Section) -> tuple[GlassOutline, ...]:
     """Return the outline of what fills the space between lens and sensor, none for air."""
     if glass.image_index <= GLASS_INDEX:
         return ()
@@ -276,10 +276,10 @@ def sag(surface: Surface, y: np.ndarray, x: np.ndarray | float = 0.0) -> np.ndar
     return np.asarray(surface.sag(x, y))
 
 
-def element_outline(front: Profile, back: Profile, index: float, surfaces: tuple[int, int]) -> Outline:
+def element_outline(front: Profile, back: Profile, index: float, surfaces: tuple[int, int]) -> GlassOutline:
     """Return the closed outline between two profiles; the narrower one gets a flat rim up to the wider."""
     (z1, y1), (z2, y2) = front, back
     rim = max(y1[-1], y2[-1])
     z = np.concatenate([z1, [z1[-1], z2[-1]], z2[::-1], [z2[0], z1[0], z1[0]]])
     y = np.concatenate([y1, [rim, rim], y2[::-1], [-rim, -rim, y1[0]]])
-    return Outline(z, y, index, surfaces)
+    return GlassOutline(z, y, index, surfaces)

@@ -21,7 +21,7 @@ from p2sf.tolerance.errors_of_build import source_of_build
 from p2sf_explorer.compute.glass_outlines import (
     UPRIGHT,
     Glass,
-    Outline,
+    GlassOutline,
     Section,
     filling,
     glass_of,
@@ -55,7 +55,7 @@ class Drawing:
     """
 
     glass: Glass
-    outlines: tuple[Outline, ...]
+    outlines: tuple[GlassOutline, ...]
     stop_z: float
     stop_rim: float
     sensor_z: float
@@ -105,7 +105,7 @@ class Mark:
 
 
 @dataclass(frozen=True)
-class Fan:
+class LayoutRays:
     """The rays of one field and wavelength, which have a colour of their own."""
 
     field_deg: float
@@ -131,7 +131,7 @@ class Layout:
     entrance_z: float
     slope: float
     sensor_half: float
-    groups: tuple[Fan, ...] = ()
+    groups: tuple[LayoutRays, ...] = ()
     skew: bool = False
     exaggerated: int = 1
     file_tilted: bool = False
@@ -241,16 +241,16 @@ def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
     return vertices(setup.lens)[-2] + distance, float(unit) * setup.source.field_slope
 
 
-def fans(setup: ParaxialSetup, coloured: str) -> tuple[Fan, ...]:
+def fans(setup: ParaxialSetup, coloured: str) -> tuple[LayoutRays, ...]:
     """Return the fans of rays that are drawn by their colour, in the order of field or wavelength."""
     source, lens = setup.source, setup.lens
     here = float(degrees_from_slope(source.field_slope)), source.wavelength_um * NM_PER_UM
     if coloured == "field":
         side = -1.0 if here[0] < 0 else 1.0
         stated = {side * abs(angle) for angle in lens.fields_deg if abs(abs(angle) - abs(here[0])) > SAME_FIELD_DEG}
-        return tuple(Fan(angle, here[1]) for angle in sorted({*stated, here[0]}, key=abs))
+        return tuple(LayoutRays(angle, here[1]) for angle in sorted({*stated, here[0]}, key=abs))
     if coloured == "wavelength":
-        return tuple(Fan(here[0], nm) for nm in sorted({*lens.wavelengths_nm, round(here[1], 4)}))
+        return tuple(LayoutRays(here[0], nm) for nm in sorted({*lens.wavelengths_nm, round(here[1], 4)}))
     return ()
 
 
@@ -264,7 +264,7 @@ def ray_paths(setup: ParaxialSetup, drawn: Drawing, clip: bool = False, count: i
 
 
 def fan_paths(
-    setup: ParaxialSetup, drawn: Drawing, groups: tuple[Fan, ...], clip: bool, count: int
+    setup: ParaxialSetup, drawn: Drawing, groups: tuple[LayoutRays, ...], clip: bool, count: int
 ) -> Iterator[RayPath]:
     """Yield exact meridional rays of every fan."""
     etas = pupil_points(count)

@@ -12,7 +12,7 @@ from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
 from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.method import ALONE, Least, Rendered, rendered
-from p2sf_explorer.compute.pupil import PupilMap, dominant, pupil_of
+from p2sf_explorer.compute.pupil import WavefrontMap, dominant, pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.compute.warnings import warnings
 from p2sf_explorer.state.state import State
@@ -32,7 +32,7 @@ class Live:
     state: State
     setup: ParaxialSetup
     layout: Layout
-    pupil: PupilMap
+    pupil: WavefrontMap
     psf: Psf
     quality: str
     airy_radius_um: float

@@ -45,7 +45,7 @@ from p2sf_explorer.compute.preview import (
     preview_psf,
     preview_pupil,
 )
-from p2sf_explorer.compute.pupil import PupilMap
+from p2sf_explorer.compute.pupil import WavefrontMap
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.scales import nice
@@ -85,7 +85,7 @@ class Rendered:
     why: Message
     exact: bool
     method: str
-    pupil: PupilMap | None = None
+    pupil: WavefrontMap | None = None
     pending: SumRequest | None = None
     request: SumRequest | None = None
     finest: int = 0

@@ -19,7 +19,7 @@ from p2sf.raytrace.fit import LEVELS, SKEW, FittedPencil, Level, fit, fit_rays, 
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.vignetting import CLIPPED
-from p2sf_explorer.compute.pupil import PupilMap, map_behind, pupil_terms
+from p2sf_explorer.compute.pupil import WavefrontMap, map_behind, pupil_terms
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 LEVEL = LEVELS[0]  # 26 numbers
@@ -139,7 +139,7 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
     )
 
 
-def preview_pupil(traced: Preview) -> PupilMap:
+def preview_pupil(traced: Preview) -> WavefrontMap:
     """Return the displayed wavefront over the pupil: the terms that fit that of the level's rays."""
     setup = traced.setup
     rays, skew = traced.rays, setup.lens.misaligned

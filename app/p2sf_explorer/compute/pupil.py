@@ -46,7 +46,7 @@ MARECHAL = 1 / 14**2  # waves²: a Strehl ratio of 0.8 (Born & Wolf 1999, §9.3)
 
 
 @dataclass(frozen=True, eq=False)
-class PupilMap:
+class WavefrontMap:
     """W in waves over the square about the pupil, (y, x), NaN where the pupil's part that passes light is a pixel away.
 
     ``rms`` without piston and tilt and ``peak_to_valley``, in waves; ``outline``: ξ and η of the part that
@@ -82,15 +82,15 @@ def centres(count: int) -> np.ndarray:
     return (2 * np.arange(count) + 1 - count) / count
 
 
-def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> PupilMap:
+def pupil_map(waves: np.ndarray, inside: np.ndarray, kind: str) -> WavefrontMap:
     """Return a map of samples with RMS and peak-to-valley over those inside that have a value."""
     inside = inside & np.isfinite(waves)
     kept = waves[inside]
     if kept.size == 0:
-        return PupilMap(np.full(waves.shape, np.nan), np.nan, np.nan, kind)
+        return WavefrontMap(np.full(waves.shape, np.nan), np.nan, np.nan, kind)
     xi, eta, _ = disc(len(waves))
     blur = rms(kept, np.full(kept.size, 1 / kept.size), np.stack([eta[inside], xi[inside]]))
-    return PupilMap(np.where(inside, waves, np.nan), blur, float(np.ptp(kept)), kind)
+    return WavefrontMap(np.where(inside, waves, np.nan), blur, float(np.ptp(kept)), kind)
 
 
 Samples = tuple[ClearNodes, np.ndarray, ClearRim | None]
@@ -100,7 +100,7 @@ Nodes of the half disc ξ ≥ 0; of exact rays through a misaligned lens, whose 
 """
 
 
-def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False) -> PupilMap:
+def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False) -> WavefrontMap:
     """Return the wavefront that made the PSF: of the six coefficients for seidel, else of exact rays.
 
     The six coefficients know no rims. Raises GeometryError where no ray reaches the sensor.
@@ -131,7 +131,7 @@ def pupil_samples(setup: ParaxialSetup, exact: bool, quality: str, clip: bool) -
     return clear, displayed_opd(lens, source, clear.xi, clear.eta), rim
 
 
-def skew_map(setup: ParaxialSetup, quality: str, clip: bool) -> PupilMap:
+def skew_map(setup: ParaxialSetup, quality: str, clip: bool) -> WavefrontMap:
     """Return the map of exact rays through a misaligned lens, whose wavefront no half of the pupil tells.
 
     Where rays are lost, or rims clip, it is of rays on a grid, and its figures are those of the rays that arrive.
@@ -144,7 +144,7 @@ def skew_map(setup: ParaxialSetup, quality: str, clip: bool) -> PupilMap:
     return map_behind(setup, pupil_terms(quality, True, xi, eta) * weight @ waves, quality)
 
 
-def _gridded(setup: ParaxialSetup, quality: str, clip: bool) -> PupilMap:
+def _gridded(setup: ParaxialSetup, quality: str, clip: bool) -> WavefrontMap:
     """Return the map of rays on a grid over the pupil, NaN where one does not arrive or what stands in the stop is."""
     count = GRIDDED[quality]
     xi, eta, inside = disc(count)
@@ -171,7 +171,7 @@ def clipped(lens: Lens, source: Source, nodes: ClearNodes) -> bool:
     return not pencil(lens, source, xi, eta, clip=True).passed.all()
 
 
-def _clear_map(samples: Samples, quality: str) -> PupilMap:
+def _clear_map(samples: Samples, quality: str) -> WavefrontMap:
     """Return the map over the part of the pupil that passes light."""
     nodes, waves, rim = samples
     root = np.sqrt(nodes.weight)
@@ -181,7 +181,7 @@ def _clear_map(samples: Samples, quality: str) -> PupilMap:
     parts = families((term.n, term.m, part) for term, part in zip(fit.terms, (fit.rms_waves**2).tolist(), strict=True))
     shown, peak = _picture(found, quality, rim)
     outline = CIRCLE if rim is None else rim.outline()
-    return PupilMap(shown, fit.rms, peak, "exact rays", outline, nodes.share, parts, fit.residual**2)
+    return WavefrontMap(shown, fit.rms, peak, "exact rays", outline, nodes.share, parts, fit.residual**2)
 
 
 def families(terms: Iterable[tuple[int, int, float]]) -> dict[str, float]:
@@ -194,7 +194,7 @@ def families(terms: Iterable[tuple[int, int, float]]) -> dict[str, float]:
     return parts
 
 
-def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> PupilMap:
+def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> WavefrontMap:
     """Return the map of a wavefront over the whole pupil, given by the even terms of `zernike` up to the order.
 
     That of a misaligned lens goes on with the odd terms, as `pupil_terms` has them.
@@ -203,7 +203,7 @@ def whole_map(found: np.ndarray, quality: str, kind: str = "exact rays") -> Pupi
     known = terms(order) if _is_even(found, quality) else (*terms(order), *terms(order, True))
     parts = families((n, m, part) for (n, m), part in zip(known, (found**2).tolist(), strict=True))
     shown, peak = _picture(found, quality, None)
-    return PupilMap(shown, float(np.sqrt(sum(parts.values()))), peak, kind, parts=parts)
+    return WavefrontMap(shown, float(np.sqrt(sum(parts.values()))), peak, kind, parts=parts)
 
 
 def pupil_terms(quality: str, skew: bool, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -251,7 +251,7 @@ class Basis:
         return waves
 
 
-def map_behind(setup: ParaxialSetup, found: np.ndarray, quality: str, kind: str = "exact rays") -> PupilMap:
+def map_behind(setup: ParaxialSetup, found: np.ndarray, quality: str, kind: str = "exact rays") -> WavefrontMap:
     """Return the map of a wavefront, given as `whole_map` takes it, behind the mask in the lens's stop."""
     mask = mask_seen(setup.lens, setup.source)
     if mask.clear:
@@ -263,7 +263,7 @@ def map_behind(setup: ParaxialSetup, found: np.ndarray, quality: str, kind: str 
     lowest = np.min(shown, initial=at_edges.min(initial=np.inf), where=known.open)
     parts, rest = masked_parts(known, found, per_um)
     shown[known.beyond] = np.nan
-    return PupilMap(
+    return WavefrontMap(
         shown,
         rms(waves, known.nodes.weight, known.nodes.axes),
         float(highest - lowest),
@@ -458,7 +458,7 @@ def strongest(coefficients: Coefficients) -> str:
     return max(parts, key=parts.__getitem__)
 
 
-def dominant(pupil: PupilMap, coefficients: Coefficients) -> Message:
+def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:
     """Return what blurs most: an aberration and its share of the variance without piston and tilt (handbook 3.4).
 
     What refocusing would remove need not be a defocus: where the six coefficients account for it, those that make it

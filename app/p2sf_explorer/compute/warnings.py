@@ -12,7 +12,7 @@ from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.trace import out_of_order
 from p2sf_explorer.compute.layout import RayPath
-from p2sf_explorer.compute.pupil import PupilMap, disc, strongest
+from p2sf_explorer.compute.pupil import WavefrontMap, disc, strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 
@@ -36,7 +36,7 @@ WIDE_DEG, FAST_NA = 25.0, 0.30  # tan and sin differ by 10 % at 25°; an NA of 0
 
 
 def warnings(
-    setup: ParaxialSetup, pupil: PupilMap | None, rays: tuple[RayPath, ...] = (), geometric: bool = False
+    setup: ParaxialSetup, pupil: WavefrontMap | None, rays: tuple[RayPath, ...] = (), geometric: bool = False
 ) -> tuple[Message, ...]:
     """Return the sentences that hold for this setup, most important first.
 
@@ -153,7 +153,7 @@ def _defocus(setup: ParaxialSetup) -> Message | None:
     )
 
 
-def _not_paraxial(setup: ParaxialSetup, pupil: PupilMap) -> Message | None:
+def _not_paraxial(setup: ParaxialSetup, pupil: WavefrontMap) -> Message | None:
     """Return why coefficients and pupil show different waves."""
     xi, eta, inside = disc(DISC)
     six = float(np.ptp(np.asarray(wavefront(setup.coefficients, xi, eta))[inside]))

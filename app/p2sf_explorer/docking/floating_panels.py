@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QByteArray, QObject
 from PySide6.QtWidgets import QApplication, QWidget
 
-from p2sf_explorer.docking.stage import Place
+from p2sf_explorer.docking.stage import PanelPlace
 from p2sf_explorer.docking.tabs import OwnWindow
 from p2sf_explorer.panels import Panel
 from p2sf_explorer.store.store import Store
@@ -16,7 +16,7 @@ from p2sf_explorer.store.store import Store
 class Home:
     """Where a panel stands inside the window: its widget, and what that is, "stage", "rail" or "tabs"."""
 
-    widget: Place
+    widget: PanelPlace
     place: str
 
 

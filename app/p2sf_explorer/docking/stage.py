@@ -13,7 +13,7 @@ SETTLE_MS = 250  # after the last move of a handle, before its place goes into t
 WHOLE = 10_000  # of the sizes of a splitter's parts, which are whole numbers
 
 
-class Place(QFrame):
+class PanelPlace(QFrame):
     """A place for one panel, with the note to show while the panel stands in a window of its own.
 
     ``dropped`` carries the key of a panel whose title was dropped here.
@@ -144,7 +144,7 @@ class PanelRoom(ShareSplitter):
         self.parts = ShareSplitter(Qt.Orientation.Vertical)
         self.parts.addWidget(tabs)
         self.rail = Rail(self.parts, self)
-        self.satellites: list[Place] = []
+        self.satellites: list[PanelPlace] = []
         self.stage = self._place(0)
         self.addWidget(self.stage)
         self.addWidget(self.rail)
@@ -152,8 +152,8 @@ class PanelRoom(ShareSplitter):
         self.moved.connect(lambda: self.resized.emit({"stage_share": min(0.95, max(0.1, self.shares()[0]))}))
         self.parts.moved.connect(lambda: self.resized.emit({"rail_shares": self.parts.shares()}))
 
-    def _place(self, number: int) -> Place:
-        made = Place(self)
+    def _place(self, number: int) -> PanelPlace:
+        made = PanelPlace(self)
         made.dropped.connect(lambda key: self.dropped.emit(key, number))
         return made
 

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf_explorer.charts.theme import SPACE
-from p2sf_explorer.docking.stage import Place
+from p2sf_explorer.docking.stage import PanelPlace
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels import GROUPS, PanelEntry
 from p2sf_explorer.widgets.card import paint_chevron
@@ -46,7 +46,7 @@ class Tabs(QTabWidget):
         self._last: dict[str, str] = {}
         self._out = False
         self._elsewhere: tuple[str, ...] = ()
-        self._pages = {entry.key: Place(self) for entry in entries}
+        self._pages = {entry.key: PanelPlace(self) for entry in entries}
         for entry in entries:
             self._pages[entry.key].setObjectName(entry.key)
             self._pages[entry.key].dropped.connect(self.dropped)
@@ -96,7 +96,7 @@ class Tabs(QTabWidget):
             for number, group in enumerate(self.buttons.named, 1)
         )
 
-    def pages(self) -> dict[str, Place]:
+    def pages(self) -> dict[str, PanelPlace]:
         """Return the page of every panel."""
         return self._pages
 

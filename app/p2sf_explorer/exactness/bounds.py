@@ -56,7 +56,7 @@ def r80_sensitivity(psf: Psf) -> float:
 
 
 @dataclass(frozen=True)
-class Cost:
+class PredictedCost:
     """One method at this point: its time, inf where a frame cannot wait for it, and its predicted 1 − R²."""
 
     method: str
@@ -64,12 +64,12 @@ class Cost:
     error: float
 
 
-def costs(state: State) -> tuple[Cost, ...]:
+def costs(state: State) -> tuple[PredictedCost, ...]:
     """Return what each method costs at a state's point, in the window that it shows, fast ones first."""
     return tuple(_cost(changed(state, method=method)) for method in METHODS)
 
 
-def _cost(state: State) -> Cost:
+def _cost(state: State) -> PredictedCost:
     method = state.optics.method
     try:
         setup = paraxial_setup(state)
@@ -77,15 +77,15 @@ def _cost(state: State) -> Cost:
         request = sum_request(state, setup, method, task.window("settled"))
         fitted = task.fitted if task.exact else None
         if impossible(request, fitted) or slow(request, fitted):
-            return Cost(method, inf, inf)
+            return PredictedCost(method, inf, inf)
         psfs = [by_rays(request) for _ in range(REPEATS)]
     except P2SFError:  # this method has no picture here
-        return Cost(method, inf, inf)
+        return PredictedCost(method, inf, inf)
     error = psfs[-1].predicted_error
-    return Cost(method, 1e3 * min(psf.seconds for psf in psfs), inf if error is None else float(error))
+    return PredictedCost(method, 1e3 * min(psf.seconds for psf in psfs), inf if error is None else float(error))
 
 
-def within(found: tuple[Cost, ...], milliseconds: float) -> Cost:
+def within(found: tuple[PredictedCost, ...], milliseconds: float) -> PredictedCost:
     """Return the most exact method that keeps a time, or the fastest where none does."""
     kept = [cost for cost in found if cost.milliseconds <= milliseconds]
     return min(kept, key=lambda cost: cost.error) if kept else min(found, key=lambda cost: cost.milliseconds)

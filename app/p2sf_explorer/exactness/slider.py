@@ -11,13 +11,13 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.exactness.bounds import (
     COARSEST,
     EXACTEST,
-    Cost,
+    PredictedCost,
     costs,
     mtf_error,
     r80_sensitivity,
     within,
 )
-from p2sf_explorer.exactness.trade import Curve, curves, trade_of, typical_costs
+from p2sf_explorer.exactness.trade import TradeCurve, curves, trade_of, typical_costs
 from p2sf_explorer.exactness.trade_chart import TradeChart, TradeDot
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import significant
@@ -88,8 +88,8 @@ class ExactnessPanel(QFrame):
         self.setObjectName("card")
         self._store = store
         self._live: Live | None = None
-        self._costs: tuple[Cost, ...] = ()
-        self._curves: tuple[Curve, ...] = ()  # of the complete trade, none of a lens that it does not have
+        self._costs: tuple[PredictedCost, ...] = ()
+        self._curves: tuple[TradeCurve, ...] = ()  # of the complete trade, none of a lens that it does not have
         self.chart = TradeChart("time of one PSF, ms", "error")
         self.measure = chooser(tuple(MEASURES.items()), "What the slider sets: an error, or the time of a picture")
         self.slider = Slider(self)
@@ -170,7 +170,7 @@ class ExactnessPanel(QFrame):
         """Return the time that the slider allows, a round number."""
         return rounded(QUICKEST_MS * (SLOWEST_MS / QUICKEST_MS) ** (self.slider.value() / STEPS))
 
-    def choice(self) -> Cost | None:
+    def choice(self) -> PredictedCost | None:
         """Return the method that would be taken, None while costs are unknown.
 
         Until they are measured at this point they are those of the lens in the complete trade.
@@ -201,7 +201,7 @@ class ExactnessPanel(QFrame):
         else:
             self.costing.setText(tr("{method} here: longer than a frame", method=choice.method))
 
-    def _tell_typical(self, choice: Cost | None) -> None:
+    def _tell_typical(self, choice: PredictedCost | None) -> None:
         """Show the curves of the complete trade in the slider's measure, and the figures of the method in question."""
         self.chart.setVisible(bool(self._curves))
         self.typical.setVisible(bool(self._curves))
@@ -236,7 +236,7 @@ class ExactnessPanel(QFrame):
         known = {"ms": significant(1e3 * psf.seconds, 2), "error": predicted(psf.predicted_error)}
         self.given.setText(tr("on screen: {method}, {ms} ms, {error}", method=psf.method, **known))
 
-    def _on_costs(self, state: State, found: tuple[Cost, ...]) -> None:
+    def _on_costs(self, state: State, found: tuple[PredictedCost, ...]) -> None:
         self._costs = found
         self._tell()
 
@@ -266,7 +266,7 @@ TRADED = {
 }
 
 
-def dot_of(curve: Curve, measure: str) -> TradeDot:
+def dot_of(curve: TradeCurve, measure: str) -> TradeDot:
     """Return a method of the complete trade as a dot of the chart."""
     errors, first = curve.errors(measure), curve.family not in ("fitted 46", "fitted adaptive")
     name = curve.family if first else ""

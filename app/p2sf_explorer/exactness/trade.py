@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from p2sf.studies.complete_trade import LensTrade, Row, Spread
 from p2sf.studies.trade_files import shipped_trades
-from p2sf_explorer.exactness.bounds import Cost
+from p2sf_explorer.exactness.bounds import PredictedCost
 from p2sf_explorer.state.state import State
 
 # Families of the trade, by the method that the window offers; from fast to exact.
@@ -21,7 +21,7 @@ SMALLEST = 1e-8  # below it errors of rays are those of their own rounding
 
 
 @dataclass(frozen=True)
-class Curve:
+class TradeCurve:
     """One family at its most exact: the method it belongs to, how it was made, its time alone, ms, and its errors."""
 
     family: str
@@ -41,17 +41,17 @@ def trade_of(state: State) -> LensTrade | None:
     return None if state.optics.lens_text else shipped_trades().get(state.optics.lens)
 
 
-def curves(trade: LensTrade) -> tuple[Curve, ...]:
+def curves(trade: LensTrade) -> tuple[TradeCurve, ...]:
     """Return each method's most exact row of a trade, from fast to exact."""
     found = []
     for family, method in FAMILIES.items():
         rows = [row for row in trade.rows if row.family == family]
         if rows:
             best = min(rows, key=lambda row: row.relative_l2.median)
-            found.append(Curve(family, method, best.settings, best.single_us / 1e3, best))
+            found.append(TradeCurve(family, method, best.settings, best.single_us / 1e3, best))
     return tuple(found)
 
 
-def typical_costs(found: tuple[Curve, ...]) -> tuple[Cost, ...]:
+def typical_costs(found: tuple[TradeCurve, ...]) -> tuple[PredictedCost, ...]:
     """Return what methods cost over the whole lens: the time alone, and the 1 − R² that 95 % of the PSFs keep."""
-    return tuple(Cost(curve.method, curve.milliseconds, curve.errors("r2").most) for curve in found)
+    return tuple(PredictedCost(curve.method, curve.milliseconds, curve.errors("r2").most) for curve in found)

@@ -13,7 +13,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens, Surface
 from p2sf.paraxial.bending import bent, element_of, elements, shape_factor
 from p2sf_explorer.compute.editing import edited_state, radius_through, stop_gap, with_stop_shift, with_surface
-from p2sf_explorer.compute.glass_outlines import Outline, Section, clear_rims, sag, still, vertices
+from p2sf_explorer.compute.glass_outlines import GlassOutline, Section, clear_rims, sag, still, vertices
 from p2sf_explorer.compute.layout import Layout, nearly_straight
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription, ranges
 from p2sf_explorer.state.build_errors import amount_of, with_error
@@ -108,7 +108,7 @@ def edge_sag(surface: Surface, rim: float) -> float:
     return float(sag(surface, np.array(rim)))
 
 
-def glass_runs(outlines: tuple[Outline, ...]) -> tuple[Span, ...]:
+def glass_runs(outlines: tuple[GlassOutline, ...]) -> tuple[Span, ...]:
     """Return the elements as they are drawn, cemented ones as one."""
     runs: list[Span] = []
     for first, last in (outline.surfaces for outline in outlines):

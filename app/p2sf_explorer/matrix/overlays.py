@@ -68,7 +68,7 @@ class Line:
 
 
 @dataclass(frozen=True, eq=False)
-class Overlay:
+class CurveOverlay:
     """Curves over common places ``x``; ``axes``: English names of both, ``here``: the present place, NaN for none.
 
     ``names``: of the things compared, in the order of their hues.
@@ -82,7 +82,7 @@ class Overlay:
     missing: Message | None = None
 
 
-def overlay(live: Live) -> Overlay | OverlayRequest:
+def overlay(live: Live) -> CurveOverlay | OverlayRequest:
     """Return the curves of the present setup, or the request for them where they are too slow for a frame."""
     request = overlay_request(live)
     return AT_A_TIME[request.of](request) if request.of in AT_ONCE else request
@@ -117,9 +117,9 @@ def overlay_request(live: Live) -> OverlayRequest:
 Tell = Callable[[float, object], None]
 
 
-def answer(request: OverlayRequest, stopped: Callable[[], bool], tell: Tell) -> Overlay:
+def answer(request: OverlayRequest, stopped: Callable[[], bool], tell: Tell) -> CurveOverlay:
     """Return the curves of a request, for a worker; ``tell(share, so far)`` is called while they grow."""
-    found: Overlay | None = None
+    found: CurveOverlay | None = None
     for share, found in GROWING[request.of](request):
         tell(share, found)
         if stopped():
@@ -154,14 +154,14 @@ def cut_off_per_mm(state: State) -> float:
 MTF_AXES = "frequency on the sensor, 1/mm", "contrast"
 
 
-def of_fields(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
+def of_fields(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast of each field over spatial frequency, one field after the other."""
     x = np.linspace(0, cut_off_per_mm(request.state), request.count)
     names = tuple(Message("{angle}°", angle=Number(f"{angle:.4g}")) for angle in request.fields)
     lines: list[Line] = []
     for number, angle in enumerate(request.fields, 1):
         lines += pair(contrast_at(changed(request.state, field_deg=angle), x), number, names[number - 1])
-        yield number / len(names), Overlay(x, tuple(lines), MTF_AXES, names)
+        yield number / len(names), CurveOverlay(x, tuple(lines), MTF_AXES, names)
 
 
 def pair(both: tuple[np.ndarray, np.ndarray], hue: int, name: Message) -> list[Line]:
@@ -172,7 +172,7 @@ def pair(both: tuple[np.ndarray, np.ndarray], hue: int, name: Message) -> list[L
     ]
 
 
-def of_colours(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
+def of_colours(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast of single wavelengths, then that of the whole spectrum as the eye weighs it."""
     state, spectrum = request.state, spectrum_of(request.state.display.spectrum)
     shortest = min(request.wavelengths)
@@ -181,7 +181,7 @@ def of_colours(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
     lines: list[Line] = []
     for number, nm in enumerate(request.wavelengths, 1):
         lines += pair(contrast_at(at_wavelength(state, nm), x), number, names[number - 1])
-        yield number / (2 * len(names)), Overlay(x, tuple(lines), MTF_AXES, names)
+        yield number / (2 * len(names)), CurveOverlay(x, tuple(lines), MTF_AXES, names)
     setup = paraxial_setup(state)
     waves, xyz = bands_through(setup.lens, setup.source, spectrum, request.count)
     shifts = chief_shifts_um(setup.lens, setup.source, waves)
@@ -190,19 +190,19 @@ def of_colours(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
     for wave, share, shift in zip(waves, shares, shifts, strict=True):
         one = measured_parts(measure_of(at_wavelength(state, NM_PER_UM * float(wave))))[0]
         parts.append(PupilPart(one.pupil, float(share), float(shift)))
-        yield 0.5 + 0.5 * len(parts) / (len(waves) + 1), Overlay(x, tuple(lines), MTF_AXES, names)
+        yield 0.5 + 0.5 * len(parts) / (len(waves) + 1), CurveOverlay(x, tuple(lines), MTF_AXES, names)
     whole = mtf_of(parts, "", x)
     lines += pair((whole.tangential, whole.sagittal), PLAIN, names[-1])
-    yield 1.0, Overlay(x, tuple(lines), MTF_AXES, names)
+    yield 1.0, CurveOverlay(x, tuple(lines), MTF_AXES, names)
 
 
-def over_field(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
+def over_field(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast at each frequency over the field, from the axis outwards."""
     states = [changed(request.state, field_deg=angle) for angle in request.fields]
     yield from over_places(request, states, np.array(request.fields), "field, °")
 
 
-def through_focus(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
+def through_focus(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast at each frequency over the position of the sensor."""
     states = [changed(request.state, sensor_shift_um=shift) for shift in request.shifts]
     yield from over_places(request, states, np.array(request.shifts), "sensor shift, µm")
@@ -210,7 +210,7 @@ def through_focus(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
 
 def over_places(
     request: OverlayRequest, states: list[State], x: np.ndarray, bottom: str
-) -> Iterator[tuple[float, Overlay]]:
+) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast at each frequency over places ``x``, each of which has its state."""
     frequencies = np.array(request.frequencies)
     names = tuple(Message("{f:g}/mm", f=f) for f in request.frequencies)
@@ -218,13 +218,13 @@ def over_places(
     for number, state in enumerate(states):
         found[:, :, number] = contrast_at(state, frequencies)
         lines = [line for k, name in enumerate(names) for line in pair((found[0, k], found[1, k]), k + 1, name)]
-        yield (number + 1) / len(x), Overlay(x, tuple(lines), (bottom, "contrast"), names)
+        yield (number + 1) / len(x), CurveOverlay(x, tuple(lines), (bottom, "contrast"), names)
 
 
 AIRY = Message("Airy radius")
 
 
-def lateral_colour(request: OverlayRequest) -> Overlay:
+def lateral_colour(request: OverlayRequest) -> CurveOverlay:
     """Return how much farther out each wavelength's chief ray of one object point lands than the present one's, µm.
 
     The pupil moves with colour, and with it the slope at which the chief ray of a near point enters.
@@ -238,7 +238,7 @@ def lateral_colour(request: OverlayRequest) -> Overlay:
     radius = float(airy_radius_um(setup.source.wavelength_um, setup.own.na))
     for sign in (-1, 1):
         lines.append(Line(AIRY, np.full(slopes.shape, sign * radius), PLAIN, SAGITTAL))
-    return Overlay(
+    return CurveOverlay(
         np.array(request.fields),
         tuple(lines),
         ("field, °", "lateral colour, µm"),
@@ -265,7 +265,7 @@ def wave_names(request: OverlayRequest) -> tuple[Message, ...]:
     return tuple(Message("{nm:.1f} nm", nm=nm) for nm in request.wavelengths)
 
 
-def distortion(request: OverlayRequest) -> Overlay:
+def distortion(request: OverlayRequest) -> CurveOverlay:
     """Return the distortion of each wavelength over the field in per cent: thick by exact rays, fine to third order."""
     setup, slopes = paraxial_setup(request.state), slope_from_degrees(np.array(request.fields))
     names, lines = wave_names(request), []
@@ -274,13 +274,13 @@ def distortion(request: OverlayRequest) -> Overlay:
         lines.append(Line(name, 100 * found.distortion, number))
         third = Message("{name} third order", name=name)
         lines.append(Line(third, 100 * found.third_order_distortion, number, SAGITTAL))
-    return Overlay(np.array(request.fields), tuple(lines), ("field, °", "distortion, %"), names)
+    return CurveOverlay(np.array(request.fields), tuple(lines), ("field, °", "distortion, %"), names)
 
 
 RIMS, STOP_ALONE, PINHOLE = Message("rims clip"), Message("the stop alone"), Message("cos⁴ of a pinhole")
 
 
-def illumination(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
+def illumination(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the irradiance of an even object over that on the axis, with all rims and by the stop alone."""
     setup = paraxial_setup(request.state)
     slopes = slope_from_degrees(np.array(request.fields))
@@ -302,7 +302,9 @@ def illumination(request: OverlayRequest) -> Iterator[tuple[float, Overlay]]:
     yield 1.0, light_curves(request, found, pinhole, missing)
 
 
-def light_curves(request: OverlayRequest, found: np.ndarray, pinhole: np.ndarray, missing: Message | None) -> Overlay:
+def light_curves(
+    request: OverlayRequest, found: np.ndarray, pinhole: np.ndarray, missing: Message | None
+) -> CurveOverlay:
     """Return the curves of illumination as far as they are known."""
     lines = (
         Line(STOP_ALONE, 100 * found[0], 1),
@@ -310,11 +312,11 @@ def light_curves(request: OverlayRequest, found: np.ndarray, pinhole: np.ndarray
         Line(PINHOLE, 100 * pinhole, PLAIN, SAGITTAL),
     )
     axes = "field, °", "relative illumination, %"
-    return Overlay(np.array(request.fields), lines, axes, (STOP_ALONE, RIMS, PINHOLE), missing=missing)
+    return CurveOverlay(np.array(request.fields), lines, axes, (STOP_ALONE, RIMS, PINHOLE), missing=missing)
 
 
-AT_A_TIME: dict[str, Callable[[OverlayRequest], Overlay]] = {"lateral": lateral_colour, "distortion": distortion}
-GROWING: dict[str, Callable[[OverlayRequest], Iterator[tuple[float, Overlay]]]] = {
+AT_A_TIME: dict[str, Callable[[OverlayRequest], CurveOverlay]] = {"lateral": lateral_colour, "distortion": distortion}
+GROWING: dict[str, Callable[[OverlayRequest], Iterator[tuple[float, CurveOverlay]]]] = {
     "fields": of_fields,
     "colours": of_colours,
     "field": over_field,

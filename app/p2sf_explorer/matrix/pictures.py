@@ -44,7 +44,7 @@ from p2sf_explorer.compute.preview import (
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.matrix.points import MatrixRequest, matrix_request
-from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, refused
+from p2sf_explorer.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused
 from p2sf_explorer.results.mtf import contrast_of
 from p2sf_explorer.results.rays import FAN_RAYS, landed, opd_fan_behind, ray_fan_behind, spot_of
 from p2sf_explorer.state.scales import significant
@@ -77,7 +77,7 @@ SourceLike = Source | Sources
 
 
 @dataclass(frozen=True)
-class Place:
+class MatrixPoint:
     """One point of a matrix: its state and setup, and its rays where they were traced together with others."""
 
     state: State
@@ -124,7 +124,7 @@ def previews(request: MatrixRequest, quality: str = "preview") -> Tiles:
 def settled(request: MatrixRequest, stopped: Callable[[], bool], tell: Callable[[float, Tiles], None]) -> Tiles:
     """Return the settled pictures, for a worker; ``tell(share, so far)`` is called after each."""
     places = _places(request)
-    empty = (Tile(None, settled=False),) * len(request.columns)
+    empty = (MatrixTile(None, settled=False),) * len(request.columns)
     first = previews(request) if request.what in IN_A_FRAME else (empty,) * len(request.rows)
     found = [tile for row in first for tile in row]
     widths = _widths(_psf_tasks(request)[1], request.shared) if request.what == "psf" else []
@@ -141,12 +141,12 @@ def settled(request: MatrixRequest, stopped: Callable[[], bool], tell: Callable[
     return _rows(request, found)
 
 
-def _rows(request: MatrixRequest, found: list[Tile]) -> Tiles:
+def _rows(request: MatrixRequest, found: list[MatrixTile]) -> Tiles:
     wide = len(request.columns)
     return tuple(tuple(found[start : start + wide]) for start in range(0, len(found), wide))
 
 
-Found = Place | Message
+Found = MatrixPoint | Message
 
 
 def _places(request: MatrixRequest) -> list[Found]:
@@ -156,12 +156,12 @@ def _places(request: MatrixRequest) -> list[Found]:
 
 def _place(state: State) -> Found:
     try:
-        return Place(state, paraxial_setup(state))
+        return MatrixPoint(state, paraxial_setup(state))
     except P2SFError as error:
         return error.message
 
 
-def _attempted(make: Callable[..., Tile], place: Found, *arguments: object) -> Tile:
+def _attempted(make: Callable[..., MatrixTile], place: Found, *arguments: object) -> MatrixTile:
     """Return a picture, or why there is none."""
     if isinstance(place, Message):
         return refused(place)
@@ -176,16 +176,16 @@ def _traced(places: list[Found], what: str, quality: str) -> list[Found]:
     found = list(places)
     groups: dict[tuple[Lens, bool], list[int]] = {}
     for number, place in enumerate(places):
-        if isinstance(place, Place) and not (place.six and what in ("psf", "pupil")):
+        if isinstance(place, MatrixPoint) and not (place.six and what in ("psf", "pupil")):
             groups.setdefault((place.setup.lens, place.state.optics.clip), []).append(number)
     for (lens, clip), numbers in groups.items():
-        own = [place for place in (places[number] for number in numbers) if isinstance(place, Place)]
+        own = [place for place in (places[number] for number in numbers) if isinstance(place, MatrixPoint)]
         for number, place, rays in zip(numbers, own, _together(own, lens, clip, what, quality), strict=True):
             found[number] = replace(place, traced=rays)
     return found
 
 
-def _together(places: list[Place], lens: Lens, clip: bool, what: str, quality: str) -> list[Traced | None]:
+def _together(places: list[MatrixPoint], lens: Lens, clip: bool, what: str, quality: str) -> list[Traced | None]:
     """Return the rays of points of one lens; of each by itself where one chief ray is lost, None for that."""
     columns = (np.array([getattr(place.setup.source, name) for place in places]) for name in SOURCE)
     if lens.misaligned and any(place.setup.source.azimuth_deg for place in places):  # each sees another lens
@@ -197,7 +197,7 @@ def _together(places: list[Place], lens: Lens, clip: bool, what: str, quality: s
     return [_part(rays, number, len(places)) for number in range(len(places))]
 
 
-def _alone(place: Place, what: str, quality: str) -> Traced | None:
+def _alone(place: MatrixPoint, what: str, quality: str) -> Traced | None:
     try:
         return TRACES[what](place.setup.lens, place.setup.source, place.state.optics.clip, quality)
     except GeometryError:  # whoever makes the picture says why
@@ -242,14 +242,14 @@ TRACES: dict[str, Callable[[Lens, SourceLike, bool, str], Traced]] = {
 }
 
 
-def _task(place: Place, method: str) -> Task:
+def _task(place: MatrixPoint, method: str) -> Task:
     return Task(place.state, place.setup, method, NO_REASON, ALONE, None, place.preview)
 
 
 def _psf_tasks(request: MatrixRequest) -> tuple[list[Found], list[Task | None]]:
     """Return the points and how each PSF is previewed, None where the point has no setup."""
     places = _traced(_places(request), "psf", "preview")
-    return places, [_task(place, _quick_method(place)) if isinstance(place, Place) else None for place in places]
+    return places, [_task(place, _quick_method(place)) if isinstance(place, MatrixPoint) else None for place in places]
 
 
 def _widths(tasks: list[Task | None], shared: bool) -> list[float]:
@@ -265,11 +265,11 @@ def _widths(tasks: list[Task | None], shared: bool) -> list[float]:
     return [max(found)] * len(found) if shared else found
 
 
-def _quick_method(place: Place) -> str:
+def _quick_method(place: MatrixPoint) -> str:
     return "seidel" if place.six else "fitted"
 
 
-def _moving_psf(place: Place, task: Task, width_um: float) -> Tile:
+def _moving_psf(place: MatrixPoint, task: Task, width_um: float) -> MatrixTile:
     """Return the PSF of the six coefficients, or of a fit to exact rays, or ray density, within some milliseconds."""
     window = SAMPLES[0], width_um / SAMPLES[0]
     if too_coarse(task, window):
@@ -281,7 +281,7 @@ def _moving_psf(place: Place, task: Task, width_um: float) -> Tile:
     return _light(place, psf, settled=False)
 
 
-def _resting_psf(place: Place, width_um: float, stopped: Callable[[], bool]) -> Tile:
+def _resting_psf(place: MatrixPoint, width_um: float, stopped: Callable[[], bool]) -> MatrixTile:
     """Return the PSF by the method that was chosen; the density of rays where that would need too many samples."""
     method = "seidel" if place.setup.altered else chosen(place.state, place.setup)[0]
     task = _task(place, method)
@@ -297,7 +297,7 @@ def _density(task: Task, window: Window, quality: str) -> Psf:
     return geometric_psf(task.setup.lens, task.setup.source, window, quality, task.state.optics.clip, task.six)
 
 
-def _light(place: Place, psf: Psf, settled: bool) -> Tile:
+def _light(place: MatrixPoint, psf: Psf, settled: bool) -> MatrixTile:
     """Return a PSF as a picture of light per µm², with the radius of 80 %, and its Strehl ratio where that tells."""
     c = place.setup.coefficients
     width = psf.values.shape[-1] * psf.pixel_um
@@ -305,7 +305,7 @@ def _light(place: Place, psf: Psf, settled: bool) -> Tile:
     share = 1.0 if psf.energy is None else float(psf.energy)
     content = Light(psf.values * (share / psf.pixel_um**2), width, airy)
     sharpness = strehl_figure(psf, float(c.na))
-    return Tile(content, radius_figure(psf, settled), psf.method, psf.predicted_error, settled, strehl=sharpness)
+    return MatrixTile(content, radius_figure(psf, settled), psf.method, psf.predicted_error, settled, strehl=sharpness)
 
 
 def strehl_figure(psf: Psf, na: float) -> Message | None:
@@ -338,15 +338,15 @@ def quick_radius_um(psf: Psf) -> float:
     return psf.pixel_um * float(np.interp(HELD * held[-1], held, np.arange(1, held.size + 1)))
 
 
-def _waves(place: Place, quality: str) -> Tile:
+def _waves(place: MatrixPoint, quality: str) -> MatrixTile:
     """Return the wavefront that makes the PSF, with its RMS."""
     rays = place.preview if quality == "preview" else None
     found = preview_pupil(rays) if rays else pupil_of(place.setup, not place.six, quality, place.state.optics.clip)
     figure = Message("RMS {rms} λ", rms=Number(significant(found.rms, 3)))
-    return Tile(Waves(found.waves, found.outline), figure, place.method, None, quality == "settled")
+    return MatrixTile(WavefrontTile(found.waves, found.outline), figure, place.method, None, quality == "settled")
 
 
-def _spot(place: Place, quality: str) -> Tile:
+def _spot(place: MatrixPoint, quality: str) -> MatrixTile:
     """Return where exact rays land, with the RMS radius."""
     setup, rays = place.setup, place.traced
     if isinstance(rays, Spot) and (quality == "preview" or np.isfinite(rays.x_um).all()):
@@ -355,20 +355,22 @@ def _spot(place: Place, quality: str) -> Tile:
         found = _many_rays(setup.lens, setup.source, place.state.optics.clip, quality)
     airy = float(airy_radius_um(setup.source.wavelength_um, setup.own.na))
     figure = Message("RMS {value} µm", value=Number(significant(float(found.rms_um), 3)))
-    return Tile(Points(landed(found), airy), figure, BY_RAYS, None, quality == "settled" or not place.state.optics.clip)
+    return MatrixTile(
+        SpotTile(landed(found), airy), figure, BY_RAYS, None, quality == "settled" or not place.state.optics.clip
+    )
 
 
-def _ray_errors(place: Place, quality: str) -> Tile:
+def _ray_errors(place: MatrixPoint, quality: str) -> MatrixTile:
     """Return the transverse ray errors, with the largest."""
     return _fan(place, _landing, "max {value} µm")
 
 
-def _path_errors(place: Place, quality: str) -> Tile:
+def _path_errors(place: MatrixPoint, quality: str) -> MatrixTile:
     """Return the optical path differences, with the largest."""
     return _fan(place, _paths, "max {value} λ")
 
 
-def _fan(place: Place, trace: Callable[[Lens, SourceLike, bool, str], Fan], words: str) -> Tile:
+def _fan(place: MatrixPoint, trace: Callable[[Lens, SourceLike, bool, str], Fan], words: str) -> MatrixTile:
     setup, rays = place.setup, place.traced
     found = rays if isinstance(rays, Fan) else trace(setup.lens, setup.source, place.state.optics.clip, "")
     lines = {"sagittal": np.asarray(found.sagittal), "tangential": np.asarray(found.tangential)}
@@ -376,10 +378,10 @@ def _fan(place: Place, trace: Callable[[Lens, SourceLike, bool, str], Fan], word
     if not np.isfinite(both).any():
         raise GeometryError("no ray of the fan reaches the sensor; choose a smaller field")
     figure = Message(words, value=Number(significant(float(np.nanmax(both)), 3)))
-    return Tile(Lines(found.pupil, lines), figure, BY_RAYS)
+    return MatrixTile(Lines(found.pupil, lines), figure, BY_RAYS)
 
 
-def _contrast(place: Place, pixel_um: float) -> Tile:
+def _contrast(place: MatrixPoint, pixel_um: float) -> MatrixTile:
     """Return the contrast of both patterns up to the cut-off; figure: the smaller at the sensor's Nyquist frequency."""
     setup, clip = place.setup, place.state.optics.clip and not place.six
     six = tuple(float(value) for value in vars(setup.coefficients).values()) if place.six else ()
@@ -388,10 +390,10 @@ def _contrast(place: Place, pixel_um: float) -> Tile:
     nyquist = UM_PER_MM / (2 * pixel_um)
     both = (np.interp(nyquist, found.frequency_per_mm, line, right=0.0) for line in (found.sagittal, found.tangential))
     figure = Message("{contrast} (at {f:.3g}/mm)", contrast=Number(significant(float(min(both)), 2)), f=nyquist)
-    return Tile(Lines(found.frequency_per_mm, lines), figure, place.method)
+    return MatrixTile(Lines(found.frequency_per_mm, lines), figure, place.method)
 
 
-MAKERS: dict[str, Callable[[Place, str], Tile]] = {
+MAKERS: dict[str, Callable[[MatrixPoint, str], MatrixTile]] = {
     "pupil": _waves,
     "spot": _spot,
     "ray_fan": _ray_errors,

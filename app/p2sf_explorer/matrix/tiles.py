@@ -24,7 +24,7 @@ class Light:
 
 
 @dataclass(frozen=True, eq=False)
-class Waves:
+class WavefrontTile:
     """W in waves over the square about the pupil, (y, x), and the ``outline`` of what passes light, (2, points)."""
 
     values: np.ndarray
@@ -32,7 +32,7 @@ class Waves:
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class SpotTile:
     """Where rays land, (rays, 2) in µm from the chief ray, and the Airy radius."""
 
     points: np.ndarray
@@ -48,7 +48,7 @@ class Lines:
 
 
 @dataclass(frozen=True, eq=False)
-class Tile:
+class MatrixTile:
     """One picture: what it shows, or ``why`` there is nothing to show.
 
     ``figure`` is its main figure, ``strehl`` the ratio of a sharp PSF (`figures` chooses for all pictures alike);
@@ -56,7 +56,7 @@ class Tile:
     predicted.
     """
 
-    content: Light | Waves | Points | Lines | None
+    content: Light | WavefrontTile | SpotTile | Lines | None
     figure: Message = NO_WORDS
     method: str = ""
     error: float | None = None
@@ -65,24 +65,24 @@ class Tile:
     strehl: Message | None = None
 
 
-Tiles = tuple[tuple[Tile, ...], ...]
+Tiles = tuple[tuple[MatrixTile, ...], ...]
 """Rows of columns."""
 
 
-def refused(why: Message) -> Tile:
+def refused(why: Message) -> MatrixTile:
     """Return the place of a picture that cannot be."""
-    return Tile(None, why=why)
+    return MatrixTile(None, why=why)
 
 
-def scale_of(what: str, tile: Tile) -> float:
+def scale_of(what: str, tile: MatrixTile) -> float:
     """Return the extent that shows a picture whole: width µm, half width µm, largest error, or highest frequency."""
     content = tile.content
     if isinstance(content, Light):
         return content.width_um
-    if isinstance(content, Points):
+    if isinstance(content, SpotTile):
         apart = np.abs(content.points)
         return nice(1.1 * max(float(apart.max(initial=0.0)), 2 * content.airy_um, LEAST[what]), STEPS)
-    if isinstance(content, Waves):
+    if isinstance(content, WavefrontTile):
         return nice(max(_peak((content.values,)), LEAST[what]), SIGNED_STEPS)
     if isinstance(content, Lines):
         if what == "mtf":

@@ -18,7 +18,7 @@ from p2sf.measure.frame_fit import FrameFit
 from p2sf.measure.frame_terms import F_NUMBER, lens_optics
 from p2sf.measure.measurement import Measurement, measured
 from p2sf.measure.point_fit import PointFit
-from p2sf.measure.point_model import Optics
+from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.points import window_of
 from p2sf.measure.reading import read_frame
 from p2sf.messages import Message, Number
@@ -140,7 +140,7 @@ def encoding_words(found: Measurement) -> str:
     return ENCODED.get(found.frames[0].encoding, "")
 
 
-def scale(asked: MeasurementRequest, pixel_um: float) -> Optics:
+def scale(asked: MeasurementRequest, pixel_um: float) -> PictureOptics:
     """Return the scale of the lens's PSFs on the picture's pixels."""
     return lens_optics(asked.lens, asked.depth_mm, asked.wavelength_um, pixel_um)
 

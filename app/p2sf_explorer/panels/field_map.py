@@ -10,7 +10,7 @@ from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.field_map import SHAPE, FieldMap, answer, fields_deg, place_of, places
+from p2sf_explorer.results.field_map import SHAPE, FieldMapRequest, answer, fields_deg, place_of, places
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.tiles import TilesChart, tile
@@ -162,12 +162,12 @@ class FieldMapPanel:
         self.chart = MapChart(store)
         self.widget.set_body(self.chart)
         self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
-        self.found: tuple[FieldMap, np.ndarray] | None = None
+        self.found: tuple[FieldMapRequest, np.ndarray] | None = None
         self._scale = "sqrt"
 
     def show(self, live: Live) -> None:
         """Mark the present field, and ask for the map when more than the field has changed."""
-        asked: FieldMap = live.views["field_map"]
+        asked: FieldMapRequest = live.views["field_map"]
         self.chart.show_field(float(degrees_from_slope(live.setup.source.field_slope)))
         self.chart.show_place(place_of(live.state, asked.corner_slope))
         changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
@@ -175,7 +175,7 @@ class FieldMapPanel:
         if changed:
             self.asking.again()
 
-    def _paint(self, asked: FieldMap, found: np.ndarray) -> str:
+    def _paint(self, asked: FieldMapRequest, found: np.ndarray) -> str:
         self.found = asked, found
         where = places()
         spacing = float(where[0, 1, 0] - where[0, 0, 0])

@@ -21,7 +21,7 @@ from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.glass_outlines import Section
-from p2sf_explorer.compute.layout import Drawing, Fan, Layout, Outline, sensor_half
+from p2sf_explorer.compute.layout import Drawing, GlassOutline, Layout, LayoutRays, sensor_half
 from p2sf_explorer.compute.quantities import visible_colour
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.layout_view.drag import CURSORS, LayoutDrag
@@ -79,7 +79,7 @@ class LayoutPanel:
     def __init__(self, store: Store):
         self._store, self._lens = store, store.state.optics.lens
         self._theme: Tokens = LIGHT
-        self._named: tuple[tuple[Fan, ...], str] = ((), "")  # as the legend has it
+        self._named: tuple[tuple[LayoutRays, ...], str] = ((), "")  # as the legend has it
         self.widget = Card("Layout", TIP)
         self.widget.setMinimumHeight(92)
         self.chart = LayoutChart(store)
@@ -255,7 +255,7 @@ class LayoutChart(Chart):
         painter.setPen(QPen(QColor(self.theme.text), wide, c=Qt.PenCapStyle.FlatCap))
         painter.drawLine(QPointF(x, top), QPointF(foot, bottom))
 
-    def _polygon(self, outline: Outline) -> QPolygonF:
+    def _polygon(self, outline: GlassOutline) -> QPolygonF:
         return polygon(*self.to_pixels(outline.z, outline.y))
 
     def paint_over(self, painter: QPainter) -> None:
@@ -384,7 +384,7 @@ def _joined(parts: list[np.ndarray]) -> np.ndarray:
     return np.concatenate([np.append(part, np.nan) for part in parts]) if parts else np.array([])
 
 
-def fan_colours(groups: tuple[Fan, ...], field_deg: float) -> tuple[str, ...]:
+def fan_colours(groups: tuple[LayoutRays, ...], field_deg: float) -> tuple[str, ...]:
     """Return the colour of each fan: that of its light, or that of the ring for the field of the source."""
     if len({fan.wavelength_nm for fan in groups}) > 1:
         return tuple(visible_colour(fan.wavelength_nm) for fan in groups)
@@ -395,7 +395,7 @@ def fan_colours(groups: tuple[Fan, ...], field_deg: float) -> tuple[str, ...]:
 SAME_DEG = 1e-6
 
 
-def fan_name(groups: tuple[Fan, ...], number: int) -> str:
+def fan_name(groups: tuple[LayoutRays, ...], number: int) -> str:
     """Return what tells a fan from the others: its wavelength, or its field."""
     fan = groups[number]
     if len({other.wavelength_nm for other in groups}) > 1:

@@ -33,7 +33,7 @@ from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
-from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel, SurfaceView
+from p2sf_explorer.widgets.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel, SurfaceTableView
 
 TIP = "Lens: one row per surface, in the order in which light meets them. Type into a cell; Ctrl+Z undoes it."
 FOCUS = (("off", "sensor stays"), ("paraxial", "keep paraxial focus"), ("rms", "keep best focus"))
@@ -64,7 +64,7 @@ class LensTablePanel:
     def __init__(self, store: Store):
         self._store = store
         self.widget = Card("Lens", TIP)
-        self.model, self.view = SurfaceModel(self.widget), SurfaceView(self.widget)
+        self.model, self.view = SurfaceModel(self.widget), SurfaceTableView(self.widget)
         self.view.setModel(self.model)
         self.view.setItemDelegateForColumn(KEYS.index("medium"), GlassDelegate(self.view))
         self.bending, self.stop_place = bending_slider(store), stop_slider(store)

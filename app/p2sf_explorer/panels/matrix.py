@@ -14,7 +14,19 @@ from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.matrix.pictures import Matrix, settled
 from p2sf_explorer.matrix.points import LISTS, SIDE, MatrixRequest, nearest, point_entries, told
-from p2sf_explorer.matrix.tiles import Light, Lines, Points, Tile, Tiles, Waves, figures, methods, peaks, scales, worst
+from p2sf_explorer.matrix.tiles import (
+    Light,
+    Lines,
+    MatrixTile,
+    SpotTile,
+    Tiles,
+    WavefrontTile,
+    figures,
+    methods,
+    peaks,
+    scales,
+    worst,
+)
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.state.terms import PLACES, PUPIL_AXES
 from p2sf_explorer.store.store import Store
@@ -185,17 +197,17 @@ class MatrixPanel:
         named = {name for content in lines for name in content.curves}
         return legend({name: token for name, (token, _) in LOOKS.items() if name in named}, self._theme)
 
-    def _fill(self, chart: TileChart, what: str, tile: Tile, size: float, peak: float) -> None:
+    def _fill(self, chart: TileChart, what: str, tile: MatrixTile, size: float, peak: float) -> None:
         content = tile.content
         aim = self._live.setup.lens.aim if self._live else "stop"
         if isinstance(chart, LightChart) and isinstance(content, Light):
             chart.show_airy(content.airy_um)
             scale = self._live.state.display.psf_scale if self._live else "sqrt"
             chart.show_light(content.values, content.width_um, size, peak, scale)
-        elif isinstance(chart, WavesChart) and isinstance(content, Waves):
+        elif isinstance(chart, WavesChart) and isinstance(content, WavefrontTile):
             chart.name_axes(*PUPIL_AXES[aim])
             chart.show_waves(content.values, content.outline, size)
-        elif isinstance(chart, PointsChart) and isinstance(content, Points):
+        elif isinstance(chart, PointsChart) and isinstance(content, SpotTile):
             chart.show_points(content.points, content.airy_um, size)
         elif isinstance(chart, LinesChart) and isinstance(content, Lines):
             ranges = ((0.0, size), (0.0, 1.04)) if what == "mtf" else ((-1.02, 1.02), (-size, size))
@@ -253,7 +265,7 @@ def listed(texts: tuple[str, ...]) -> tuple[str, ...]:
     return *(re.sub(r"[^\d.−]+$", "", text) for text in texts[:-1]), texts[-1]
 
 
-def made_words(tile: Tile) -> str:
+def made_words(tile: MatrixTile) -> str:
     """Return how a picture was made: the method, a preview as such, and the least R² that is predicted."""
     if not tile.method:
         return ""

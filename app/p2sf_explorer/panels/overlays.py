@@ -11,7 +11,7 @@ from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.matrix.overlays import PLAIN, USUAL_PER_MM, Overlay, OverlayRequest, answer
+from p2sf_explorer.matrix.overlays import PLAIN, USUAL_PER_MM, CurveOverlay, OverlayRequest, answer
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser
@@ -62,7 +62,7 @@ class OverlaysPanel:
         self.widget.side.addStretch(1)
         self.widget.set_body(self.chart)
         self.asking = Asking(self.widget, answer, self._take, self._say)
-        self.found: tuple[OverlayRequest | None, Overlay] | None = None
+        self.found: tuple[OverlayRequest | None, CurveOverlay] | None = None
         self._live: Live | None = None
         self._theme = LIGHT
         self.widget.bind(store, curves_of=self.of)
@@ -75,11 +75,11 @@ class OverlaysPanel:
     def show(self, live: Live) -> None:
         """Paint curves that fit a frame, or have them made in the background."""
         self._live = live
-        view: Overlay | OverlayRequest = live.views["curves"]
+        view: CurveOverlay | OverlayRequest = live.views["curves"]
         self.frequencies.setVisible(live.state.curves.of in ("field", "focus"))
         *texts, last = (f"{f:g}" for f in live.state.curves.frequencies_per_mm or USUAL_PER_MM)
         self.frequencies.show_values((*texts, f"{last}/mm"))
-        if isinstance(view, Overlay):
+        if isinstance(view, CurveOverlay):
             self.asking.forget()
             self._paint(None, view)
             self._say("")
@@ -88,7 +88,7 @@ class OverlaysPanel:
         if self.found and isinstance(self.found[0], OverlayRequest) and self.found[0].of == view.of:
             self._mark()
 
-    def _take(self, request: OverlayRequest, found: Overlay) -> str:
+    def _take(self, request: OverlayRequest, found: CurveOverlay) -> str:
         if self._live and request.of == self._live.state.curves.of:
             self._paint(request, found)
         return " "
@@ -96,7 +96,7 @@ class OverlaysPanel:
     def _say(self, text: str) -> None:
         self.note.set_text(text.strip(" ·"))
 
-    def _paint(self, request: OverlayRequest | None, found: Overlay) -> None:
+    def _paint(self, request: OverlayRequest | None, found: CurveOverlay) -> None:
         self.found = request, found
         for curve, line in zip(self.curves, found.lines, strict=False):
             curve.token, curve.width, curve.name = HUES[line.hue % len(HUES)], line.width, line.name.text(WINDOW)
@@ -123,7 +123,7 @@ class OverlaysPanel:
         else:
             self.chart.show_notes((), ((place, "muted"),))
 
-    def _show_legend(self, found: Overlay) -> None:
+    def _show_legend(self, found: CurveOverlay) -> None:
         hues = {line.hue for line in found.lines}
         names = list(found.names)
         order = [*range(1, len(names) + 1)] if PLAIN not in hues else [*range(1, len(names)), PLAIN]
@@ -152,7 +152,7 @@ class OverlaysPanel:
         self.asking.worker.stop()
 
 
-def up_range(found: Overlay) -> tuple[float, float]:
+def up_range(found: CurveOverlay) -> tuple[float, float]:
     """Return the range of the left axis: contrast and light from 0, else around all curves."""
     if found.axes[1] in FROM_ZERO:
         return 0.0, FROM_ZERO[found.axes[1]]

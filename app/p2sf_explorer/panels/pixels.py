@@ -7,7 +7,7 @@ from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.pixels import Beside
+from p2sf_explorer.results.pixels import SampledLight
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import ChartsCard
@@ -36,7 +36,7 @@ class BesidePanel:
 
     def show(self, live: Live) -> None:
         """Paint the three maps."""
-        view: Beside = live.views["beside"]
+        view: SampledLight = live.views["beside"]
         self.pixel.show_value(view.pixel_um)
         half = view.real.shape[0] * view.sample_um / 2
         shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels, view.pixel_um))
@@ -51,7 +51,7 @@ class BesidePanel:
             heat.set_extent(half, steady=live.quality == "preview")
         self._say(live, view)
 
-    def _say(self, live: Live, view: Beside) -> None:
+    def _say(self, live: Live, view: SampledLight) -> None:
         middle = 100 * float(view.pixels[view.pixels.shape[0] // 2, view.pixels.shape[1] // 2])
         shares = "the middle pixel holds {real} % of the light, of a perfect lens's {perfect} %"
         real, perfect = f"{middle:.3g}", f"{100 * view.perfect_share:.3g}"

@@ -11,7 +11,7 @@ from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.deferred_sums import SumRequest
-from p2sf_explorer.compute.finer import Source, answer, finer
+from p2sf_explorer.compute.finer import SettledSum, answer, finer
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
 from p2sf_explorer.i18n.messages import said
@@ -83,7 +83,7 @@ class PsfPanel:
     def _wanted(self, live: Live) -> SumRequest | None:
         """Return the sum with a sample for each pixel of the panel; None where the picture is as fine as that."""
         found = None if live.difference else live.views.get("psf")
-        return finer(found, self.map.device_pixels) if isinstance(found, Source) else None
+        return finer(found, self.map.device_pixels) if isinstance(found, SettledSum) else None
 
     def _take(self, request: SumRequest, psf: Psf) -> str:
         """Show a finer picture if it is that of the present answer."""

@@ -14,7 +14,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.pupil import CIRCLE
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.camera import Camera
+from p2sf_explorer.state.camera import SceneCamera
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.terms import PUPIL_AXES
 from p2sf_explorer.store.store import Store
@@ -124,7 +124,7 @@ class PupilPanel:
             bands = contours(pupil.waves, step) if mode == "contour" else None
             self.map.show_map(pupil.waves, DISC, waves_scale(pupil.waves), bands)
             if mode == "surface":
-                camera = Camera(live.state.camera.surface_turn_deg, live.state.camera.surface_tilt_deg)
+                camera = SceneCamera(live.state.camera.surface_turn_deg, live.state.camera.surface_tilt_deg)
                 self.surface.show_waves(pupil.waves, self.map.bar.top, live.quality, camera)
         rms, peak_to_valley = (significant(value, 3) for value in (pupil.rms, pupil.peak_to_valley))
         numbers = tr("RMS {r} λ · PV {p} λ", r=rms, p=peak_to_valley)

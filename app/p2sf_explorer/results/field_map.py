@@ -27,7 +27,7 @@ MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 
 
 @dataclass(frozen=True)
-class FieldMap:
+class FieldMapRequest:
     """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window.
 
     ``skew``: the lens is not symmetric, and every picture has a field (x, y) of its own. ``nodes``: of "coma" and
@@ -42,7 +42,7 @@ class FieldMap:
     nodes: tuple[tuple[str, float, float], ...] = ()
 
 
-def field_map(live: Live) -> FieldMap:
+def field_map(live: Live) -> FieldMapRequest:
     """Return what to show, which does not depend on the present field and so is not repeated while that is dragged."""
     corner, pixels = widest_slope(live), PIXELS[live.quality]
     s = live.setup
@@ -55,7 +55,7 @@ def field_map(live: Live) -> FieldMap:
     )
     skew = s.lens.misaligned and not six
     nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if skew else ()
-    return FieldMap(state, corner, (pixels, wide / pixels), six, skew, nodes)
+    return FieldMapRequest(state, corner, (pixels, wide / pixels), six, skew, nodes)
 
 
 @lru_cache(maxsize=8)
@@ -93,7 +93,7 @@ def places() -> np.ndarray:
     return np.stack(np.meshgrid(x, y), axis=-1)
 
 
-def answer(request: FieldMap, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
+def answer(request: FieldMapRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
     """Return the pictures, (rows, columns, pixels, pixels), each over its own peak; ``tell`` is called after each.
 
     Fields of one distance from the axis share a PSF, mirrored or turned about the axis (the lens is round).
@@ -115,7 +115,7 @@ def answer(request: FieldMap, stopped: Callable[[], bool], tell: Callable[[float
 
 
 def _everywhere(
-    request: FieldMap,
+    request: FieldMapRequest,
     where: np.ndarray,
     found: np.ndarray,
     stopped: Callable[[], bool],
@@ -131,7 +131,7 @@ def _everywhere(
     return found
 
 
-def _skew_picture(request: FieldMap, place: np.ndarray) -> np.ndarray:
+def _skew_picture(request: FieldMapRequest, place: np.ndarray) -> np.ndarray:
     """Return the PSF at a place of the map over its peak, in the sensor's axes, NaN where there is none."""
     field_x, field_y = fields_deg(place, request.corner_slope)
     state = changed(request.state, field_deg=field_y, field_x_deg=field_x)
@@ -145,7 +145,7 @@ def _skew_picture(request: FieldMap, place: np.ndarray) -> np.ndarray:
     return turned(values, float(angle)) / (float(values.max()) or 1.0)
 
 
-def picture_at(request: FieldMap, ring: float) -> np.ndarray:
+def picture_at(request: FieldMapRequest, ring: float) -> np.ndarray:
     """Return the PSF at a share of the corner's field over its peak, +y away from the axis, NaN where there is none."""
     state = changed(request.state, field_deg=float(degrees_from_slope(ring * request.corner_slope)))
     try:

@@ -20,7 +20,7 @@ FRINGE_UM = 0.54607 / 2  # between fringes of a test plate in the green line of 
 COLUMNS = ("radius", "thickness", "medium", "semi_diameter", "conic", "aspheric")
 
 
-class Beside(NamedTuple):
+class CellNote(NamedTuple):
     """What a surface has that no number of a column shows, such as a shape: in a word or two, and with numbers."""
 
     short: tuple[Message, ...]
@@ -38,7 +38,7 @@ class Rows:
     texts: tuple[tuple[str, ...], ...]
     stop: int
     edited: bool
-    beside: tuple[dict[str, Beside], ...] = ()
+    beside: tuple[dict[str, CellNote], ...] = ()
 
 
 def rows(live: Live) -> Rows:
@@ -46,7 +46,7 @@ def rows(live: Live) -> Rows:
     lens = prescription(live.state)
     texts = tuple(tuple(written(surface, column) for column in COLUMNS) for surface in lens.surfaces)
     beside = tuple(
-        {column: Beside(short_words_of(surface, column), words_of(surface, column)) for column in COLUMNS}
+        {column: CellNote(short_words_of(surface, column), words_of(surface, column)) for column in COLUMNS}
         for surface in lens.surfaces
     )
     return Rows(lens, texts, lens.stop_surface or 0, live.state.optics.lens_text is not None, beside)

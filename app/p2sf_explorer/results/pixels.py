@@ -12,7 +12,7 @@ MOST_PIXELS = 201  # across the window; finer pixels are not told apart on scree
 
 
 @dataclass(frozen=True)
-class Beside:
+class SampledLight:
     """Light per sample over (count, µm per sample): ``real`` and ``perfect``, each over its own peak.
 
     ``pixels``: share of the light of each pixel of ``pixel_um``, the middle one centred on the chief ray; of all light
@@ -27,14 +27,14 @@ class Beside:
     perfect_share: float
 
 
-def beside(live: Live) -> Beside:
+def beside(live: Live) -> SampledLight:
     """Return the three pictures of the present point."""
     psf, pixel = live.psf, live.state.display.pixel_um
     perfect = airy_picture(psf, live.airy_radius_um)
     shares = 1.0 if psf.energy is None else min(1.0, float(psf.energy))
     real = psf.values / (float(psf.values.max()) or 1.0)
     middle = airy_share(live.airy_radius_um, pixel)
-    return Beside(real, perfect, psf.pixel_um, shares * over_pixels(psf, pixel), pixel, middle)
+    return SampledLight(real, perfect, psf.pixel_um, shares * over_pixels(psf, pixel), pixel, middle)
 
 
 def airy_picture(psf: Psf, radius_um: float) -> np.ndarray:

@@ -25,7 +25,7 @@ from p2sf_explorer.charts.plots import as_indices, lookup
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.scene3d.meshes import Mesh
 from p2sf_explorer.scene3d.scene import Scene3D
-from p2sf_explorer.state.camera import Camera
+from p2sf_explorer.state.camera import SceneCamera
 
 VIEW_DEG = 16.0  # the camera's angle of view: small, so that lengths along the axis can be compared
 MARGIN = 1.02  # of the distance at which the scene just fits
@@ -68,7 +68,7 @@ class Renderer:
         self._put("psf", scene.psf_surface.mesh, painted(scene.psf_surface.values, (0.0, 1.0), maps[1]))
         self._box = _box(scene)
 
-    def look(self, camera: Camera) -> None:
+    def look(self, camera: SceneCamera) -> None:
         """Place the camera so that the whole scene fits, then move it nearer."""
         middle, back = self._box.mean(axis=0), direction(camera)
         width, height = self._plotter.window_size
@@ -182,7 +182,7 @@ def _fill(array: Any, values: np.ndarray) -> None:
     array.Modified()
 
 
-def direction(camera: Camera) -> np.ndarray:
+def direction(camera: SceneCamera) -> np.ndarray:
     """Return the unit vector from the scene to the camera; at turn 0 light goes from left to right."""
     turn, tilt = radians(camera.turn), radians(camera.tilt)
     return np.array([-cos(tilt) * cos(turn), sin(tilt), -cos(tilt) * sin(turn)])

@@ -21,7 +21,7 @@ from p2sf.files.writing import write_beside
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.camera import CAMERA, Camera, nearer, turned
+from p2sf_explorer.state.camera import CAMERA, SceneCamera, nearer, turned
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.copying import png_of
 
@@ -56,7 +56,7 @@ class SceneView(QWidget):
         self._renderer: Renderer | None = None
         self._live: Live | None = None
         self._message, self.message_is_final = "", False
-        self._held: tuple[QPointF, Camera] | None = None
+        self._held: tuple[QPointF, SceneCamera] | None = None
         self._camera = CAMERA
         self.image: QImage | None = None
 
@@ -75,7 +75,7 @@ class SceneView(QWidget):
         """Show an answer's scene."""
         self._live = live
         if not self._held:
-            self._camera = Camera(live.state.camera.turn_deg, live.state.camera.tilt_deg, live.state.camera.zoom)
+            self._camera = SceneCamera(live.state.camera.turn_deg, live.state.camera.tilt_deg, live.state.camera.zoom)
         self._forget()
 
     def restyle(self, theme: Tokens) -> None:
@@ -135,7 +135,7 @@ class SceneView(QWidget):
         self._forget()
         super().resizeEvent(event)
 
-    def _keep(self, camera: Camera) -> None:
+    def _keep(self, camera: SceneCamera) -> None:
         """Make this the camera of the state."""
         self._held = None
         self._store.update(camera_turn_deg=camera.turn, camera_tilt_deg=camera.tilt, camera_zoom=camera.near)

@@ -33,7 +33,7 @@ RAY_COLOURS = {"marginal": LIGHT.marginal, "chief": LIGHT.chief, "rim": LIGHT.ch
 
 
 @dataclass(frozen=True)
-class Page:
+class ReportPage:
     """The painter of a page in mm."""
 
     painter: QPainter
@@ -84,7 +84,7 @@ def pdf(answer: Live, over_field: list[Live]) -> bytes:
     writer.setTitle(answer.setup.lens.name)
     painter = QPainter(writer)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    paint(Page(painter, DPI / 25.4), answer, over_field)
+    paint(ReportPage(painter, DPI / 25.4), answer, over_field)
     painter.end()
     return bytes(made.data().data())
 
@@ -95,7 +95,7 @@ def fields(state: State) -> tuple[State, ...]:
     return tuple(changed(state, field_deg=share * widest) for share in SHARES)
 
 
-def paint(page: Page, answer: Live, over_field: list[Live]) -> None:
+def paint(page: ReportPage, answer: Live, over_field: list[Live]) -> None:
     """Paint the page, top to bottom."""
     state, wide = answer.state, PAGE.width() - 2 * MARGIN
     page.write(QRectF(MARGIN, 12, wide, 9), shown_title(state), 16, bold=True)
@@ -127,12 +127,12 @@ def _coefficients(answer: Live) -> list[tuple[str, str]]:
 SCALE_WORDS = {"linear": "linear brightness", "sqrt": "square root of brightness", "log": "logarithm of brightness"}
 
 
-def heading(page: Page, y: float, words: str) -> None:
+def heading(page: ReportPage, y: float, words: str) -> None:
     """Write a heading over a fine line."""
     page.write(QRectF(MARGIN, y, PAGE.width() - 2 * MARGIN, 6), words, 11, bold=True)
 
 
-def pairs(page: Page, rows_: list[tuple[str, str]], room: QRectF) -> None:
+def pairs(page: ReportPage, rows_: list[tuple[str, str]], room: QRectF) -> None:
     """Write names and values, a line each."""
     step = room.height() / len(rows_)
     for number, (name, value) in enumerate(rows_):
@@ -143,7 +143,7 @@ def pairs(page: Page, rows_: list[tuple[str, str]], room: QRectF) -> None:
         page.lines((line.left(), line.right()), (line.bottom(), line.bottom()))
 
 
-def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
+def draw_layout(page: ReportPage, shown: Layout, room: QRectF) -> None:
     """Draw glass, stop, sensor and the five rays to scale, and a length to compare with."""
     drawn, half = shown.drawing, max(shown.drawing.half_height, shown.sensor_half) * 1.08
     left = drawn.left - 0.35 * (drawn.right - drawn.left)
@@ -180,7 +180,7 @@ def draw_layout(page: Page, shown: Layout, room: QRectF) -> None:
     page.painter.restore()
 
 
-def draw_psf(page: Page, answer: Live, room: QRectF) -> None:
+def draw_psf(page: ReportPage, answer: Live, room: QRectF) -> None:
     """Draw a PSF with its field, its width and its Strehl ratio under it."""
     psf, peak = answer.psf, float(answer.psf.values.max()) or 1.0
     table = lookup(tokens("light", answer.state.display.colours).brightness)

@@ -34,7 +34,7 @@ SCRUBBED = ("radius", "thickness", "semi_diameter", "conic")
 UP_DOWN: dict[int, int] = {Qt.Key.Key_Up: 1, Qt.Key.Key_Down: -1}
 
 
-class SurfaceView(QTableView):
+class SurfaceTableView(QTableView):
     """The table, whose numbers follow a horizontal drag, and with Alt ↑ and ↓; ``cell`` is what moves.
 
     ``left``: the pointer is on no row any more.

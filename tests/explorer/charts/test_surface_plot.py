@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 
 from p2sf_explorer.charts.surface_plot import HALF, HEIGHT, SurfaceView, Viewpoint, surface_picture
 from p2sf_explorer.compute.pupil import disc
-from p2sf_explorer.state.camera import Camera
+from p2sf_explorer.state.camera import SceneCamera
 from p2sf_explorer.widgets.copying import data_of
 
 COUNT = 200
@@ -97,7 +97,7 @@ def test_the_value_under_the_pointer_is_that_of_the_surface_and_the_wheel_enlarg
     place = np.linspace(-1, 1, 101)
     xi, eta = np.meshgrid(place, place)
     waves = np.where(xi**2 + eta**2 <= 1, 2 * xi + eta, np.nan)
-    view.show_waves(waves, 5.0, "settled", Camera(0.0, 90.0))
+    view.show_waves(waves, 5.0, "settled", SceneCamera(0.0, 90.0))
     for zoom in (1.0, 2.0):
         view.zoom = zoom
         for across, up in ((0.3, 0.1), (-0.4, 0.2), (0.05, -0.35)):

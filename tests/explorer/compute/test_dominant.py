@@ -9,7 +9,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.pupil import PupilMap, disc, dominant, pupil_of, strongest, variance_parts
+from p2sf_explorer.compute.pupil import WavefrontMap, disc, dominant, pupil_of, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
 from p2sf_explorer.state.state import State, changed, new_state
@@ -170,6 +170,6 @@ def test_lost_rays_leave_a_pupil_of_the_others():
 @pytest.mark.parametrize(("rms", "limited"), [(0.0396, True), (0.0713, True), (0.0715, False)])
 def test_below_marechals_limit_nothing_is_to_be_removed(rms, limited):
     """λ/14, a Strehl ratio of 0.8; 0.0396 λ has 0.94."""
-    waves = PupilMap(np.zeros((2, 2)), rms, 0.2, "exact rays", parts={"defocus": rms**2})
+    waves = WavefrontMap(np.zeros((2, 2)), rms, 0.2, "exact rays", parts={"defocus": rms**2})
     values = dominant(waves, live(new_state(method="seidel")).setup.coefficients).values
     assert ("rms" in values) == limited and ("percent" in values) != limited

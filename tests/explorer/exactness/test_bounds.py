@@ -10,7 +10,7 @@ from p2sf.psf.prediction import TRACED_ERROR
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.exactness.bounds import (
     METHODS,
-    Cost,
+    PredictedCost,
     costs,
     mtf_error,
     r2_for_mtf,
@@ -72,7 +72,12 @@ def test_every_method_has_its_cost_here_and_the_exact_ones_promise_more():
     assert fitted.error < seidel.error and traced.error == TRACED_ERROR
 
 
-FOUND = (Cost("seidel", 1.0, 0.2), Cost("fitted", 5.0, 1e-3), Cost("traced", 40.0, 5e-5), Cost("huygens", inf, inf))
+FOUND = (
+    PredictedCost("seidel", 1.0, 0.2),
+    PredictedCost("fitted", 5.0, 1e-3),
+    PredictedCost("traced", 40.0, 5e-5),
+    PredictedCost("huygens", inf, inf),
+)
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,12 @@ import pytest
 from PySide6.QtCore import Qt
 
 from p2sf.studies.trade_files import shipped_trades
-from p2sf_explorer.exactness.bounds import Cost
+from p2sf_explorer.exactness.bounds import PredictedCost
 from p2sf_explorer.exactness.slider import MEASURES, rounded
 from p2sf_explorer.widgets.slider import STEPS
 from tests.support.events import choose
 
-FOUND = (Cost("seidel", 1.0, 0.2), Cost("fitted", 5.0, 1e-3), Cost("traced", 40.0, 5e-5))
+FOUND = (PredictedCost("seidel", 1.0, 0.2), PredictedCost("fitted", 5.0, 1e-3), PredictedCost("traced", 40.0, 5e-5))
 
 
 @pytest.fixture

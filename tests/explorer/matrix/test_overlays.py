@@ -11,14 +11,14 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, load, paraxial_setup
-from p2sf_explorer.matrix.overlays import PLAIN, Overlay, answer, overlay, overlay_request
+from p2sf_explorer.matrix.overlays import PLAIN, CurveOverlay, answer, overlay, overlay_request
 from p2sf_explorer.state.state import changed, new_state
 
 TRIPLET = changed(default_state("cooke_triplet"), f_number=8.0)
 NM = 550.0
 
 
-def worked(state, **entries) -> Overlay:
+def worked(state, **entries) -> CurveOverlay:
     request = overlay_request(live(changed(state, **entries), "preview"))
     told = []
     found = answer(request, lambda: False, lambda share, so_far: told.append(share))
@@ -26,7 +26,7 @@ def worked(state, **entries) -> Overlay:
     return found
 
 
-def lines(found: Overlay) -> dict[str, np.ndarray]:
+def lines(found: CurveOverlay) -> dict[str, np.ndarray]:
     return {str(line.name): line.values for line in found.lines}
 
 

@@ -12,14 +12,14 @@ from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d.scene import scene
-from p2sf_explorer.state.camera import CAMERA, Camera
+from p2sf_explorer.state.camera import CAMERA, SceneCamera
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.store.store import Store
 from tests.long.crash import small_disk
 
 FIRST = new_state(method="seidel", theme="light")
 MAPS = "CET-D1A", "inferno"
-SIDE = Camera(turn=0.0, tilt=0.0)
+SIDE = SceneCamera(turn=0.0, tilt=0.0)
 
 
 def scene_at(**changes):
