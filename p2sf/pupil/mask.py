@@ -213,8 +213,9 @@ class PupilMask:
         """Return the obscuration where it stands, of radius 0 in the middle where there is none."""
         if not self.obscured:
             return Disc(0.0, 0.0, 0.0)
-        xi, eta = _turned_points(self.obscuration_x, self.obscuration_y, self.turn_deg)
-        return Disc(float(xi), float(eta), self.obscuration)
+        place = np.array(self.obscuration_x), np.array(self.obscuration_y)
+        xi, eta = map(float, _turned_points(*place, self.turn_deg))
+        return Disc(xi, eta, self.obscuration)
 
     @property
     def spider(self) -> bool:
@@ -483,7 +484,7 @@ def _terms(count: int) -> tuple:
     return zernike_terms("noll", count) if count else ()
 
 
-def _turned_points(xi: FloatOrArray, eta: FloatOrArray, angle_deg: float) -> tuple[FloatOrArray, FloatOrArray]:
+def _turned_points(xi: np.ndarray, eta: np.ndarray, angle_deg: float) -> tuple[np.ndarray, np.ndarray]:
     """Return points turned from +η towards +ξ."""
     if not angle_deg:
         return xi, eta

@@ -30,12 +30,13 @@ from tests.support.waves import relative_l2
 
 LENS = find_lens("double_gauss_28")
 RING = PupilMask(obscuration=0.36)
+BESIDE = PupilMask(obscuration=0.36, obscuration_x=0.3, obscuration_y=-0.4)
 IRIS = PupilMask(blades=5, blade_angle_deg=10, roundness=0.3)
 SPIDER = PupilMask(obscuration=0.3, vanes=3, vane_width=0.02, vane_angle_deg=20)
 CUBIC = PupilMask(cubic_um=1.0)
 FILTER = PupilMask(amplitude_map=PupilMap.sampled(lambda xi, eta: 0.6 + 0.4 * np.sin(2 * xi + eta)))
 PLATE = PupilMask(zernike_um=(0, 0, 0, 0, 0.1, 0, 0.1), apodisation=0.7)
-MASKS = (RING, IRIS, SPIDER, CUBIC, FILTER, PLATE)
+MASKS = (RING, BESIDE, IRIS, SPIDER, CUBIC, FILTER, PLATE)
 PIXEL, HALF, ANGLE = 3.0, 7, 0.7
 GREEN = Channel("green", (546.0,), (1.0,))
 
@@ -72,7 +73,7 @@ def test_a_kernel_is_the_light_of_the_reference_on_the_pixels(mask):
     assert mask.round or relative_l2(cut(pixel_kernel(pupil, -ANGLE, window), HALF), wanted) > 0.1
 
 
-@pytest.mark.parametrize("mask", [RING, SPIDER, CUBIC], ids=repr)
+@pytest.mark.parametrize("mask", [RING, BESIDE, SPIDER, CUBIC], ids=repr)
 def test_by_six_coefficients_too(mask):
     lens, source = with_mask(LENS, mask), Source(field_deg=0.0)
     pupil = pupil_map(lens, source, "seidel")
@@ -82,7 +83,7 @@ def test_by_six_coefficients_too(mask):
     assert relative_l2(one, other) < 0.25  # the method's own error: of higher orders, 0.2 of the clear disc
 
 
-@pytest.mark.parametrize("mask", in_tiers([RING, SPIDER], [SPIDER]), ids=repr)
+@pytest.mark.parametrize("mask", in_tiers([RING, BESIDE, SPIDER], [SPIDER]), ids=repr)
 def test_rays_are_where_waves_are(mask):
     """Pixels of 32 µm average what diffraction adds: 1 to 2 % of L2 for the clear disc, 4 % beside the thin vanes."""
     lens, source = with_mask(find_lens("fast_gauss_f14"), mask), Source(field_deg=12)
@@ -103,7 +104,9 @@ def seen(lens, height_mm: float, clip: bool = False) -> SensorMap:
 
 
 @pytest.mark.parametrize(
-    "mask", [RING, IRIS, SPIDER, FILTER, PupilMask(amplitude_map=PupilMap.sampled(lambda xi, eta: eta > 0))], ids=repr
+    "mask",
+    [RING, BESIDE, IRIS, SPIDER, FILTER, PupilMask(amplitude_map=PupilMap.sampled(lambda xi, eta: eta > 0))],
+    ids=repr,
 )
 def test_illumination_is_the_light_that_passes_the_mask(mask):
     """By a sum over a grid of the stop, in the sensor's axes: the rays of a field turned, the mask as it stands."""
@@ -145,7 +148,7 @@ def light_without(view: SensorMap, across: np.ndarray, along: np.ndarray) -> flo
     return found[0] / found[1]
 
 
-@pytest.mark.parametrize("mask", in_tiers([RING, SPIDER], [SPIDER]), ids=repr)
+@pytest.mark.parametrize("mask", in_tiers([RING, BESIDE, SPIDER], [SPIDER]), ids=repr)
 def test_the_image_of_a_point_is_its_psf_within_what_the_plan_predicts(mask):
     """On a sensor beside the axis and one about it, whose quarters are mirror images only where the mask's are."""
     lens = with_mask(LENS, mask)
