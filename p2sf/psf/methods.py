@@ -11,7 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import GeometryError, RequestError, SamplingError
+from p2sf.errors import GeometryError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
@@ -220,7 +220,6 @@ def render(
 ) -> Psf:
     """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ ``tolerance`` ("auto").
 
-    Where the chosen one needs more pupil samples than it can sum, "auto" falls back on the reference.
     Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. A fit takes as many numbers
     as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; where a rim does clip, methods
     that describe the whole pupil refuse it. Raises P2SFError: for an unknown method, no image, no rays, for
@@ -235,12 +234,7 @@ def render(
     if method != AUTO:
         return _psf_by(method_of(method), asked)
     choice = choose(lens, source, tolerance, clip)
-    try:
-        return _psf_by(method_of(choice.method), replace(asked, numbers=choice.numbers))
-    except SamplingError:  # more nodes than it can sum
-        if choice.method == REFERENCE:
-            raise
-        return _by_huygens(asked)
+    return _psf_by(method_of(choice.method), replace(asked, numbers=choice.numbers))
 
 
 def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
