@@ -115,7 +115,8 @@ def _parabola_tops(intensity: np.ndarray, indices: np.ndarray) -> np.ndarray:
     values, (rows, columns) = intensity.ravel(), intensity.shape
     row, column = np.divmod(indices, columns)
     inside = (0 < row) & (row < rows - 1) & (0 < column) & (column < columns - 1)
-    tops, inner, flat = values[indices].astype(float), indices[inside], -ROUNDING * float(intensity.max())
+    tops: np.ndarray = values[indices].astype(float)
+    inner, flat = indices[inside], -ROUNDING * float(intensity.max())
     middle = tops[inside]
     for step in (columns, 1):
         before, after = values[inner - step].astype(float), values[inner + step].astype(float)

@@ -286,8 +286,8 @@ class PupilMask:
 
     def path_um(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return the optical path that the mask adds at pupil points of any shape, µm."""
-        xi, eta = _turned_points(xi, eta, -self.turn_deg)
-        path = np.zeros(np.shape(xi))
+        xi, eta = map(np.asarray, _turned_points(xi, eta, -self.turn_deg))
+        path = np.zeros(xi.shape)
         if any(self.zernike_um):
             values = zernike_values(_terms(len(self.zernike_um)), np.ravel(xi), np.ravel(eta))
             path += np.reshape(np.asarray(self.zernike_um) @ values, path.shape)
@@ -302,7 +302,7 @@ class PupilMask:
             square = np.square(xi / self.apodisation) + np.square(eta / self.apodisation)
             amplitude *= np.exp(-(square ** (self.apodisation_power // 2)))
         if self.amplitude_map is not None:
-            amplitude *= self.amplitude_map.at(*_turned_points(xi, eta, -self.turn_deg))
+            amplitude *= self.amplitude_map.at(*map(np.asarray, _turned_points(xi, eta, -self.turn_deg)))
         return amplitude
 
     def opens(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:

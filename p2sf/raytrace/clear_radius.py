@@ -35,15 +35,20 @@ def clear_radius(
         passed, room, label = standing(at, some)
         ended[some] = np.where(passed, ended[some], label)
         same = passed == new[2]
-        before = tuple(np.where(same, a, b) for a, b in zip(new, other, strict=True))
-        other = tuple(np.where(same, b, a) for a, b in zip(new, other, strict=True))
+        before, other = _swapped(new, other, ~same), _swapped(new, other, same)
         new = at, room, passed
         radius[some] = np.where(passed, at, other[0])
         left, steps = np.abs(other[0] - at) > enough, steps + 1
         some, enough = some[left], enough[left]
-        new, other, before = (tuple(column[left] for column in point) for point in (new, other, before))
+        new, other, before = ((at[left], room[left], passed[left]) for at, room, passed in (new, other, before))
         part = _part(new, other, before, enough) if steps < PATIENCE else np.full(some.size, 0.5)
     return radius, ended
+
+
+def _swapped(one: Standing, other: Standing, where: np.ndarray) -> Standing:
+    """Return the first of two points, the second ``where``."""
+    at, room, passed = (np.where(where, b, a) for a, b in zip(one, other, strict=True))
+    return at, room, passed
 
 
 def _part(new: Standing, other: Standing, before: Standing, enough: np.ndarray) -> np.ndarray:
