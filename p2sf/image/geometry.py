@@ -52,7 +52,7 @@ def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
     from scipy.interpolate import RectBivariateSpline
 
     count, degree = count + MORE * seen.clip, 1 if seen.clip else min(3, count - 1)
-    if seen.lens.mask.round and not seen.lens.misaligned:
+    if seen.about_axis:
         return _about_axis(seen, sensor, count)
     rows, columns = (np.linspace(0, max(n - 1, 1), count) for n in (sensor.rows, sensor.columns))
     light = relative_illumination(seen, *np.meshgrid(sensor.x_mm(columns), sensor.y_mm(rows)))

@@ -92,7 +92,7 @@ def preview_lattice(planned: Plan, watch: Progress | None = None) -> Lattice:
 def _edge_half(planned: Plan) -> tuple[Light, int]:
     """Return the light of the farthest point in the middle channel, and the half width of its kernel."""
     kernels = planned.kernels(len(planned.colours) // 2, planned.vergences[0])
-    x, y = field_area(planned.lens, planned.scene.sensor).far
+    x, y = field_area(kernels.seen.fields, planned.scene.sensor).far
     return kernels.lights(x, y)[0][0], int(kernels.points([x], [y]).half_widths()[0])
 
 

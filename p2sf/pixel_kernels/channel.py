@@ -13,7 +13,7 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, s
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
-from p2sf.pixel_kernels.sensor_points import SensorMap, oriented
+from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.raytrace.seen_mask import mask_seen
 
 RAYS = "rays"  # the method of a recipe whose kernels are densities of rays
@@ -159,12 +159,12 @@ class Kernels:
 
     def points(self, x_mm: ArrayLike, y_mm: ArrayLike) -> Points:
         """Return the light of points that land at (x, y up), (points,) each."""
-        x, y, angles = oriented(self.seen.lens, *np.asarray((x_mm, y_mm), float))
+        x, y, angles = self.seen.fields.oriented(*np.asarray((x_mm, y_mm), float))
         lights = self._lights_at(x, y).turned(np.tile(angles, len(self.colour.wavelengths_um)))
         return Points(self.pixel_um, self.colour.weights, self.recipe, lights)
 
     def _lights_at(self, x_mm: np.ndarray, y_mm: np.ndarray) -> PointLights:
-        """Return the light of `oriented` points in every wavelength."""
+        """Return the light of points as `Fields.oriented` has them, in every wavelength."""
         waves, table, depth = self.colour.wavelengths_um, self.table, float(vergence(self.seen.depth_mm))
         if table is not None and self.recipe.method != RAYS and table.covers(x_mm, y_mm, depth):
             places = np.tile(x_mm, len(waves)), np.tile(y_mm, len(waves))

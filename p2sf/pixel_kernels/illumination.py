@@ -40,7 +40,7 @@ def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
 def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
     """Return nodes over what mask, rims and lost rays leave open."""
     if lens.mask.clear and not (clip and holes_of(lens)):
-        if clip and not lens.misaligned:
+        if clip:
             return clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
         return clear_nodes(lens, source, NODES, clip)
     nodes = pupil_nodes(lens, source, NODES, clip)

@@ -29,9 +29,9 @@ CELLS = 7  # along the side of a pixel, in which rays are counted where part of 
 
 @dataclass(frozen=True, eq=False)
 class RaySpread:
-    """Where the light of half a pencil lands, µm from the chief ray, and its shares; the other half mirrors it.
+    """Where the light of a pencil lands, in the axes of its field, µm from the chief ray, and its shares.
 
-    That of a whole pencil where it is not ``mirrored``: of a lens without symmetry. In the axes of the field.
+    Half a pencil has two ``sides``, 1 as it is and −1 mirrored; that of a lens without symmetry is whole.
 
     ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but STRAY.
     ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.
@@ -45,12 +45,7 @@ class RaySpread:
     radius: float
     lost: float
     mask: PupilMask = CLEAR
-    mirrored: bool = True
-
-    @property
-    def sides(self) -> tuple[int, ...]:
-        """Return 1 for the light as it is, and −1 for its mirror image."""
-        return (1, -1) if self.mirrored else (1,)
+    sides: tuple[int, ...] = (1, -1)
 
     def passing(self, side: int, angle: float) -> np.ndarray:
         """Return the shares of light that pass the mask, (radii, directions): the half pencil's, its mirror's for −1.
@@ -59,7 +54,7 @@ class RaySpread:
         """
         if self.mask.clear:
             return self.light
-        xi, eta = turned_back(*_grid(not self.mirrored).at_middles(side), np.asarray(angle))
+        xi, eta = turned_back(*_grid(len(self.sides)).at_middles(side), np.asarray(angle))
         return np.where(self.mask.opens(xi, eta), self.light * self.mask.amplitude(xi, eta) ** 2, 0.0)
 
 
@@ -68,7 +63,8 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
 
     A cell's light is that of the sum of waves, amplitude²·|∂(ξ, η)/∂f|·dξ dη (Parseval).
     """
-    grid, mask = _grid(lens.misaligned), mask_seen(lens, source)
+    sides, mask = ((1,) if lens.misaligned else (1, -1)), mask_seen(lens, source)
+    grid = _grid(len(sides))
     if mask.phased:
         check_unmasked(lens, Message("a blur by rays"))
     rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
@@ -80,10 +76,10 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     x, y, amplitude = (grid.between_passed(column, passed, share) for column in columns)
     area = grid.at_cells(grid.frequency_area(rays.fx.reshape(passed.shape), rays.fy.reshape(passed.shape)))
     light = share * amplitude**2 * grid.rho**2 / area
-    light /= light.sum() * (1 if lens.misaligned else 2)
+    light /= light.sum() * len(sides)
     lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
     spread = float(np.nanmax(np.hypot(rays.fx, rays.fy)))
-    made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part, not lens.misaligned)
+    made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part, sides)
     reach = _reach(np.hypot(x, y), made.passing(1, 0.0), STRAY if mask.round else 0.0)
     return replace(made, reach_um=reach, mask=mask)
 
@@ -133,8 +129,8 @@ class _Grid:
 
 
 @lru_cache(maxsize=2)
-def _grid(whole: bool) -> _Grid:
-    ends, counts = ((1.0, 2 * pi), (TRACED[0], 2 * TRACED[1])) if whole else ((1.0, pi), TRACED)
+def _grid(sides: int) -> _Grid:
+    ends, counts = (1.0, 2 * pi / sides), (TRACED[0], 2 * TRACED[1] // sides)
     radii, directions = (np.linspace(0, end, count + 1) for end, count in zip(ends, counts, strict=True))
     middles = [(np.arange(FINER * n) + 0.5) * (end / (FINER * n)) for end, n in zip(ends, counts, strict=True)]
     return _Grid(

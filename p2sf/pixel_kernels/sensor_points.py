@@ -19,22 +19,22 @@ from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import on_sensor, pencil
 
 CHIEF_RAYS = 257
+OBLIQUE = 0.6, 0.8  # sine and cosine of a direction that no pixel grid shares
 SMALLEST_MM = 1e-12  # keeps the slope over the height finite on the axis
 REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: the fields out to which chief rays are tried
 
 
-def oriented(lens: Lens, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the places whose pupils, turned, are those of (x, y), and by which angles, radians from +y towards +x.
-
-    All points at one distance from the axis of symmetry share the pupil of the one above it.
-    """
-    x, y = np.asarray(x_mm, float), np.asarray(y_mm, float)
-    nothing = np.zeros(np.broadcast(x, y).shape)
-    return (x, y, nothing) if lens.misaligned else (nothing, np.hypot(x, y), np.arctan2(x, y))
-
-
 class Fields(Protocol):
-    """Which fields land where on the sensor."""
+    """Which fields land where on the sensor, and which places share a pupil."""
+
+    def oriented(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the places whose pupils, turned, are those of (x, y), and by which angles, radians from +y towards +x.
+
+        About an axis of symmetry all points of a circle share the pupil of the one above the axis.
+        """
+
+    def oblique(self, x_mm: float, y_mm: float) -> tuple[float, float]:
+        """Return a place with the same pupil, if it can be in a direction that no pixel grid shares."""
 
     def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
         """Return the field slopes along x and y whose chief rays land at these places, mm."""
@@ -52,6 +52,16 @@ class RadialFields:
 
     along: np.ndarray
     heights_mm: np.ndarray
+
+    def oriented(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the places above the axis, and the angles of (x, y), radians from +y towards +x."""
+        height = np.hypot(x_mm, y_mm)
+        return np.zeros_like(height), height, np.arctan2(x_mm, y_mm)
+
+    def oblique(self, x_mm: float, y_mm: float) -> tuple[float, float]:
+        """Return a place at the same distance from the axis."""
+        (across, along), height = OBLIQUE, float(np.hypot(x_mm, y_mm))
+        return across * height, along * height
 
     def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
         """Return the field slopes along x and y whose chief rays land at these places, mm."""
@@ -87,6 +97,15 @@ class PlaneFields:
     up: np.ndarray
     middle_mm: tuple[float, float]
     half_mm: tuple[float, float]
+
+    def oriented(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the places themselves, and no angles."""
+        x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
+        return x, y, np.zeros(x.shape)
+
+    def oblique(self, x_mm: float, y_mm: float) -> tuple[float, float]:
+        """Return the place itself."""
+        return x_mm, y_mm
 
     def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
         """Return the field slopes along x and y whose chief rays land at these places, mm."""
@@ -126,6 +145,11 @@ class SensorMap:
     fields: Fields
     scale_mm: float
     clip: bool = False
+
+    @property
+    def about_axis(self) -> bool:
+        """Return whether all points of a circle about the axis have the same pupil, and the same light."""
+        return self.lens.mask.round and not self.lens.misaligned
 
     def ideal_mm(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
         """Return the undistorted (paraxial) places of what lands at these, mm."""

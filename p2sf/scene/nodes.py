@@ -54,7 +54,7 @@ def field_places(study: Study) -> list[FieldPlace]:
     axis, _, corner = study.sharpest(blue)
     far, between, near = CELLS - 1, CELLS // 2, 0
     places = [(blue, corner, far), (blue, corner, between), (blue, corner, near), (blue, axis, near), (blue, axis, far)]
-    if study.lens.misaligned or not study.lens.mask.round:
+    if not study.sensor_map(corner).about_axis:
         places += [(blue, corner, CELLS + quarter) for quarter in range(4)]
     places += [(blue, v, far) for v in study.scan] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
     return list(dict.fromkeys(places))

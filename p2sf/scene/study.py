@@ -18,11 +18,10 @@ from p2sf.pixel_kernels.channel import PointLights
 from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, seidel_pupils
 from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
-from p2sf.pixel_kernels.sensor_points import oriented
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import Level, PencilForms, levels_for
-from p2sf.scene.field_area import Point, field_area
+from p2sf.scene.field_area import FieldArea, Point, field_area
 from p2sf.scene.field_points import scene_maps
 from p2sf.scene.scene import Scene
 
@@ -76,7 +75,6 @@ class Study:
     def __post_init__(self) -> None:
         middle = self.scene.channels[len(self.scene.channels) // 2]
         self.reference_um = float(middle.wavelengths_um @ middle.shares)
-        self.area = field_area(self.lens, self.scene.sensor)
         every = [float(wave) for channel in self.scene.channels for wave in channel.wavelengths_um]
         self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
@@ -85,6 +83,11 @@ class Study:
         self._fits: dict[PupilAt, tuple[FrequencyPupil, np.ndarray]] = {}
         self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
         self._kernels: dict[tuple[Place, Sampling], np.ndarray] = {}
+
+    @cached_property
+    def area(self) -> FieldArea:
+        """Return where on the sensor the pupils differ."""
+        return field_area(self.sensor_map(self.ends[0]).fields, self.scene.sensor)
 
     def sensor_map(self, vergence: float) -> SensorMap:
         """Return where the points of one depth land, out to the sensor's corner."""
@@ -127,7 +130,7 @@ class Study:
 
     def place(self, point: Point, vergence: float, wave_um: float) -> Place:
         """Return a place of the sensor with the pupil of a point of the area."""
-        return Place(*self.area.on_sensor(point), vergence, wave_um)
+        return Place(*self.area.fields.oblique(*point), vergence, wave_um)
 
     def pupil_at(self, place: Place) -> PupilAt:
         """Return the pupil of a place."""
@@ -203,7 +206,7 @@ class Study:
         self, places: Sequence[Place], pupils: PupilStack, shifts_mm: np.ndarray, sampling: Sampling = COARSE_SAMPLING
     ) -> list[np.ndarray]:
         """Return the kernels of pupils, one for each place."""
-        _, _, angles = oriented(self.lens, *np.array(places)[:, :2].T)
+        _, _, angles = self.area.fields.oriented(*np.array(places)[:, :2].T)
         lights = PointLights(pupils, 0 * angles, shifts_mm * UM_PER_MM).turned(angles)
         pixel = self.scene.sensor.pixel_um
         return lights.kernels(lights.half_widths(pixel), pixel, Recipe("fitted", None, *sampling))

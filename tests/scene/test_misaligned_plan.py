@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from p2sf.image import Forming, form_image, preview
+from p2sf.lens.freeform import XYPolynomial
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
+from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.sensor_points import landing_mm
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -100,6 +102,23 @@ def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
     assert distance(two[:, ::-1], one) <= planned.predicted_error + other.predicted_error
     unlike = form_image(planned, np.ascontiguousarray(values[:, ::-1]))
     assert distance(two, unlike) > 2 * planned.predicted_error
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [XYPolynomial((0.0, 1e-4, 0.0, 2e-3, 0.0, 1e-3), normalisation_mm=10.0), RadialPolynomial((0.0, 0.0, 1e-5))],
+    ids=repr,
+)
+def test_surfaces_without_six_coefficients_are_planned_by_fits(straight, shape):
+    """A freeform, which has no symmetry either, and an odd asphere, which has."""
+    odd = replace(straight, surfaces=(replace(straight.surfaces[0], shape=shape), *straight.surfaces[1:]))
+    scene = replace(SINGLE, f_number=11.0, tolerance=0.1)
+    made = plan(odd, scene)
+    assert made.meets and made.recipe.method == "fitted"
+    assert made.sensor_map(0.0).about_axis == shape.radial
+    assert verify(made, 1).kept
+    wrong = replace(made, table=plan(straight, scene).table) if shape.radial else None
+    assert wrong is None or not verify(wrong, 1).kept
 
 
 @pytest.mark.slow

@@ -498,7 +498,7 @@ def fine_enough(answer: ImageResult) -> bool:
 def no_plan(plan: Plan) -> Message | None:
     """Return why a plan is not worth its time, `TOO_WIDE` or `TOO_LARGE`; None where it is."""
     kernels = plan.kernels(len(plan.colours) // 2, plan.vergences[0])
-    middle, _ = kernels.lights(*field_area(plan.lens, plan.scene.sensor).near)[0]
+    middle, _ = kernels.lights(*field_area(kernels.seen.fields, plan.scene.sensor).near)[0]
     if 2 * middle.radius * kernels.pixel_um > MOST_SAMPLES:
         return TOO_LARGE
     return TOO_WIDE if by_rays(plan) else None
