@@ -5,11 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
 
 from p2sf.cli import main
 from p2sf.glass.media import catalogue_glass
 from p2sf.glass.pages import Page, page
 from p2sf_explorer.compute import setup
+
+# A busy machine takes longer than hypothesis allows, and every run tries the same examples.
+settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("steady")
 
 
 class FailureNames:
