@@ -93,6 +93,7 @@ def test_without_builds_it_is_said_what_to_wait_for(window, qtbot, monkeypatch):
     window.store.update(tab="profiles")
 
 
+@pytest.mark.slow
 def test_a_telescope_that_is_refocused_by_metres_is_filmed(panel, window, qtbot):
     """Hubble is f/24, its primary f/2.3: 0.5 % of a radius of 11 m move the focus by (24/2.3)² times 28 mm."""
     window.store.update(lens="hubble", tolerances_grade="commercial")

@@ -18,6 +18,7 @@ from p2sf_explorer.state.state import State, new_state
 from tests.explorer.state.test_state import STATES
 
 
+@pytest.mark.slow
 @given(STATES)
 @settings(max_examples=50)
 def test_a_link_and_back_is_identical_and_url_safe(state):
