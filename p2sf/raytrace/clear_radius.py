@@ -6,30 +6,38 @@ from typing import TypeAlias
 import numpy as np
 
 BISECTIONS = 36  # the outer radius to 2e-11
+GUESSED = 5e-4  # of the outer radius
 PATIENCE = 18  # steps after which what is left is halved, as rounding may make steps by interpolation short
 
 Standing: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def clear_radius(
-    standing: Callable[[np.ndarray, np.ndarray], Standing], outer: np.ndarray
+    standing: Callable[[np.ndarray, np.ndarray], Standing], outer: np.ndarray, guess: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return up to which radius along each direction rays pass, at most ``outer``, and what ends them there, 0 if none.
 
     ``standing(radius, some)`` returns of rays at radii along ``some`` directions, by indices, whether they pass, by how
     much, which is 0 at the edge and continuous about it, NaN where that is unknown, and what ends those that do not.
-    Rays at 0 pass. Each radius is one at which a ray passed, 2e-11 of the outer one from one at which it did not.
+    Rays at 0 pass. ``guess``: of the radii, saves steps where it is good to GUESSED; half the outer ones if not given.
+    Each radius is one at which a ray passed, 2e-11 of the outer one from one at which it did not.
     """
-    passed, room, label = standing(outer, np.arange(outer.size))
-    radius, ended = outer.copy(), np.where(passed, 0, label)
-    some = np.flatnonzero(~passed)
-    if not some.size:
-        return radius, ended
+    near = np.zeros_like(outer) if guess is None else np.maximum(guess - GUESSED * outer, 0)
+    far = outer if guess is None else np.minimum(guess + GUESSED * outer, outer)
+    tried = np.stack([outer, far, near, np.zeros_like(outer)])
+    every = np.tile(np.arange(outer.size), len(tried))
+    passed, room, label = (column.reshape(tried.shape) for column in standing(tried.ravel(), every))
+    radius, ended = outer.copy(), np.where(passed[0], 0, label[0])
+    some = np.flatnonzero(~passed[0])
+    bracketed = ~passed[1] & passed[2]
+    ended[some] = np.where(bracketed, label[1], label[0])[some]
     enough = outer[some] * 2.0**-BISECTIONS
     # The latest point, the other end of its bracket, and the point before these.
-    new = outer[some], room[some], passed[some]
-    other = np.zeros(some.size), standing(np.zeros(some.size), some)[1], ~new[2]
-    part, steps = np.full(some.size, 0.5), 0
+    first, second = np.where(bracketed, 1, 0)[some], np.where(bracketed, 2, 3)[some]
+    new, other, before = (
+        (tried[row, some], room[row, some], passed[row, some]) for row in (first, second, np.zeros_like(first))
+    )
+    part, steps = _part(new, other, before, enough), 0
     while some.size:
         at = new[0] + part * (other[0] - new[0])
         passed, room, label = standing(at, some)

@@ -44,12 +44,22 @@ GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same 
 class ClearPart:
     """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included.
 
-    Without symmetry the centre lies ``aside`` at ξ, and the angles go once around.
+    Without symmetry the centre lies ``aside`` at ξ, and the angles go once around. ``edge``: angles and radii of some
+    points of the edge, its corners among them, where these are known.
     """
 
     centre: float
     corners: tuple[float, ...]
     aside: float = 0.0
+    edge: tuple[np.ndarray, np.ndarray] | None = None
+
+    def guess(self, theta: np.ndarray) -> np.ndarray | None:
+        """Return the radius of the edge at angles, between those of ``edge``; None without that."""
+        if self.edge is None:
+            return None
+        angles, radii = self.edge
+        radius: np.ndarray = np.interp(theta, angles, radii, period=2 * np.pi if angles[-1] > np.pi else None)
+        return radius
 
 
 def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
@@ -83,7 +93,7 @@ def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool 
     """
     shape = outline(lens, source, clip)
     theta, share = _directions(shape.corners, counts[1])
-    radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta)
+    radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta, shape.guess(theta))
     square, weight = gauss_legendre(counts[0])
     rho = np.sqrt((1 + square) / 2)[:, None] * radius
     # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half and divided by the whole pupil's area π.
@@ -119,29 +129,39 @@ def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
             "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
             parameter="clip",
         )
-    corners = _corners(lens, source, clip, (aside, middle))
+    corners, edge = _corners(lens, source, clip, (aside, middle))
     if not lens.misaligned:
-        return ClearPart(middle, (0.0, *corners, np.pi))
+        return ClearPart(middle, (0.0, *corners, np.pi), 0.0, edge)
     around = (*corners, corners[0] + 2 * np.pi) if corners else (0.0, 2 * np.pi)
-    return ClearPart(middle, around, aside)
+    return ClearPart(middle, around, aside, edge)
 
 
-def _corners(lens: Lens, source: Source, clip: bool, centre: tuple[float, float]) -> list[float]:
-    """Return the directions where one rim takes over from another, over half a turn, without symmetry over a whole."""
+def _corners(
+    lens: Lens, source: Source, clip: bool, centre: tuple[float, float]
+) -> tuple[list[float], tuple[np.ndarray, np.ndarray] | None]:
+    """Return the directions where one rim takes over from another, over half a turn, without symmetry over a whole.
+
+    Also the directions and radii of points of the edge, as `ClearPart` has them.
+    """
     count = 2 * SCAN + 1 if lens.misaligned else SCAN
     theta = (np.arange(count) + 0.5) * (np.pi / SCAN)
     radius, rim = _edge(lens, source, clip, centre, theta)
-    corners = _crossings(lens, source, centre, theta, radius, rim) if clip and np.ptp(rim) else None
-    if corners is None:
-        corners = changes_of(lambda angle: _edge(lens, source, clip, centre, angle)[1], theta, rim, CORNER_STEPS)
-    directions: list[float] = corners.tolist()
-    return directions
+    if not np.ptp(rim):
+        return [], (theta, radius)
+    crossings = _crossings(lens, source, centre, theta, radius, rim) if clip else None
+    if crossings is None:
+        return changes_of(
+            lambda angle: _edge(lens, source, clip, centre, angle)[1], theta, rim, CORNER_STEPS
+        ).tolist(), None
+    angles, radii = (np.append(a, b) for a, b in zip((theta, radius), crossings, strict=True))
+    order = np.argsort(angles)
+    return crossings[0].tolist(), (angles[order], radii[order])
 
 
 def _crossings(
     lens: Lens, source: Source, centre: tuple[float, float], theta: np.ndarray, radius: np.ndarray, rim: np.ndarray
-) -> np.ndarray | None:
-    """Return the directions of points of the edge that have no room at both rims that end neighbouring directions.
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return directions and radii of the points of the edge that have no room at either rim that ends a neighbour.
 
     ``radius``, ``rim``: as `_edge` returns them at ``theta``. By Newton's method from midway; None where that leads
     to no such point, as where rays are lost at one of the two.
@@ -167,7 +187,7 @@ def _crossings(
     found += 2 * np.pi * np.round((angle - found) / (2 * np.pi))
     moved = np.hypot(xi - beside[0][0], eta - beside[1][0])
     good = (moved < CROSSING_ENOUGH) & (least > -CROSSING_ENOUGH) & (low <= found) & (found <= high)
-    return found if good.all() else None
+    return (found, np.hypot(xi - centre[0], eta - centre[1])) if good.all() else None
 
 
 def _rooms(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> dict[int, np.ndarray]:
@@ -203,7 +223,7 @@ def clear_outline(
     arcs = [(low, high, max(2, round(points * (high - low) / np.pi))) for low, high in pairwise(shape.corners)]
     parts = [np.linspace(*arc, endpoint=False) for arc in arcs]
     theta = np.concatenate(parts) if lens.misaligned else np.append(np.concatenate(parts), np.pi)
-    radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta)
+    radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta, shape.guess(theta))
     xi, eta = shape.aside + radius * np.sin(theta), shape.centre + radius * np.cos(theta)
     if even or lens.misaligned:
         return xi, eta
@@ -211,9 +231,17 @@ def clear_outline(
 
 
 def _edge(
-    lens: Lens, source: Source, clip: bool, centre: tuple[float, float], theta: np.ndarray
+    lens: Lens,
+    source: Source,
+    clip: bool,
+    centre: tuple[float, float],
+    theta: np.ndarray,
+    guess: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the clear radius along each angle about a centre (ξ, η), and the surface that ends it (0: the rim)."""
+    """Return the clear radius along each angle about a centre (ξ, η), and the surface that ends it (0: the rim).
+
+    ``guess``: as `clear_radius` has it.
+    """
     sine, cosine, (aside, up) = np.sin(theta), np.cos(theta), centre
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (up * sine - aside * cosine) ** 2) - (up * cosine + aside * sine)
@@ -223,7 +251,7 @@ def _edge(
         known = rays.passed == (rays.clearance >= 0)
         return rays.passed, np.where(known, rays.clearance, np.nan), ended_at(rays.status, rays.failed_surface)
 
-    return clear_radius(standing, outer)
+    return clear_radius(standing, outer, guess)
 
 
 def pencil_blur(

@@ -63,6 +63,20 @@ def test_it_ends_where_the_formula_says(room_of, most):
     assert ended.tolist() == [5, 6, 7, 8, 9, 10] and len(calls) <= most
 
 
+@pytest.mark.parametrize(("off", "most"), [(1e-5, 6), (-1e-5, 6), (0.1, 14), (-0.1, 14)])
+def test_a_good_guess_saves_calls_and_a_bad_one_costs_none(off, most):
+    calls = []
+
+    def standing(radius, some):
+        calls.append(some.size)
+        passed = radius <= ROOTS[some]
+        return passed, smooth(radius, ROOTS[some]), np.where(passed, 0, np.where(radius < 1, 3, 4))
+
+    radius, ended = clear_radius(standing, np.ones(ROOTS.size), ROOTS + off)
+    assert (radius <= ROOTS).all() and (ROOTS - radius <= CLOSE).all() and len(calls) <= most
+    assert (ended[:-1] == 3).all()  # what ends rays next to the edge, not those at the outer radius
+
+
 def test_directions_that_nothing_ends_keep_the_outer_radius():
     outer = np.array([0.4, 0.9, 1.3])
 
@@ -108,10 +122,11 @@ def test_corners_by_newtons_method_are_those_that_a_search_finds(lens, angle, co
     theta = (np.arange(vignetting.SCAN) + 0.5) * (np.pi / vignetting.SCAN)
     edge = vignetting._edge(lens, source, True, centre, theta)
     assert vignetting._crossings(lens, source, centre, theta, *edge) is not None
-    corners = vignetting._corners(lens, source, True, centre)
+    corners, (angles, radii) = vignetting._corners(lens, source, True, centre)
+    assert radii == pytest.approx(vignetting._edge(lens, source, True, centre, angles)[0], abs=2e-9)
     assert len(corners) == count or (count is None and len(corners) >= 4)
     monkeypatch.setattr(vignetting, "_crossings", lambda *_: None)
-    searched = vignetting._corners(lens, source, True, centre)
+    searched, _ = vignetting._corners(lens, source, True, centre)
     # Radii of 2e-11, where rims cross at some hundredths of a radian.
     assert corners == pytest.approx(searched, abs=2e-9)
 
