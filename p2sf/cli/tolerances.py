@@ -29,6 +29,7 @@ from p2sf.tolerance import (
     usual_sources,
     usual_tolerances,
 )
+from p2sf.tolerance.builds import SUMMED_RMS
 from p2sf.tolerance.criteria import CRITERIA, LARGE_IS_GOOD
 from p2sf.tolerance.errors_of_build import UNITS, Tolerance
 from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
@@ -49,7 +50,8 @@ WORST: dict[Criterion, str] = {
 MOST_BUILDS, SHOWN = 1_000_000, 12
 NOTICED = 0.01  # of the largest harm: errors of the form below that are not told
 STREHL = (
-    "Strehl ratio: |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt, weighted as the field."
+    "Strehl ratio: |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt, weighted as the field; "
+    f"0 beyond an RMS of {SUMMED_RMS:g} waves."
 )
 LARGEST_SEED = 2**63 - 1
 PERCENTILES = 10, 50, 90

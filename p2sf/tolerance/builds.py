@@ -28,9 +28,9 @@ class Builds:
     """Builds drawn at random: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
 
     ``rms_waves`` (builds, fields): of the displayed wavefront without piston and tilt, as `zernike_fit` has it.
-    ``strehl``: |mean of exp(2πiW)|² of the phase at the focus without these, weighted as the field, and beyond
-    `SUMMED_RMS` exp(−(2π·RMS)²), nothing (Mahajan 1983). ``boresight_um`` (builds, fields, 2): how far the image has
-    moved. ``mtf`` (builds, fields, 2): the contrast at one frequency of patterns along x (sagittal) and y (tangential),
+    ``strehl``: |mean of exp(2πiW)|² of the phase at the focus without these, weighted as the field, and 0 beyond
+    `SUMMED_RMS`. ``boresight_um`` (builds, fields, 2): how far the image has moved. ``mtf`` (builds, fields, 2): the
+    contrast at one frequency of patterns along x (sagittal) and y (tangential),
     NaN where none was asked for.
     """
 
@@ -220,7 +220,7 @@ class QuadraticForm:
     def quality(self, of_phase: np.ndarray, of_wavefront: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return RMS in waves and Strehl ratio, (builds, fields), of changes of both, (builds, fields, terms)."""
         rms = np.sqrt(np.square(self._rooted(of_wavefront, 1.0)).sum(-1))
-        strehl = np.exp(-((2 * np.pi * rms) ** 2))
+        strehl = np.zeros_like(rms)
         for k, field in enumerate(self.fields):
             near = rms[:, k] <= FEW_RAYS_RMS
             strehl[near, k] = self.few[k].strehl(of_phase[near, k])

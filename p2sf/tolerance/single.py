@@ -206,5 +206,5 @@ def _quality(waves: _Waves, rays: OpenRays) -> tuple[float, float]:
     """Return the RMS and the Strehl ratio, as `Builds` has it."""
     rms = float(np.sqrt(max(rays.share @ waves.wavefront**2, 0.0)))
     if rms > SUMMED_RMS:
-        return rms, float(np.exp(-((2 * np.pi * rms) ** 2)))
+        return rms, 0.0
     return rms, float(abs(rays.weight @ np.exp(2j * np.pi * waves.phase)) ** 2)

@@ -9,6 +9,7 @@ from p2sf.cli.tolerances import WORST
 from p2sf.errors import LensFileError
 from p2sf.lensfile.library import find_lens
 from p2sf.tolerance import Tolerance, usual_tolerances
+from p2sf.tolerance.builds import SUMMED_RMS
 from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
 
 STATE = "--f-number", "8", "--field-deg", "5"
@@ -47,6 +48,13 @@ def test_the_percentiles_are_of_the_criterion_too(answer, capsys):
     assert main([str(word) for word in asked]) == 0
     said = capsys.readouterr().out
     assert WORST["boresight_um"] in said and f"{found['percentiles']['90']['boresight_um']:.6g}" in said
+
+
+def test_no_strehl_ratio_is_told_of_many_waves(answer):
+    """Nor one like 4e-77, which follows from an RMS alone."""
+    found = answer("tolerance", "achromat_f6", "--f-number", 2, "--builds", 20)
+    for one in (found["designed"], *found["percentiles"].values()):
+        assert one["rms_waves"] > SUMMED_RMS and one["strehl"] == 0
 
 
 def test_every_column_of_builds_says_on_which_side_its_figures_lie(capsys):
