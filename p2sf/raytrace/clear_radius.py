@@ -30,7 +30,6 @@ def clear_radius(
     radius, ended = outer.copy(), np.where(passed[0], 0, label[0])
     some = np.flatnonzero(~passed[0])
     bracketed = ~passed[1] & passed[2]
-    ended[some] = np.where(bracketed, label[1], label[0])[some]
     enough = outer[some] * 2.0**-BISECTIONS
     # The latest point, the other end of its bracket, and the point before these.
     first, second = np.where(bracketed, 1, 0)[some], np.where(bracketed, 2, 3)[some]
