@@ -66,10 +66,10 @@ def test_a_real_lens_equals_its_direct_sum():
     """400 bright pixels anywhere in 128 × 128 at 18 mm of the Double Gauss, each sent out with its own kernel."""
     sensor = Sensor(SIDE, SIDE, 8.0, (0.0, 18.0))
     seen = sensor_map(find_lens("double_gauss_28"), np.inf, 0.5876, sensor.corners_mm()[1])
-    kernels = Kernels(seen, Colour((0.5876,), (1.0,)), 8.0, Recipe("fitted"), half=14)
+    kernels = Kernels(seen, Colour((0.5876,), (1.0,)), 8.0, Recipe("fitted"))
 
     def kernel_at(row, column):
-        return kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))[None]
+        return kernels.at(float(sensor.x_mm(column)), float(sensor.y_mm(row)), 14)[None]
 
     random = np.random.default_rng(2)
     picture = np.zeros((SIDE, SIDE, 1), np.float32)
