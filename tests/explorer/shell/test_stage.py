@@ -6,7 +6,6 @@ from PySide6.QtGui import QContextMenuEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 
-from p2sf_explorer.docking.stage import SETTLE_MS
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import PANEL_MIME
@@ -171,7 +170,7 @@ def test_handles_go_into_the_state_and_survive_a_resize(window, qtbot):
     QTest.mouseMove(room.handle(1), QPoint(-97, 100))
     QTest.mouseRelease(room.handle(1), Qt.MouseButton.LeftButton, pos=QPoint(3, 100))
     before = window.store.state.display.stage_share
-    qtbot.waitUntil(lambda: window.store.state.display.stage_share != before * SETTLE_MS)
+    qtbot.waitUntil(lambda: window.store.state.display.stage_share != before)
     share = window.store.state.display.stage_share
     assert share == pytest.approx(before - 100 / (sum(room.sizes())), abs=0.01)
     for size in ((1100, 720), (1440, 900)):
