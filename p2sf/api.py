@@ -376,10 +376,12 @@ def mtf(
     [1.0, 0.86]
     """
     from p2sf.metrics.measures import mtf_of
+    from p2sf.metrics.transfer import check_contrast
 
     camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
     check_finite("turn_deg", turn_deg)
-    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera, turn_deg)
+    how = {"method": method, "clip": clip, "turn_deg": turn_deg, "check": check_contrast}
+    parts, used = _pupil_parts(lens, source, spectrum, camera, **how)
     return mtf_of(parts, used, frequency_per_mm, turn_deg=turn_deg)
 
 
@@ -436,7 +438,7 @@ def encircled_energy(
     from p2sf.metrics.measures import energy_in
 
     camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
-    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera)
+    parts, used = _pupil_parts(lens, source, spectrum, camera, method=method, clip=clip)
     return energy_in(parts, used, radius_um)
 
 
@@ -491,28 +493,23 @@ def line_spread(
     0.5
     """
     from p2sf.metrics.measures import spread_of
+    from p2sf.metrics.transfer import check_contrast
 
     camera = {"focus_mm": focus_mm, "sensor_shift_um": sensor_shift_um, "f_number": f_number, "stop": stop, "aim": aim}
-    parts, used = _pupil_parts(lens, source, method, clip, spectrum, camera)
+    parts, used = _pupil_parts(lens, source, spectrum, camera, method=method, clip=clip, check=check_contrast)
     return spread_of(parts, used, position_um)
 
 
 def _pupil_parts(
-    lens: Lens,
-    source: Source,
-    method: str,
-    clip: bool,
-    spectrum: str | None,
-    camera: dict[str, Any],
-    turn_deg: float = 0.0,
+    lens: Lens, source: Source, spectrum: str | None, camera: dict[str, Any], **how: Any
 ) -> "tuple[list[PupilPart], str]":
-    """Return the pupils of a source, one per wavelength, and the method that described them."""
+    """Return the pupils of a source, one per wavelength, and the method that described them, as `parts_of` has both."""
     from p2sf.colour.spectrum import spectrum_of
     from p2sf.metrics.measures import parts_of
 
     setup = set_up_source(lens, source, **camera)
     wanted = None if spectrum is None else spectrum_of(spectrum)
-    return parts_of(setup.lens, setup.source, method, clip, wanted, turn_deg)
+    return parts_of(setup.lens, setup.source, spectrum=wanted, **how)
 
 
 class TradeoffTable(list["MethodCost"]):

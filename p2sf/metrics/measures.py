@@ -233,8 +233,12 @@ def parts_of(
     clip: bool = False,
     spectrum: Spectrum | None = None,
     turn_deg: float = 0.0,
+    check: Callable[[FrequencyPupil], object] = lambda _: None,
 ) -> tuple[list[PupilPart], str]:
-    """Return the pupils of a source by one method, of a spectrum one per wavelength, weighted by the eye's CIE Y."""
+    """Return the pupils of a source by one method, of a spectrum one per wavelength, weighted by the eye's CIE Y.
+
+    ``check`` is called with each of them, before the next is traced, and may refuse it.
+    """
     if spectrum is None:
         pupil, used = pupil_of(lens, source, method, clip, turn_deg)
         return [PupilPart(pupil)], used
@@ -244,6 +248,7 @@ def parts_of(
     found = []
     for wave, part, shift, beside in zip(waves, share, shifts, aside, strict=True):
         pupil, used = pupil_of(lens, replace(source, wavelength_um=float(wave)), method, clip, turn_deg)
+        check(pupil)
         found.append(PupilPart(pupil, float(part), float(shift), float(beside)))
     return found, used
 

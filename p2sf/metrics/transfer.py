@@ -100,6 +100,11 @@ def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice
     )
 
 
+def check_contrast(pupil: FrequencyPupil) -> None:
+    """Raise the SamplingError of `otf_slices` for a pupil that takes too many samples."""
+    _ = _line_counts(reach_of(pupil), pupil.even) if pupil.mask.clear else masked_lines(pupil)
+
+
 def _slice(
     line_sum: LineSum, pupil: FrequencyPupil, counts: Counts, cut_off: float, along_y: bool, cancelled: Stop = never
 ) -> OtfSlice:

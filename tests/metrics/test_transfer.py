@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from scipy.special import roots_legendre
 
-from p2sf.errors import Cancelled, GeometryError
+import p2sf
+from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import with_aim, with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics import line_ends, transfer
+from p2sf.metrics import line_ends, measures, transfer
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.metrics.line_ends import end_weights
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
@@ -199,3 +200,17 @@ def test_of_a_clipped_pupil_it_is_that_of_a_window_of_the_reference_up_to_the_li
     assert np.abs(found.sagittal - expected[0]).max() < beyond + 1e-4  # and what the pupil's polynomials miss
     assert np.abs(found.tangential - expected[1]).max() < beyond + 1e-4
     assert np.abs(unclipped.tangential - expected[1]).max() > 5 * beyond, "the rims matter here"
+
+
+def test_contrast_in_daylight_is_refused_at_the_first_wavelength(monkeypatch):
+    """The blur of this lens takes more samples than are summed at any wavelength."""
+    pupils = []
+
+    def counted(*given):
+        pupils.append(pupil_of_rays(*given))
+        return pupils[-1]
+
+    monkeypatch.setitem(measures.PUPILS, "traced", counted)
+    with pytest.raises(SamplingError) as caught:
+        p2sf.mtf(find_lens("fast_gauss_f14"), Source(field_deg=15), spectrum="d65", method="traced")
+    assert caught.value.message.values["waves"] > 1000 and len(pupils) == 1
