@@ -187,7 +187,8 @@ class LessonController(QObject):
         if self.panel is None or self._by_hand:
             return
         whole, page = self._room.column.height(), PAGE_LINES * self.panel.fontMetrics().lineSpacing()
-        wanted = max(row.geometry().bottom() for row in self._room.sliders.rows.values()) + SPACE
+        shown = (row for row in self._room.sliders.rows.values() if not row.isHidden())
+        wanted = max(row.geometry().bottom() for row in shown) + SPACE
         sliders = round(max(SLIDER_SHARE * whole, min(wanted, whole - page)))
         self._room.column.setSizes([whole - sliders, sliders])
 

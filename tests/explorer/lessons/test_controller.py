@@ -4,7 +4,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
-from p2sf_explorer.lessons.controller import NOTHING_BEFORE, LessonController
+from p2sf_explorer.charts.theme import SPACE
+from p2sf_explorer.lessons.controller import NOTHING_BEFORE, SLIDER_SHARE, LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
 from p2sf_explorer.state.state import changed
@@ -200,17 +201,24 @@ def test_the_bar_has_a_part_for_each_step_and_is_filled_up_to_the_present_one(wi
     assert len(set(colours[:2])) == 1 and len(set(colours[2:])) == 1 and colours[0] != colours[-1]
 
 
-@pytest.mark.parametrize(("percent", "size"), [(100.0, (1280, 800)), (100.0, (1920, 1080)), (200.0, (3840, 2160))])
-def test_a_lesson_leaves_the_sliders_the_height_that_its_page_does_not_need(window, qtbot, percent, size):
+@pytest.mark.parametrize(
+    ("before", "percent", "size"),
+    [(300.0, 100.0, (1280, 800)), (300.0, 100.0, (1920, 1080)), (200.0, 200.0, (3840, 2160))],
+)
+def test_a_lesson_leaves_the_sliders_the_height_that_its_page_does_not_need(window, qtbot, before, percent, size):
     window.resize(*size)
-    window.store.update(scale_percent=percent)
+    for scale, unfolded in ((before, True), (percent, False)):  # rows that were shown and are hidden count no more
+        window.store.update(scale_percent=scale, show_pupil_shape=unfolded, show_field_x=unfolded)
+        QApplication.processEvents()
     window.teaching.toggle()
     rows, line = window.controls.rows.values(), window.teaching.panel.fontMetrics().lineSpacing()
 
     def shared():
         page, sliders = window.left_parts.sizes()
-        seen = max(row.geometry().bottom() for row in rows) <= sliders
-        assert seen == (size[1] > 800), "a small window has no room for all"
+        needed = max(row.geometry().bottom() for row in rows if row.isVisible())
+        assert (needed <= sliders) == (size[1] > 800), "a small window has no room for all"
+        if percent == 100:
+            assert sliders <= max(needed + 2 * SPACE, SLIDER_SHARE * (page + sliders) + 1), "and none keeps more"
         assert page >= 0.55 * (page + sliders) if size[1] == 800 else page >= 29 * line
 
     qtbot.waitUntil(shared)
