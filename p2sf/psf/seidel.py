@@ -1,7 +1,7 @@
 """The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
 from functools import partial
-from math import isfinite
+from math import isfinite, prod
 from time import perf_counter
 
 import numpy as np
@@ -13,15 +13,16 @@ from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf._seidel_sum import wave_number
-from p2sf.psf.fitted import waves_reaching
+from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
 from p2sf.psf.peak import peak_of, sampled_peak
-from p2sf.psf.plane_waves import window_reach_um
+from p2sf.psf.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
 from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
+from p2sf.raytrace.fit import FittedPencil
 from p2sf.threads import one_blas_thread
 
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
@@ -166,15 +167,26 @@ def _peaks(
     quality = quality if len(planes) <= MOST_SEARCHED else "preview"
     found = []
     for one, plane, total in zip(each_of(coefficients), planes, totals, strict=True):
-        fitted = as_fit(one, mask)
-        waves = waves_reaching(fitted, reach_um)
+        reaching = partial(_waves_reaching, one, as_fit(one, mask))
+        waves = reaching(reach_um)
         if waves is None:  # of so many waves, the brightest sample
             peak = sampled_peak(plane * total, pixel_um)
         else:
-            peak = peak_of(plane * total, pixel_um, waves, partial(waves_reaching, fitted), quality)
+            peak = peak_of(plane * total, pixel_um, waves, reaching, quality)
         found.append((peak.value, peak.x_um, peak.y_um))
     table = np.reshape(found, (*shape, 3))
     return table[..., 0], table[..., 1:]
+
+
+def _waves_reaching(c: Coefficients, fitted: FittedPencil, reach_um: float) -> Waves | None:
+    """Return `fitted.waves_reaching` of six coefficients, by W itself where no mask stands in the pupil."""
+    counts = counts_for(fitted.steepness, reach_um)
+    if not fitted.mask.clear or prod(counts) > MOST_FOR_PEAK:
+        return waves_reaching(fitted, reach_um)
+    nodes, scale = disc_nodes(*counts), -float(wave_number(c))  # the conjugate, as a fit
+    amplitude = pupil_amplitude(nodes.weight, -wavefront(c, nodes.xi, nodes.eta))
+    blur = fitted.steepness.radial / fitted.steepness.spread
+    return Waves(amplitude, scale * nodes.xi, scale * nodes.eta, True, blur, reach_um)
 
 
 def energy_fraction(

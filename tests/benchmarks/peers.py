@@ -105,7 +105,7 @@ def lens_rows() -> dict[str, list[tuple[str, Work, str]]]:
 
     peer = _optiland()
     psfs = [
-        ours("huygens, 128² rays", lambda: huygens_psf(lens, source, *window, tolerance=None)),
+        ours("huygens, one pass", lambda: render(lens, source, "huygens", *window, "preview")),
         ours("traced, preview", lambda: render(lens, source, "traced", *window, "preview")),
         ours("fitted, preview", lambda: render(lens, source, "fitted", *window, "preview")),
         ours("seidel, preview", lambda: seidel_psf(coefficients(lens, *place), *window, "preview")),
