@@ -1,6 +1,7 @@
 """`p2sf measure` finds, fits and writes; `p2sf compare` puts two of its files beside each other."""
 
 import json
+from itertools import count
 
 import numpy as np
 import pytest
@@ -111,6 +112,7 @@ def test_percent_and_what_is_left_are_told_on_a_terminal_alone(picture, monkeypa
     quiet = capsys.readouterr()
     assert "%" not in quiet.err
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setattr("p2sf.cli.screen.perf_counter", count(step=2.0).__next__)  # a machine of two seconds a step
     assert main([*command, "--threads", "1"]) == 0
     told = capsys.readouterr()
     assert told.out == quiet.out
