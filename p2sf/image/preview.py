@@ -13,7 +13,7 @@ from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.channel import Light
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
-from p2sf.pixel_kernels.pupil_stack import FrequencyPupil
+from p2sf.pixel_kernels.pupil_stack import PixelPupil
 from p2sf.raytrace.fit import levels_for
 from p2sf.scene.bounds import check_colours
 from p2sf.scene.cost import Cost
@@ -78,7 +78,7 @@ def wave_side(planned: Plan) -> float:
         light, half = _edge_half(planned)
     except GeometryError:  # rays are lost, or the pupil is too distorted for polynomials
         return inf
-    if isinstance(light, FrequencyPupil) and light.residual_waves > MOST_RESIDUAL:
+    if isinstance(light, PixelPupil) and light.residual_waves > MOST_RESIDUAL:
         return inf
     return (2 * half + 1) * samples_across(light, planned.scene.sensor.pixel_um)
 

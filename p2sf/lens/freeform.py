@@ -142,10 +142,10 @@ class ZernikeSag(Freeform):
     most: ClassVar[int]
     ends = True
 
-    @staticmethod
-    @abstractmethod
-    def _norm(term: ZernikeTerm) -> float:
-        """Return the factor before R(ρ)·cos mθ or sin |m|θ, where R(1) is 1."""
+    @classmethod
+    def _norm(cls, term: ZernikeTerm) -> float:
+        """Return the factor before R(ρ)·cos mθ or sin |m|θ, where R(1) is 1: of unit mean square in Noll's order."""
+        return term.norm if cls.order == "noll" else 1.0
 
     def sag_and_gradient(
         self, x: FloatOrArray, y: FloatOrArray, curvature: float = 0.0, conic: float = 0.0
@@ -231,10 +231,6 @@ class ZernikeStandardSag(ZernikeSag):
     kind = "Zernike standard sag"
     name = Message("Zernike standard sag")
 
-    @staticmethod
-    def _norm(term: ZernikeTerm) -> float:
-        return term.norm
-
 
 @dataclass(frozen=True)
 class ZernikeFringeSag(ZernikeSag):
@@ -244,7 +240,3 @@ class ZernikeFringeSag(ZernikeSag):
     most = 37
     kind = "Zernike fringe sag"
     name = Message("Zernike fringe sag")
-
-    @staticmethod
-    def _norm(term: ZernikeTerm) -> float:
-        return 1.0

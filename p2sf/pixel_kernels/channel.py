@@ -10,7 +10,7 @@ from p2sf.conventions import UM_PER_MM, vergence
 from p2sf.errors import P2SFError
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
-from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
@@ -19,11 +19,11 @@ from p2sf.raytrace.seen_mask import mask_seen
 RAYS = "rays"  # the method of a recipe whose kernels are densities of rays
 
 
-Light: TypeAlias = FrequencyPupil | RaySpread
+Light: TypeAlias = PixelPupil | RaySpread
 """What describes the light of one point: a pupil whose waves are summed, or rays."""
 
 
-class Landing(NamedTuple):
+class ChannelLanding(NamedTuple):
     """In which axes a point's light stands, radians from +y towards +x, and how far from its place it lands, mm."""
 
     angle: float
@@ -150,7 +150,7 @@ class Kernels:
     pixel_um: float
     recipe: Recipe
     table: PupilTable | None = None
-    cache: dict[tuple[float, float], list[tuple[Light, Landing]]] = field(default_factory=dict)
+    cache: dict[tuple[float, float], list[tuple[Light, ChannelLanding]]] = field(default_factory=dict)
 
     def at(self, x_mm: float, y_mm: float, half: int | None = None) -> np.ndarray:
         """Return the kernel of the point that lands at (x, y up), (size, size) float32 of unit sum, row 0 the top."""
@@ -173,11 +173,11 @@ class Kernels:
         by_place = [self.lights(*place) for place in zip(x_mm.tolist(), y_mm.tolist(), strict=True)]
         lights, landings = zip(*(pairs[k] for k in range(len(waves)) for pairs in by_place), strict=True)
         rays = [light for light in lights if isinstance(light, RaySpread)]
-        of_waves = [light for light in lights if isinstance(light, FrequencyPupil)]
+        of_waves = [light for light in lights if isinstance(light, PixelPupil)]
         landed = np.array(landings)
         return PointLights(rays or stacked(of_waves), landed[:, 0], landed[:, 1:] * UM_PER_MM)
 
-    def lights(self, x_mm: float, y_mm: float) -> list[tuple[Light, Landing]]:
+    def lights(self, x_mm: float, y_mm: float) -> list[tuple[Light, ChannelLanding]]:
         """Return the light of a place in every wavelength, from its own rays."""
         key = round(x_mm, 9), round(y_mm, 9)
         if key not in self.cache:
@@ -186,7 +186,9 @@ class Kernels:
         return self.cache[key]
 
 
-def own_light(seen: SensorMap, x_mm: float, y_mm: float, wavelength_um: float, recipe: Recipe) -> tuple[Light, Landing]:
+def own_light(
+    seen: SensorMap, x_mm: float, y_mm: float, wavelength_um: float, recipe: Recipe
+) -> tuple[Light, ChannelLanding]:
     """Return the pupil of one place from its own rays, or these; P2SFError names the place."""
     try:
         source = seen.source(x_mm, y_mm, wavelength_um)
@@ -196,7 +198,7 @@ def own_light(seen: SensorMap, x_mm: float, y_mm: float, wavelength_um: float, r
         else:
             light = pupil_map(seen.lens, source, recipe.method, recipe.numbers, seen.clip)
         light = replace(light, mask=mask_seen(seen.lens, replace(source, azimuth_deg=0.0)))
-        return light, Landing(float(np.deg2rad(source.azimuth_deg)), *seen.shift_mm(x_mm, y_mm, wavelength_um))
+        return light, ChannelLanding(float(np.deg2rad(source.azimuth_deg)), *seen.shift_mm(x_mm, y_mm, wavelength_um))
     except P2SFError as error:
         height = float(np.hypot(x_mm, y_mm))
         raise type(error)("{height:.4g} mm from the axis of the sensor: {error}", height=height, error=error) from error

@@ -16,7 +16,7 @@ from p2sf.lens.lens import Lens, Surface, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, with_reach
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, with_reach
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import disc_nodes, whole_disc
 from p2sf.pupil.zernike import basis, basis_by_powers
@@ -47,9 +47,7 @@ NEARLY_CLEAR = -0.15  # of 1 − (height/rim)²: nodes up to here count as clear
 CLIPPED_SHARE, BESIDE = 0.03, 1.7  # the part that clipped nodes have in a fit, and up to which square of u
 
 
-def pupil_map(
-    lens: Lens, source: Source, method: str, numbers: int | None = None, clip: bool = False
-) -> FrequencyPupil:
+def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None, clip: bool = False) -> PixelPupil:
     """Return the pupil of one source by the method "seidel" or "fitted"; ``clip`` lets the clear rims clip it.
 
     It stands in the axes of the source's field.

@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import SamplingError
-from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, Turned, stacked, turned
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stacked, turned
 from p2sf.pixel_kernels.ray_spread import RaySpread
 from p2sf.pupil.binning import binned
 from p2sf.pupil.mask_cells import inside_share, open_share, turned_back, wings
@@ -17,7 +17,7 @@ LARGEST_WINDOW = 4096
 BLOCK = 32768  # samples of pupils in one block
 TOGETHER = 65536  # samples of the light that are transformed together
 
-Light = FrequencyPupil | PupilStack | RaySpread
+Light = PixelPupil | PupilStack | RaySpread
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class PixelWindow:
         return 2 * self.half + 1
 
 
-def half_width(pupil: FrequencyPupil | RaySpread, pixel_um: float, shift_um: float = 0.0) -> int:
+def half_width(pupil: PixelPupil | RaySpread, pixel_um: float, shift_um: float = 0.0) -> int:
     """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
     return int(half_widths(pupil, pixel_um, shift_um))
 
@@ -46,7 +46,7 @@ def half_widths(pupils: Light, pixel_um: float, shifts_um: FloatOrArray = 0.0) -
     return np.maximum(1, np.ceil(reach / pixel_um - 0.5)).astype(int)
 
 
-def samples_across(pupil: FrequencyPupil | RaySpread, pixel_um: float, finest: float = 1.0) -> int:
+def samples_across(pupil: PixelPupil | RaySpread, pixel_um: float, finest: float = 1.0) -> int:
     """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
 
     At least three, so that pixel edges are resolved well enough.
@@ -60,7 +60,7 @@ def samples_each(pupils: Light, pixel_um: float, finest: float = 1.0) -> np.ndar
 
 
 def pixel_kernel(
-    pupil: FrequencyPupil, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
+    pupil: PixelPupil, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
 ) -> np.ndarray:
     """Return the share of a point's light per pixel, (size, size) float32 of unit sum, row 0 at the top.
 
@@ -84,7 +84,7 @@ def pixel_kernels(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
     return kernels
 
 
-def part_filled_kernel(pupil: FrequencyPupil, window: PixelWindow, fill_factor: float) -> np.ndarray:
+def part_filled_kernel(pupil: PixelPupil, window: PixelWindow, fill_factor: float) -> np.ndarray:
     """Return the share of a point's light that each pixel's sensitive square receives, (size, size) float32, row 0 top.
 
     The square, ``fill_factor`` of the pixel's area, lies in its middle; the field is along +y, the chief ray in the

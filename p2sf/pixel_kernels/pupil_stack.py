@@ -26,7 +26,7 @@ SIZES = "radius", "energy", "reach_um", "residual_waves", "wavelength_um"
 
 
 @dataclass(frozen=True, eq=False)
-class FrequencyPupil:
+class PixelPupil:
     """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
 
     ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
@@ -56,7 +56,7 @@ class FrequencyPupil:
 
 @dataclass(frozen=True, eq=False)
 class PupilStack:
-    """Several pupils of one order: every array of `FrequencyPupil` with an axis of pupils first, numbers (pupils,)."""
+    """Several pupils of one order: every array of `PixelPupil` with an axis of pupils first, numbers (pupils,)."""
 
     order: int
     radius: np.ndarray
@@ -76,12 +76,12 @@ class PupilStack:
     def __len__(self) -> int:
         return len(self.radius)
 
-    def one(self, k: int) -> FrequencyPupil:
+    def one(self, k: int) -> PixelPupil:
         """Return one of the pupils."""
         values: dict[str, Any] = {name: getattr(self, name)[k] for name in FORMS}
         values |= {name: float(getattr(self, name)[k]) for name in SIZES}
         values |= {name: getattr(self, name) for name in SHARED}
-        return FrequencyPupil(**values)
+        return PixelPupil(**values)
 
     def some(self, chosen: np.ndarray | slice) -> "PupilStack":
         """Return those of the pupils that an index array, a mask or a slice chooses."""
@@ -116,7 +116,7 @@ def _widened(form: np.ndarray, order: int, narrower: int) -> np.ndarray:
     return np.concatenate(wider, axis=-1)
 
 
-def stacked(pupils: Sequence[FrequencyPupil | PupilStack]) -> PupilStack:
+def stacked(pupils: Sequence[PixelPupil | PupilStack]) -> PupilStack:
     """Return pupils and stacks of them as one stack, of the highest order; all with a weight, or none; of one mask."""
     stacks = [_as_stack(pupil) for pupil in pupils]
     order = max(stack.order for stack in stacks)
@@ -130,7 +130,7 @@ def stacked(pupils: Sequence[FrequencyPupil | PupilStack]) -> PupilStack:
     return replace(first, **joined)
 
 
-def _as_stack(pupil: FrequencyPupil | PupilStack) -> PupilStack:
+def _as_stack(pupil: PixelPupil | PupilStack) -> PupilStack:
     if isinstance(pupil, PupilStack):
         return pupil
     values: dict[str, Any] = {name: np.array([getattr(pupil, name)]) for name in (*FORMS, *SIZES)}

@@ -77,7 +77,7 @@ class Choice:
     @property
     def reason(self) -> Message:
         """Return why this method was chosen, as a sentence."""
-        return method_of(self.method).reason(self)
+        return REASONS[self.method](self)
 
     @property
     def against_a_fit(self) -> Message:
@@ -112,14 +112,12 @@ class PsfRequest:
 class Method:
     """A way to describe the pupil of a lens for a source, and to make a PSF from it.
 
-    ``psf``: returns the PSF. ``reason``: why it was chosen, None where it never is. ``previewed``: whether it has a
-    "preview" that costs less. ``whole``: whether it describes the whole pupil, and knows no rims that clip it.
-    ``pupil``: whether figures of the pupil can be had of it.
+    ``psf``: returns the PSF. ``previewed``: whether it has a "preview" that costs less. ``whole``: whether it describes
+    the whole pupil, and knows no rims that clip it. ``pupil``: whether figures of the pupil can be had of it.
     """
 
     name: str
     psf: Callable[[PsfRequest], Psf]
-    reason: Callable[[Choice], Message]
     previewed: bool = False
     whole: bool = False
     pupil: bool = True
@@ -335,12 +333,19 @@ def _nothing_else_suffices(choice: Choice) -> Message:
 
 
 METHODS = (
-    Method("gaussian", lambda asked: gaussian_psf(_by_huygens(asked)), _nothing_else_suffices, pupil=False),
-    Method("seidel", _by_six, _six_suffice, previewed=True, whole=True),
-    Method("fitted", _by_fit, _a_fit_suffices, previewed=True, whole=True),
-    Method("traced", _by_traced_rays, _rays_suffice, previewed=True),
-    Method("huygens", _by_huygens, _nothing_else_suffices),
+    Method("gaussian", lambda asked: gaussian_psf(_by_huygens(asked)), pupil=False),
+    Method("seidel", _by_six, previewed=True, whole=True),
+    Method("fitted", _by_fit, previewed=True, whole=True),
+    Method("traced", _by_traced_rays, previewed=True),
+    Method("huygens", _by_huygens),
 )
 """From the cheapest description to the reference."""
 NAMES = tuple(method.name for method in METHODS)
 REFERENCE = NAMES[-1]
+REASONS = {
+    "seidel": _six_suffice,
+    "fitted": _a_fit_suffices,
+    "traced": _rays_suffice,
+    "huygens": _nothing_else_suffices,
+}
+"""Why `choose` takes each method that it takes."""

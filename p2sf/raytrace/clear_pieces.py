@@ -30,7 +30,7 @@ from p2sf.pupil.mask_nodes import (
 )
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
-from p2sf.raytrace.clear_radius import Standing, clear_radius
+from p2sf.raytrace.clear_radius import Clearance, clear_radius
 from p2sf.raytrace.pencil import hexapolar
 from p2sf.raytrace.surface import Status, circle_room, ended_at
 from p2sf.raytrace.trace import lens_rims, run
@@ -67,7 +67,7 @@ class Region:
         """Return whether the half ξ < 0 is the mirror image of the other."""
         return self.mask.even and not self.lens.misaligned
 
-    def holds(self, xi: np.ndarray, eta: np.ndarray) -> Standing:
+    def holds(self, xi: np.ndarray, eta: np.ndarray) -> Clearance:
         """Return which points of the iris lie in the region, how far as `clear_radius` has it, and what ends others."""
         rays = pupil_rays(self.lens, self.source, xi, eta)
         beam, shaded = start(rays), dict[int, np.ndarray]()
@@ -110,10 +110,10 @@ class Region:
         """Return how far inner points lie from the region's edge along directions, and what ends it there."""
         outer, label = self.limit(xi, eta, sine, cosine)
 
-        def standing(radius: np.ndarray, some: np.ndarray) -> Standing:
+        def clearance(radius: np.ndarray, some: np.ndarray) -> Clearance:
             return self.holds(xi[some] + radius * sine[some], eta[some] + radius * cosine[some])
 
-        radius, ended = clear_radius(standing, outer)
+        radius, ended = clear_radius(clearance, outer)
         return radius, np.where(radius == outer, label, ended)
 
 

@@ -9,24 +9,27 @@ BISECTIONS = 36  # the outer radius to 2e-11
 GUESSED = 5e-4  # of the outer radius
 PATIENCE = 18  # steps after which what is left is halved, as rounding may make steps by interpolation short
 
-Standing: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+Clearance: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Whether rays pass, how clear of the edge (NaN where unknown), and what ends those that do not."""
+Ends: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Ends of brackets: radii, how clear of the edge rays there are, and whether they pass."""
 
 
 def clear_radius(
-    standing: Callable[[np.ndarray, np.ndarray], Standing], outer: np.ndarray, guess: np.ndarray | None = None
+    clearance: Callable[[np.ndarray, np.ndarray], Clearance], outer: np.ndarray, guess: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return up to which radius along each direction rays pass, at most ``outer``, and what ends them there, 0 if none.
 
-    ``standing(radius, some)`` returns of rays at radii along ``some`` directions, by indices, whether they pass, by how
-    much, which is 0 at the edge and continuous about it, NaN where that is unknown, and what ends those that do not.
-    Rays at 0 pass. ``guess``: of the radii, saves steps where it is good to GUESSED; half the outer ones if not given.
+    ``clearance(radius, some)`` returns the `Clearance` of rays at radii along ``some`` directions, by indices; how
+    clear they are is 0 at the edge and continuous about it. Rays at 0 pass. ``guess``: of the radii, saves steps where
+    it is good to GUESSED; half the outer ones if not given.
     Each radius is one at which a ray passed, 2e-11 of the outer one from one at which it did not.
     """
     near = np.zeros_like(outer) if guess is None else np.maximum(guess - GUESSED * outer, 0)
     far = outer if guess is None else np.minimum(guess + GUESSED * outer, outer)
     tried = np.stack([outer, far, near, np.zeros_like(outer)])
     every = np.tile(np.arange(outer.size), len(tried))
-    passed, room, label = (column.reshape(tried.shape) for column in standing(tried.ravel(), every))
+    passed, room, label = (column.reshape(tried.shape) for column in clearance(tried.ravel(), every))
     radius, ended = outer.copy(), np.where(passed[0], 0, label[0])
     some = np.flatnonzero(~passed[0])
     bracketed = ~passed[1] & passed[2]
@@ -39,7 +42,7 @@ def clear_radius(
     part, steps = _part(new, other, before, enough), 0
     while some.size:
         at = new[0] + part * (other[0] - new[0])
-        passed, room, label = standing(at, some)
+        passed, room, label = clearance(at, some)
         ended[some] = np.where(passed, ended[some], label)
         same = passed == new[2]
         before, other = _swapped(new, other, ~same), _swapped(new, other, same)
@@ -52,13 +55,13 @@ def clear_radius(
     return radius, ended
 
 
-def _swapped(one: Standing, other: Standing, where: np.ndarray) -> Standing:
+def _swapped(one: Ends, other: Ends, where: np.ndarray) -> Ends:
     """Return the first of two points, the second ``where``."""
     at, room, passed = (np.where(where, b, a) for a, b in zip(one, other, strict=True))
     return at, room, passed
 
 
-def _part(new: Standing, other: Standing, before: Standing, enough: np.ndarray) -> np.ndarray:
+def _part(new: Ends, other: Ends, before: Ends, enough: np.ndarray) -> np.ndarray:
     """Return which part of the bracket to step over, by inverse quadratic interpolation where that is safe, else half.
 
     Source: Chandrupatla 1997, Advances in Engineering Software 28, 145.

@@ -21,7 +21,7 @@ from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, changes_of, check_without_holes, holes_of, piece_nodes
-from p2sf.raytrace.clear_radius import Standing, clear_radius
+from p2sf.raytrace.clear_radius import Clearance, clear_radius
 from p2sf.raytrace.fit import FittedPencil, Gradient, Level, determinant, fit, map_slopes
 from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
 from p2sf.raytrace.seen_mask import mask_seen
@@ -246,12 +246,12 @@ def _edge(
     # The unit circle seen from the centre: |centre + r·direction| = 1.
     outer = np.sqrt(1 - (up * sine - aside * cosine) ** 2) - (up * cosine + aside * sine)
 
-    def standing(radius: np.ndarray, some: np.ndarray) -> Standing:
+    def clearance(radius: np.ndarray, some: np.ndarray) -> Clearance:
         rays = pencil(lens, source, aside + radius * sine[some], up + radius * cosine[some], clip)
         known = rays.passed == (rays.clearance >= 0)
         return rays.passed, np.where(known, rays.clearance, np.nan), ended_at(rays.status, rays.failed_surface)
 
-    return clear_radius(standing, outer, guess)
+    return clear_radius(clearance, outer, guess)
 
 
 def pencil_blur(

@@ -10,13 +10,8 @@ from p2sf.pixel_kernels.pupil_table import Axes, PupilTable, chebyshev, pupil_ta
 from p2sf.scene.field_area import DIGITS
 from p2sf.scene.study import Place, PupilAt, Study, distance
 
-COUNTS = (
-    2,
-    3,
-    5,
-    9,
-    17,
-)  # of fits over a side of the field, the depths or the colours: each one's nodes are among the next one's
+# Of fits over a side of the field, the depths or the colours: each one's nodes are among the next one's.
+COUNTS = (2, 3, 5, 9, 17)
 TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # relative error of a kernel that interpolation along one axis may cause
 
 
@@ -38,9 +33,8 @@ def share_pupils(study: Study) -> None:
         x, y, depths, waves = (_nodes(*end, count).tolist() for end, count in zip(ends, counts, strict=True))
         axes = x, y, depths, waves
         places = {axis: _between(study, axis, _nodes(*ends[axis], counts[axis] + 1)) for axis in tried}
-        study.fitted(
-            [*_grid(axes), *(study.pupil_at(place) for several in places.values() for place in several)]
-        )  # together
+        # Fitted together, which the calls below find kept.
+        study.fitted([*_grid(axes), *(study.pupil_at(place) for several in places.values() for place in several)])
         table = pupil_table(axes, *study.fitted(_grid(axes)))
         for axis in tried:
             errors[axis] = _error(study, table, places[axis])

@@ -16,7 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.pixel_kernels import Recipe, SensorMap
 from p2sf.pixel_kernels.channel import PointLights
 from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, seidel_pupils
-from p2sf.pixel_kernels.pupil_stack import FrequencyPupil, PupilStack, stacked
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.zernike import terms
@@ -80,7 +80,7 @@ class Study:
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
         self.scan = tuple(dict.fromkeys(map(float, self.scene.vergences(DEPTHS))))  # both, and depths between them
         self._maps: dict[float, SensorMap] = {}
-        self._fits: dict[PupilAt, tuple[FrequencyPupil, np.ndarray]] = {}
+        self._fits: dict[PupilAt, tuple[PixelPupil, np.ndarray]] = {}
         self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
         self._kernels: dict[tuple[Place, Sampling], np.ndarray] = {}
 

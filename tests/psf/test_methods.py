@@ -1,19 +1,24 @@
 """Every method behind one function, a choice that keeps its tolerance, and the measured trade-off."""
 
+import inspect
 import json
 from dataclasses import replace
 from io import BytesIO
 from math import inf
+from typing import get_args
 
 import numpy as np
 import pytest
 
+from p2sf import api
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.lens.lens import Aperture, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.metrics.measures import PUPILS
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf import methods
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import (
@@ -228,3 +233,13 @@ def test_a_lens_without_seidel_sums_is_rendered_by_rays_and_refused_by_the_six_c
     assert r_squared(true.values, quick.values) > 0.99
     with pytest.raises(GeometryError, match="surface 2 has a term in r³"):
         render(lens, source, "seidel", pixels=32)
+
+
+def test_every_list_of_methods_names_those_there_are():
+    """Types and defaults of the library and the command line are written out; the list of methods is what counts."""
+    wanted = {methods.AUTO, *NAMES}
+    assert set(get_args(api.Method)) == wanted
+    assert set(inspect.signature(api.tradeoff).parameters["methods"].default) == set(NAMES)
+    described = {method.name for method in methods.METHODS if method.pupil}
+    assert set(PUPILS) == described and set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
+    assert set(methods.REASONS) == described  # those that `choose` takes

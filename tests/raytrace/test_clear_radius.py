@@ -53,12 +53,12 @@ def test_it_ends_where_the_formula_says(room_of, most):
     """``most``: calls; a root by interpolation takes few, one without any room a bisection."""
     calls = []
 
-    def standing(radius, some):
+    def clearance(radius, some):
         calls.append(some.size)
         passed = radius <= ROOTS[some]
         return passed, room_of(radius, ROOTS[some]), np.where(passed, 0, some + 5)
 
-    radius, ended = clear_radius(standing, np.ones(ROOTS.size))
+    radius, ended = clear_radius(clearance, np.ones(ROOTS.size))
     assert (radius <= ROOTS).all() and (ROOTS - radius <= CLOSE).all()
     assert ended.tolist() == [5, 6, 7, 8, 9, 10] and len(calls) <= most
 
@@ -67,12 +67,12 @@ def test_it_ends_where_the_formula_says(room_of, most):
 def test_a_good_guess_saves_calls_and_a_bad_one_costs_none(off, most):
     calls = []
 
-    def standing(radius, some):
+    def clearance(radius, some):
         calls.append(some.size)
         passed = radius <= ROOTS[some]
         return passed, smooth(radius, ROOTS[some]), np.where(passed, 0, np.where(radius < 1, 3, 4))
 
-    radius, ended = clear_radius(standing, np.ones(ROOTS.size), ROOTS + off)
+    radius, ended = clear_radius(clearance, np.ones(ROOTS.size), ROOTS + off)
     assert (radius <= ROOTS).all() and (ROOTS - radius <= CLOSE).all() and len(calls) <= most
     assert (ended[:-1] == 3).all()  # what ends rays next to the edge, not those at the outer radius
 
@@ -80,10 +80,10 @@ def test_a_good_guess_saves_calls_and_a_bad_one_costs_none(off, most):
 def test_directions_that_nothing_ends_keep_the_outer_radius():
     outer = np.array([0.4, 0.9, 1.3])
 
-    def standing(radius, some):
+    def clearance(radius, some):
         return radius <= 0.8, 0.8 - radius, np.full(radius.shape, 7)
 
-    radius, ended = clear_radius(standing, outer)
+    radius, ended = clear_radius(clearance, outer)
     assert radius == pytest.approx([0.4, 0.8, 0.8], abs=2 * CLOSE) and radius[0] == 0.4
     assert ended.tolist() == [0, 7, 7]
 

@@ -10,13 +10,14 @@ from math import inf, pi, sqrt
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.psf.methods import METHODS
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import by_rays, impossible, slow, sum_request
 from p2sf_explorer.compute.method import ALONE, NO_REASON, Task
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State, changed
 
-METHODS = ("seidel", "fitted", "traced", "huygens")  # from fast to exact
+NAMES = tuple(method.name for method in METHODS if method.pupil)  # from fast to exact
 EXACTEST, COARSEST = 1e-5, 0.3  # 1 − R² at the ends of the slider
 REPEATS = 3
 ENERGY = 0.8
@@ -66,7 +67,7 @@ class PredictedCost:
 
 def costs(state: State) -> tuple[PredictedCost, ...]:
     """Return what each method costs at a state's point, in the window that it shows, fast ones first."""
-    return tuple(_cost(changed(state, method=method)) for method in METHODS)
+    return tuple(_cost(changed(state, method=method)) for method in NAMES)
 
 
 def _cost(state: State) -> PredictedCost:

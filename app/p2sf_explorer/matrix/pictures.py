@@ -321,7 +321,7 @@ def radius_figure(psf: Psf, settled: bool) -> Message:
     found = float(radius_of_energy(psf, HELD)) if settled else quick_radius_um(psf)
     radius = Number(significant(found, 3))
     if psf.energy is not None and psf.energy < MOST_LIGHT:
-        return Message("R80 {radius} µm (of {percent:.0f} %)", radius=radius, percent=100 * float(psf.energy))
+        return Message("R80 {radius} µm (of {percent:.0f} % in view)", radius=radius, percent=100 * float(psf.energy))
     return Message("R80 {radius} µm", radius=radius)
 
 

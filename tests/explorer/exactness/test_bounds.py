@@ -9,7 +9,7 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.prediction import TRACED_ERROR
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.exactness.bounds import (
-    METHODS,
+    NAMES,
     PredictedCost,
     costs,
     mtf_error,
@@ -66,7 +66,7 @@ def test_an_mtf_error_and_its_r2_are_one_another_s_inverse():
 
 def test_every_method_has_its_cost_here_and_the_exact_ones_promise_more():
     found = costs(STATE)
-    assert tuple(cost.method for cost in found) == METHODS
+    assert tuple(cost.method for cost in found) == NAMES
     seidel, fitted, traced, _ = found
     assert 0 < seidel.milliseconds < inf and 0 < fitted.milliseconds < inf
     assert fitted.error < seidel.error and traced.error == TRACED_ERROR

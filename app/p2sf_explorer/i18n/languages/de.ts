@@ -522,7 +522,7 @@
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
 <message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>R80 {radius} µm</source><translation>R80 {radius} µm</translation></message>
-<message><source>R80 {radius} µm (of {percent:.0f} %)</source><translation>R80 {radius} µm (von {percent:.0f} %)</translation></message>
+<message><source>R80 {radius} µm (of {percent:.0f} % in view)</source><translation>R80 {radius} µm (von {percent:.0f} % im Bild)</translation></message>
 <message><source>R80: error ≤ {percent} % of R80, by a bound</source><translation>R80: Fehler ≤ {percent} % von R80, nach einer Schranke</translation></message>
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
