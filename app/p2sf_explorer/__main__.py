@@ -10,9 +10,10 @@ from collections.abc import Callable
 from p2sf.errors import P2SFError
 from p2sf.threads import one_blas_thread
 from p2sf.version import version_text
+from p2sf_explorer.compute.lens_files import is_file
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.desktop.registration import as_path, register, unregister
-from p2sf_explorer.files.opening import is_file, opened
+from p2sf_explorer.files.opening import opened
 from p2sf_explorer.scene3d import opengl_probe
 from p2sf_explorer.shell.display import display_problem
 from p2sf_explorer.state.link import is_link, state_of_link

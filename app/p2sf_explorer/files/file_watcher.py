@@ -6,7 +6,7 @@ from pathlib import Path
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 
 from p2sf.messages import Message
-from p2sf_explorer.files.opening import is_file, stamp
+from p2sf_explorer.compute.lens_files import is_file, stamp
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 

@@ -2,13 +2,12 @@
 
 import os
 from dataclasses import dataclass
-from functools import lru_cache
-from pathlib import Path
 
 from p2sf.errors import LensFileError, P2SFError
-from p2sf.lensfile.importing import Import, import_lens
+from p2sf.lensfile.importing import Import
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
+from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.files.embedded_state import foreign, state_inside
 from p2sf_explorer.state.state import State, changed
@@ -50,7 +49,7 @@ def opened(state: State, path: str) -> State:
     if reason:
         raise LensFileError(reason, path)
     fresh = with_lens(state, path)
-    return fresh if imported(path).report.format == OWN_FORMAT else changed(fresh, tab=REPORT_TAB)
+    return fresh if import_of(path).report.format == OWN_FORMAT else changed(fresh, tab=REPORT_TAB)
 
 
 def is_state(path: str) -> bool:
@@ -63,29 +62,10 @@ def is_state(path: str) -> bool:
     return head.lstrip().startswith(b"{") and SCHEMA.encode() in head
 
 
-def imported(path: str, accept_substitutes: bool = False) -> Import:
-    """Return a lens file's lens and report, read again when the file has changed; P2SFError."""
-    return _imported(path, stamp(path), accept_substitutes)
-
-
-@lru_cache(maxsize=16)
-def _imported(path: str, _stamp: tuple[int, int], accept_substitutes: bool) -> Import:
-    return import_lens(path, accept_substitutes)
-
-
-def stamp(path: str) -> tuple[int, int]:
-    """Return the modification time (ns) and the size of a file, which change with it; zeros where there is none."""
-    try:
-        found = os.stat(path)
-    except (OSError, ValueError):
-        return 0, 0
-    return found.st_mtime_ns, found.st_size
-
-
 def refusal(path: str, error: P2SFError) -> Refusal:
     """Return why a file is refused, and its lens with substitute glasses, if these would do."""
     try:
-        return Refusal(path, error.message, imported(os.path.abspath(path), True))
+        return Refusal(path, error.message, import_of(os.path.abspath(path), True))
     except P2SFError:
         return Refusal(path, error.message, None)
 
@@ -93,12 +73,4 @@ def refusal(path: str, error: P2SFError) -> Refusal:
 def with_substitutes(state: State, path: str) -> State:
     """Return the state with the lens of a file and its substitute glasses; the lens then counts as edited."""
     path = os.path.abspath(path)
-    return with_lens(state, path, lens_to_toml(imported(path, True).lens))
-
-
-def is_file(path: str) -> bool:
-    """Return whether there is such a file; False for a name that no file can have."""
-    try:
-        return Path(path).is_file()
-    except (OSError, ValueError):
-        return False
+    return with_lens(state, path, lens_to_toml(import_of(path, True).lens))

@@ -23,9 +23,9 @@ from p2sf.measure.points import window_of
 from p2sf.measure.reading import read_frame
 from p2sf.messages import Message, Number
 from p2sf.paraxial.pupils import f_number
+from p2sf_explorer.compute.lens_files import stamp
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.files.opening import stamp
 from p2sf_explorer.results.first_order import Row
 from p2sf_explorer.state.build_errors import with_error, without_piece
 from p2sf_explorer.state.scales import signed, significant

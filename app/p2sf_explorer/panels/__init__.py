@@ -64,82 +64,72 @@ class FilmedPanel(Panel, Protocol):
 
 @dataclass(frozen=True)
 class PanelEntry:
-    """One registered panel: ``panel`` is its module:class, ``view`` the module:function of its view, if it has one.
+    """One registered panel, of the group of `GROUPS` among whose tabs it stands.
 
-    ``handbook`` is the section of the theory it leads to, ``group`` the one of `GROUPS` among whose tabs it stands.
+    ``handbook`` is the section of the theory it leads to, ``panel`` its module:class in this folder, ``view`` the
+    module:function of its view in the explorer, if it has one.
     """
 
+    group: str
     key: str
     title: str
-    panel: str
     handbook: str
+    panel: str
     view: str = ""
-    group: str = "Tools"
 
 
 GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
-
-
-def tab(group: str, key: str, title: str, handbook: str, panel: str, view: str = "") -> PanelEntry:
-    """Return the entry of a tab; panel and view are module:name in their folders."""
-    own = view.startswith(("matrix.", "measuring.", "tolerancing."))
-    view = view and f"p2sf_explorer.{view if own else 'results.' + view}"
-    return PanelEntry(key, title, f"p2sf_explorer.panels.{panel}", handbook, view, group)
-
-
+tab = PanelEntry
 REGISTRY = (
-    PanelEntry("psf", "PSF", "p2sf_explorer.panels.psf:PsfPanel", "4.1", "p2sf_explorer.compute.finer:source", "PSF"),
-    tab("PSF", "profiles", "Profiles", "6.3", "profiles:ProfilesPanel", "profiles:profiles"),
-    tab("PSF", "mtf", "MTF", "6.3", "mtf:MtfPanel", "mtf:contrast"),
-    tab("PSF", "through_focus", "Through focus", "3.3", "through_focus:ThroughFocusPanel", "through_focus:strip"),
+    tab("PSF", "psf", "PSF", "4.1", "psf:PsfPanel", "compute.finer:source"),
+    tab("PSF", "profiles", "Profiles", "6.3", "profiles:ProfilesPanel", "results.profiles:profiles"),
+    tab("PSF", "mtf", "MTF", "6.3", "mtf:MtfPanel", "results.mtf:contrast"),
+    tab(
+        "PSF", "through_focus", "Through focus", "3.3", "through_focus:ThroughFocusPanel", "results.through_focus:strip"
+    ),
     tab("PSF", "matrix", "Matrix", "6.4", "matrix:MatrixPanel", "matrix.pictures:matrix"),
-    tab("PSF", "field_map", "Field map", "1.3", "field_map:FieldMapPanel", "field_map:field_map"),
-    tab("PSF", "beside", "Perfect lens", "9.2", "pixels:BesidePanel", "pixels:beside"),
-    tab("PSF", "colour", "Colour", "9.1", "colour:ColourPanel", "colour:question"),
-    tab("Rays", "spot", "Spot", "8.3", "spot:SpotPanel", "rays:spots"),
-    tab("Rays", "ray_fan", "Ray fan", "8.3", "fans:RayFanPanel", "rays:ray_errors"),
-    tab("Rays", "opd_fan", "OPD fan", "4.3", "fans:OpdFanPanel", "rays:path_errors"),
-    tab("Aberrations", "coefficients", "Coefficients", "3.2", "coefficients:CoefficientsPanel", "seidel:six"),
+    tab("PSF", "field_map", "Field map", "1.3", "field_map:FieldMapPanel", "results.field_map:field_map"),
+    tab("PSF", "beside", "Perfect lens", "9.2", "pixels:BesidePanel", "results.pixels:beside"),
+    tab("PSF", "colour", "Colour", "9.1", "colour:ColourPanel", "results.colour:question"),
+    tab("Rays", "spot", "Spot", "8.3", "spot:SpotPanel", "results.rays:spots"),
+    tab("Rays", "ray_fan", "Ray fan", "8.3", "fans:RayFanPanel", "results.rays:ray_errors"),
+    tab("Rays", "opd_fan", "OPD fan", "4.3", "fans:OpdFanPanel", "results.rays:path_errors"),
+    tab("Aberrations", "coefficients", "Coefficients", "3.2", "coefficients:CoefficientsPanel", "results.seidel:six"),
     tab("Aberrations", "pupil", "Pupil", "3.1", "pupil:PupilPanel"),
-    tab("Aberrations", "seidel", "Seidel per surface", "3.2", "seidel:SeidelPanel", "seidel:per_surface"),
-    tab("Aberrations", "zernike", "Zernike", "3.4", "zernike:ZernikePanel", "zernike:zernike"),
-    tab("Aberrations", "field", "Field curves", "8.3", "field:FieldPanel", "field:field_curves"),
-    tab("Aberrations", "chromatic", "Chromatic shift", "8.3", "chromatic:ChromaticPanel", "chromatic:chromatic"),
-    tab("Lens", "layout", "Layout", "2.2", "layout:LayoutPanel", "rays:lens_drawn"),
-    tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "lens_table:rows"),
-    tab("Lens", "misalign", "Misalign", "8.5", "misalign:MisalignPanel", "lens_table:misalignment"),
-    tab("Lens", "first_order", "First order", "2.1", "first_order:FirstOrderPanel", "first_order:first_order"),
+    tab("Aberrations", "seidel", "Seidel per surface", "3.2", "seidel:SeidelPanel", "results.seidel:per_surface"),
+    tab("Aberrations", "zernike", "Zernike", "3.4", "zernike:ZernikePanel", "results.zernike:zernike"),
+    tab("Aberrations", "field", "Field curves", "8.3", "field:FieldPanel", "results.field:field_curves"),
+    tab(
+        "Aberrations", "chromatic", "Chromatic shift", "8.3", "chromatic:ChromaticPanel", "results.chromatic:chromatic"
+    ),
+    tab("Lens", "layout", "Layout", "2.2", "layout:LayoutPanel", "results.rays:lens_drawn"),
+    tab("Lens", "lens", "Table", "1.1", "lens_table:LensTablePanel", "results.lens_table:rows"),
+    tab("Lens", "misalign", "Misalign", "8.5", "misalign:MisalignPanel", "results.lens_table:misalignment"),
+    tab("Lens", "first_order", "First order", "2.1", "first_order:FirstOrderPanel", "results.first_order:first_order"),
     tab("Lens", "curves", "Overlays", "6.5", "overlays:OverlaysPanel", "matrix.overlays:overlay"),
-    tab("Lens", "ybar", "y–ȳ", "8.4", "ybar:YBarPanel", "ybar:ybar"),
+    tab("Lens", "ybar", "y–ȳ", "8.4", "ybar:YBarPanel", "results.ybar:ybar"),
     tab(
         "Lens",
         "depth_of_field",
         "Depth of field",
         "10.3",
         "depth_of_field:DepthOfFieldPanel",
-        "depth_of_field:depth_of_field",
+        "results.depth_of_field:depth_of_field",
     ),
-    PanelEntry(
-        "solid",
-        "3D",
-        "p2sf_explorer.panels.solid:SolidPanel",
-        "8.1",
-        "p2sf_explorer.scene3d.scene:scene",
-        "Lens",
-    ),
-    tab("Tools", "image", "Image", "10.1", "image:ImagePanel", "image:question"),
+    tab("Lens", "solid", "3D", "8.1", "solid:SolidPanel", "scene3d.scene:scene"),
+    tab("Tools", "image", "Image", "10.1", "image:ImagePanel", "results.image:question"),
     tab("Tools", "measured", "Measured", "11.3", "measured:MeasuredPanel", "measuring.measurement:question"),
     tab("Tools", "tolerances", "Tolerances", "8.8", "tolerances:TolerancesPanel", "tolerancing.analysis:question"),
-    tab("Tools", "database", "Database", "7.1", "database:DatabasePanel", "database:question"),
+    tab("Tools", "database", "Database", "7.1", "database:DatabasePanel", "results.database:question"),
     tab("Tools", "accuracy", "Accuracy", "6.1", "accuracy:AccuracyPanel"),
-    tab("Tools", "import", "Import", "1.1", "import_report:ImportReportPanel", "import_report:report"),
+    tab("Tools", "import", "Import", "1.1", "import_report:ImportReportPanel", "results.import_report:report"),
 )
 
 
 def build(entry: PanelEntry, store: Store) -> Panel:
     """Return a new panel of a registry entry, whose store does not put values of B into A."""
     own = PanelStore(store)
-    made: Panel = _named(entry.panel)(own)
+    made: Panel = _named(f"panels.{entry.panel}")(own)
     own.setParent(made.widget)
     return made
 
@@ -152,4 +142,4 @@ def view_of(entry: PanelEntry) -> ResultFunction | None:
 
 def _named(path: str) -> Any:
     module, name = path.split(":")
-    return getattr(import_module(module), name)
+    return getattr(import_module(f"p2sf_explorer.{module}"), name)

@@ -6,8 +6,8 @@ from p2sf.errors import P2SFError
 from p2sf.lensfile.library import lenses_folder, shipped_lenses
 from p2sf.lensfile.report import TITLES, ImportReport
 from p2sf.messages import Message
+from p2sf_explorer.compute.lens_files import import_of, is_file
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.files.opening import imported, is_file
 
 REFUSED = Message("refused")
 
@@ -34,7 +34,7 @@ def report(live: Live) -> Report:
         away = Message("{path} is not on this computer; the saved state carries the lens itself", path=path)
         return Report(heading, away, ())
     try:
-        as_filed = described(heading, imported(path).report)
+        as_filed = described(heading, import_of(path).report)
     except P2SFError as error:
         as_filed = refused(heading, path, error.message)
     if state.optics.lens_text is None:
@@ -59,7 +59,7 @@ def refused(heading: str, path: str, reason: Message) -> Report:
     """Return the report on a file that is refused; with consent to substitutes, what they would be."""
     groups = ((REFUSED, (without_path(reason),)),)
     try:
-        accepted = described(heading, imported(path, True).report)
+        accepted = described(heading, import_of(path, True).report)
     except P2SFError:
         return Report(heading, Message("{path}", path=path), groups)
     consented = ((Message("with consent: {title}", title=title), notes) for title, notes in accepted.groups)

@@ -9,8 +9,8 @@ from p2sf.lens.lens import Lens
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number, find_stop
 from p2sf_explorer.compute.layout import Drawing, drawing
+from p2sf_explorer.compute.lens_files import stamp
 from p2sf_explorer.compute.setup import load, prescription, title
-from p2sf_explorer.files.opening import stamp
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State, new_state
 

@@ -18,8 +18,8 @@ from PySide6.QtWidgets import QWidget
 from p2sf.io.photo_files import READABLE
 from p2sf.measure.reading import ENDINGS
 from p2sf.messages import Message
+from p2sf_explorer.compute.lens_files import is_file
 from p2sf_explorer.files.embedded_state import text_inside
-from p2sf_explorer.files.opening import is_file
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.link import is_link
 

@@ -13,9 +13,9 @@ from PySide6.QtWidgets import QFileDialog
 
 from p2sf.lensfile.library import lenses_folder
 from p2sf.messages import Style
+from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.files import recent
-from p2sf_explorer.files.opening import imported
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
@@ -62,7 +62,7 @@ def test_a_report_is_in_german_where_the_window_is():
     known = texts("de")
     german = Style(translate=lambda text: known.get(text, text))
     for path in (*(FILES / name for name in FOREIGN), lenses_folder() / "tessar.toml"):
-        for title, sentences in described("", imported(str(path)).report).groups:
+        for title, sentences in described("", import_of(str(path)).report).groups:
             for english in (title, *sentences):
                 assert english.text(german) != str(english), english
                 assert not {"the", "of", "is", "are", "as", "on"} & set(english.text(german).split()), english
