@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import argument, checked, number_list, real_array
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.errors import ExportError, P2SFWarning, RequestError
+from p2sf.errors import ExportError, P2SFWarning
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message, ParameterName
+from p2sf.messages import Message
 from p2sf.notebook import html_table
 from p2sf.parameters import check_angle, check_finite
 from p2sf.paraxial.seidel import Coefficients
@@ -654,25 +654,15 @@ def build_database(
     >>> database.psf(p2sf.Source(3000, field_deg=5, wavelength_nm=500)).method
     'fitted'
     """
-    from p2sf.database.accuracy import build_by
+    from p2sf.database.accuracy import build_by, check_kind
     from p2sf.database.space import Space
     from p2sf.database_files import Stored, provenance, save_database
 
     if path is not None:
         _check_database_path(path)
-    if method == "fitted" and interpolant != "exact":
-        raise RequestError(
-            "{parameter} is {value}, which is for {method} seidel; leave it out",
-            parameter="interpolant",
-            value=interpolant,
-            method=ParameterName("method"),
-        )
+    check_kind(method, interpolant, fields_x_deg is not None)
     fields = _slopes("fields_deg", fields_deg)
     fields_x = None if fields_x_deg is None else _slopes("fields_x_deg", fields_x_deg)
-    if fields_x is not None and method not in ("auto", "fitted"):
-        raise RequestError(
-            "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
-        )
     request = Request(focus_mm=focus_mm, sensor_shift_um=sensor_shift_um, f_number=f_number, stop=stop, aim=aim)
     setup = set_up(lens, request)
     depths, waves = real_array("depths_mm", depths_mm), real_array("wavelengths_nm", wavelengths_nm)

@@ -14,7 +14,7 @@ from p2sf.cli.options import Json, LensName, Threads, Whole, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space
-from p2sf.database.accuracy import DatabaseAccuracy, accuracy, build_by
+from p2sf.database.accuracy import DatabaseAccuracy, accuracy, build_by, check_kind
 from p2sf.database.render import Database, Sampling
 from p2sf.database_files import load_database, provenance, save_database
 from p2sf.database_files.place import is_stack, place_of, size_bytes
@@ -24,6 +24,7 @@ from p2sf.files.writing import check_place, plain
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
+from p2sf.psf.methods import by_six
 from p2sf.request import AimChoice, Request, StopChoice, set_up
 from p2sf.spans import check_ascending, depths, numbers
 from p2sf.threads import using_threads
@@ -123,13 +124,7 @@ class DatabaseKind:
 
     def __post_init__(self) -> None:
         check_samples(self.pixels, self.pixel_um)
-        if self.method == "fitted" and self.interpolant != "exact":
-            raise RequestError(
-                "{parameter} is {value}, which is for {method} seidel; leave it out",
-                parameter="interpolant",
-                value=self.interpolant,
-                method=ParameterName("method"),
-            )
+        check_kind(self.method, self.interpolant, False)
 
 
 @app.command
@@ -150,10 +145,7 @@ def build(
     _check_ending(output, ".zarr" if kind.stack else ".npz")
     found = find_lens(lens)
     setup = set_up(found, Request(**vars(camera)))
-    if nodes.fields_x_deg and kind.method == "seidel":
-        raise RequestError(
-            "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
-        )
+    check_kind(kind.method, kind.interpolant, bool(nodes.fields_x_deg))
     start = perf_counter()
     database = build_by(setup.lens, space_of(nodes, found, kind.method), kind.method, kind.interpolant, setup.stop)
     seconds = perf_counter() - start
@@ -193,7 +185,7 @@ def space_of(nodes: Nodes, lens: Lens, method: str) -> Space:
     check_ascending(distances, nodes.depths_mm, "depths_mm")
     widest = max((1.0, *lens.fields_deg))
     usual, usual_x = f"0:{widest!r}:21", nodes.fields_x_deg
-    if usual_x or (lens.misaligned and method != "seidel" and nodes.fields_deg is None):
+    if usual_x or (lens.misaligned and not by_six(method) and nodes.fields_deg is None):
         half = float(degrees_from_slope(slope_from_degrees(widest) / np.sqrt(2)))
         usual = f"{-half!r}:{half!r}:{RECTANGLE_NODES}"
         usual_x = usual_x or usual

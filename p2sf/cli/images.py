@@ -20,6 +20,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
+from p2sf.psf.methods import AUTO, by_six
 from p2sf.psf.prediction import CAUTION, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf
 from p2sf.request import Request, Setup, set_up
@@ -102,7 +103,7 @@ class Picture:
                 parameter="tolerance",
                 value=self.tolerance,
             )
-        if self.sampling and self.method not in (None, "seidel"):
+        if self.sampling and self.method and not by_six(self.method):
             raise RequestError(
                 "{parameter} is {value}, which samples Seidel coefficients and not {method} {name}; "
                 "leave one of the two out",
@@ -128,7 +129,7 @@ class Picture:
     @property
     def seidel(self) -> bool:
         """Return whether the six coefficients are asked for."""
-        return self.method == "seidel" or self.sampling is not None
+        return by_six(self.method or AUTO) or self.sampling is not None
 
 
 USUAL = Picture()
@@ -172,7 +173,7 @@ def psf(
 def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path | None, as_json: bool) -> None:
     check_output(output, ENDINGS)
     if is_database(lens):
-        if picture.sampling or picture.method not in (None, "auto"):
+        if picture.sampling or (picture.method or AUTO) != AUTO:
             raise RequestError(
                 "{parameter} and {sampling} need the lens, and {path} is a database; leave them out",
                 parameter="method",
@@ -229,7 +230,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
 
     Where pixels are wider than λ/(4 NA) it is the light that each receives.
     """
-    method = picture.method or "auto"
+    method = picture.method or AUTO
     if picture.seidel:
         return _from_coefficients(setup, picture)
     from p2sf.psf.pixel_integrals import render_integrated
@@ -344,7 +345,7 @@ def summary(
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),
         ("traced rays", result.rays, ""),
-        *([("exact rays fill", FILLED[aim], "")] if result.method != "seidel" else []),
+        *([("exact rays fill", FILLED[aim], "")] if not by_six(result.method) else []),
         ("time", 1e3 * result.seconds, "ms"),
     ]
     return rows if output is None else [*rows, ("written to", str(output), "")]

@@ -26,15 +26,16 @@ from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import without_coefficients
-from p2sf.psf.methods import seidel_error
+from p2sf.psf.methods import AUTO, FITTED, SEIDEL, by_six, seidel_error
 from p2sf.psf.prediction import CAUTION, USELESS, predicted_error
 from p2sf.raytrace.fit import behind, judging_rays
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
-METHODS = ("auto", "seidel", "fitted")
+METHODS = (AUTO, SEIDEL.name, FITTED.name)
 TOLERANCE = 0.99  # least R² at which "auto" keeps six coefficients, as of `psf.methods.render`
 POINTS = 32  # between the corners of a space
+EXACT = "exact"  # the interpolant that a database has unless another is asked for
 
 
 @dataclass(frozen=True)
@@ -94,8 +95,9 @@ class DatabaseAccuracy:
         """Return a warning where 1 − R² may exceed CAUTION, None where it does not."""
         if self.worst <= CAUTION:
             return None
-        narrower = Message("narrow the depths, the fields or the wavelengths")
-        fitted = Message("{parameter} fitted keeps more of them", parameter=ParameterName("method"))
+        narrower = remedy = Message("narrow the depths, the fields or the wavelengths")
+        if by_six(self.method):
+            remedy = Message("{parameter} fitted keeps more of them", parameter=ParameterName("method"))
         if isinf(self.worst):
             return Message(
                 "rays are lost {where}, and neither six coefficients nor fits describe that; {remedy}",
@@ -109,7 +111,7 @@ class DatabaseAccuracy:
                 "{remedy}",
                 where=self.where,
                 median=self.usual,
-                remedy=fitted if self.method == "seidel" else narrower,
+                remedy=remedy,
             )
         return Message(
             "PSFs of this database are predicted to differ from those of exact rays by 1 − R² up to {worst:.1e} "
@@ -117,7 +119,7 @@ class DatabaseAccuracy:
             worst=self.worst,
             where=self.where,
             median=self.median,
-            remedy=fitted if self.method == "seidel" else narrower,
+            remedy=remedy,
         )
 
 
@@ -168,6 +170,28 @@ def _error(database: Database, lens: Lens, source: Source) -> float:
     return seidel_error(lens, source, six)
 
 
+def check_kind(method: str, interpolant: str, rectangle: bool) -> None:
+    """Raise RequestError for a method that makes no database of this interpolant, or over a rectangle of fields."""
+    if method not in METHODS:
+        raise RequestError(
+            '{parameter} is "{value}"; choose {choices}',
+            parameter="method",
+            value=method,
+            choices=Alternatives(METHODS),
+        )
+    if method != AUTO and not by_six(method) and interpolant != EXACT:
+        raise RequestError(
+            "{parameter} is {value}, which is for {method} seidel; leave it out",
+            parameter="interpolant",
+            value=interpolant,
+            method=ParameterName("method"),
+        )
+    if by_six(method) and rectangle:
+        raise RequestError(
+            "{parameter} is for {method} fitted; leave it out", parameter="fields_x_deg", method=ParameterName("method")
+        )
+
+
 def build_by(
     lens: Lens, space: Space, method: str = "auto", interpolant: str = "exact", stop: Stop | None = None
 ) -> Database:
@@ -177,20 +201,14 @@ def build_by(
     for, which only they have; otherwise fits, unless these cannot be built or are no better. Raises RequestError for
     another method, and P2SFError as the builds do.
     """
-    if method not in METHODS:
-        raise RequestError(
-            '{parameter} is "{value}"; choose {choices}',
-            parameter="method",
-            value=method,
-            choices=Alternatives(METHODS),
-        )
-    if method == "fitted":
-        return build_fitted(lens, space, stop)
+    check_kind(method, interpolant, space.field_x_slopes is not None)
+    if method != AUTO:
+        return build_database(lens, space, interpolant, stop) if by_six(method) else build_fitted(lens, space, stop)
     refused = lens.misaligned or space.field_x_slopes is not None
-    if method == "auto" and (refused or (interpolant == "exact" and without_coefficients(lens))):
+    if refused or (interpolant == EXACT and without_coefficients(lens)):
         return build_fitted(lens, space, stop)
     six = build_database(lens, space, interpolant, stop)
-    if method == "seidel" or interpolant != "exact" or accuracy(six, lens).worst <= 1 - TOLERANCE:
+    if interpolant != EXACT or accuracy(six, lens).worst <= 1 - TOLERANCE:
         return six
     try:
         fits = build_fitted(lens, space, stop)

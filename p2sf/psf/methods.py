@@ -16,8 +16,10 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, without_coefficients
+from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
+from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
@@ -30,6 +32,8 @@ from p2sf.psf.seidel import (
     seidel_psf,
     suitable_pixel_um,
 )
+from p2sf.psf.seidel_stack import LARGEST_NODES
+from p2sf.psf.traced import MOST_NODES as MOST_TRACED
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
@@ -53,6 +57,7 @@ AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
 PITCH_RINGS = 8  # of rays, to see how far light reaches
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
+TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
 
 
 @dataclass(frozen=True)
@@ -77,7 +82,10 @@ class Choice:
     @property
     def reason(self) -> Message:
         """Return why this method was chosen, as a sentence."""
-        return REASONS[self.method](self)
+        reason = method_of(self.method).reason
+        if reason is None:
+            raise ValueError(f"{self.method} is never chosen")
+        return reason(self)
 
     @property
     def against_a_fit(self) -> Message:
@@ -95,32 +103,56 @@ class Choice:
         )
 
 
+Cancelled = Callable[[], bool]
+
+
 @dataclass(frozen=True)
 class PsfRequest:
-    """What a method is asked for; ``numbers``: of a fit, as many as ``tolerance`` asks for where None."""
+    """What a method is asked for: everything a PSF depends on; ``window`` is (samples a side, µm between samples).
+
+    ``numbers``: of a fit, as many as ``tolerance`` asks for where None. ``converged``: whether the reference adds rays
+    until two sums agree, or sums once. ``six``: coefficients in place of the lens's own, which
+    ``by_hand`` are altered so that no ray judges them.
+    """
 
     lens: Lens
     source: Source
+    method: str
     window: tuple[int, float]
     quality: str = "settled"
     tolerance: float = 0.99
     clip: bool = False
     numbers: int | None = None
+    converged: bool = True
+    six: Coefficients | None = None
+    by_hand: bool = False
+
+
+def _most_by_six(mask: PupilMask) -> float:
+    """Return the most nodes of six coefficients: in rows over a quarter of the pupil where nothing stands in it."""
+    return 2 * LARGEST_NODES if mask.clear else MOST_FITTED / 2
 
 
 @dataclass(frozen=True)
 class Method:
     """A way to describe the pupil of a lens for a source, and to make a PSF from it.
 
-    ``psf``: returns the PSF. ``previewed``: whether it has a "preview" that costs less. ``whole``: whether it describes
-    the whole pupil, and knows no rims that clip it. ``pupil``: whether figures of the pupil can be had of it.
+    ``psf``: returns the PSF, and may poll whether it is cancelled. ``reason``: why `choose` takes it, None where it
+    never does. ``six``: whether six coefficients describe the pupil, and no rays. ``previewed``: whether it has a
+    "preview" that costs less. ``whole``: whether it describes the whole pupil, and knows no rims that clip it.
+    ``pupil``: whether figures of the pupil can be had of it. ``node_seconds``: of a node of a settled sum on one core,
+    the peak included, and ``most_nodes``: behind a mask, the mirror half of a pupil not counted.
     """
 
     name: str
-    psf: Callable[[PsfRequest], Psf]
+    psf: Callable[[PsfRequest, Cancelled | None], Psf]
+    reason: Callable[[Choice], Message] | None
+    six: bool = False
     previewed: bool = False
     whole: bool = False
     pupil: bool = True
+    node_seconds: float = TABLE_SECONDS
+    most_nodes: Callable[[PupilMask], float] = lambda mask: MOST_FITTED / 2
 
 
 def residual_for(tolerance: float) -> float:
@@ -228,11 +260,11 @@ def render(
     _check_tolerance(tolerance)
     if pixel_um is None:
         pixel_um = whole_pixel_um(lens, source, pixels)
-    asked = PsfRequest(lens, source, (pixels, pixel_um), quality, tolerance, clip)
+    asked = PsfRequest(lens, source, method, (pixels, pixel_um), quality, tolerance, clip)
     if method != AUTO:
-        return _psf_by(method_of(method), asked)
+        return psf_of(asked)
     choice = choose(lens, source, tolerance, clip)
-    return _psf_by(method_of(choice.method), replace(asked, numbers=choice.numbers))
+    return psf_of(replace(asked, method=choice.method, numbers=choice.numbers))
 
 
 def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
@@ -256,17 +288,30 @@ def method_of(name: str) -> Method:
     return found
 
 
-def _psf_by(method: Method, asked: PsfRequest) -> Psf:
+def by_six(name: str) -> bool:
+    """Return whether six coefficients make the PSF of what is asked for by this name, whatever ``auto`` may choose."""
+    return any(method.six for method in METHODS if method.name == name)
+
+
+def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
+    """Return the PSF of a request. ``cancelled`` is polled between blocks of rays and ends the work with `Cancelled`.
+
+    Raises P2SFError's kinds.
+    """
+    method = method_of(asked.method)
     if asked.clip and method.whole:
         check_unclipped(asked.lens, asked.source, method.name)
-    return method.psf(asked)
+    return method.psf(asked, cancelled)
 
 
-def _by_six(asked: PsfRequest) -> Psf:
-    lens, source = asked.lens, asked.source
-    check_seidel(lens)
-    c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
+    lens, source, c = asked.lens, asked.source, asked.six
+    if c is None:
+        check_seidel(lens)
+        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     psf = seidel_psf(c, *asked.window, asked.quality, mask=mask_seen(lens, source))
+    if asked.by_hand:
+        return psf
     psf = replace(psf, predicted_error=seidel_error(lens, source, c))
     straight = Message(
         "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
@@ -274,19 +319,24 @@ def _by_six(asked: PsfRequest) -> Psf:
     return replace(psf, sampling=straight) if lens.misaligned else psf
 
 
-def _by_fit(asked: PsfRequest) -> Psf:
+def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     started = perf_counter()
     found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.tolerance))
     return psf_of_fit(found, asked.source.wavelength_um, asked.window, asked.quality, started)
 
 
-def _by_traced_rays(asked: PsfRequest) -> Psf:
-    return traced_psf(asked.lens, asked.source, *asked.window, asked.quality, asked.clip)
+def _by_traced_rays(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
+    return traced_psf(asked.lens, asked.source, *asked.window, asked.quality, asked.clip, cancelled)
 
 
-def _by_huygens(asked: PsfRequest) -> Psf:
-    tolerance = SETTLED_TOLERANCE if asked.quality == "settled" else None
-    return huygens_psf(asked.lens, asked.source, *asked.window, tolerance, clip=asked.clip, quality=asked.quality)
+def _by_huygens(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
+    tolerance = SETTLED_TOLERANCE if asked.quality == "settled" and asked.converged else None
+    window, clip, quality = asked.window, asked.clip, asked.quality
+    return huygens_psf(asked.lens, asked.source, *window, tolerance, cancelled=cancelled, clip=clip, quality=quality)
+
+
+def _by_gaussian(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
+    return gaussian_psf(_by_huygens(asked, cancelled))
 
 
 def check_unclipped(lens: Lens, source: Source, method: str) -> None:
@@ -332,20 +382,14 @@ def _nothing_else_suffices(choice: Choice) -> Message:
     return Message("the reference itself, since {because}", because=choice.against_a_fit)
 
 
-METHODS = (
-    Method("gaussian", lambda asked: gaussian_psf(_by_huygens(asked)), pupil=False),
-    Method("seidel", _by_six, previewed=True, whole=True),
-    Method("fitted", _by_fit, previewed=True, whole=True),
-    Method("traced", _by_traced_rays, previewed=True),
-    Method("huygens", _by_huygens),
+SEIDEL = Method("seidel", _by_six, _six_suffice, six=True, previewed=True, whole=True, most_nodes=_most_by_six)
+FITTED = Method("fitted", _by_fit, _a_fit_suffices, previewed=True, whole=True)
+TRACED = Method("traced", _by_traced_rays, _rays_suffice, previewed=True, most_nodes=lambda mask: MOST_TRACED)
+HUYGENS = Method(
+    "huygens", _by_huygens, _nothing_else_suffices, node_seconds=RAY_SECONDS, most_nodes=lambda mask: MOST_RAYS
 )
+GAUSSIAN = replace(HUYGENS, name="gaussian", psf=_by_gaussian, reason=None, pupil=False)
+METHODS = (GAUSSIAN, SEIDEL, FITTED, TRACED, HUYGENS)
 """From the cheapest description to the reference."""
 NAMES = tuple(method.name for method in METHODS)
 REFERENCE = NAMES[-1]
-REASONS = {
-    "seidel": _six_suffice,
-    "fitted": _a_fit_suffices,
-    "traced": _rays_suffice,
-    "huygens": _nothing_else_suffices,
-}
-"""Why `choose` takes each method that it takes."""

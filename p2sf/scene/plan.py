@@ -12,6 +12,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.seidel import without_coefficients
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
 from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.psf.methods import by_six
 from p2sf.scene.bounds import check_blur, check_colours
 from p2sf.scene.cost import Cost, predicted_cost
 from p2sf.scene.field_area import Point
@@ -145,7 +146,7 @@ def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> P
     vergences, depth = _depths(study, budget)
     colours, colour = _colours(study, budget)
     table = study.table
-    if table and recipe.method == "seidel":
+    if table and by_six(recipe.method):
         table = seidel_table(study, table)
     decisions = (method, sampled, field, depth, *colour, _pupils(study))
     errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)

@@ -16,6 +16,7 @@ from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.metrics.window import radius_of_energy
+from p2sf.psf.methods import REFERENCE
 from p2sf.psf.result import Psf
 from p2sf.representations.coefficients import coefficient_representations
 from p2sf.representations.fits import fitted_representations
@@ -184,7 +185,7 @@ def _singles(space: LensSpace, exact: ExactPsfs, quick: bool) -> Iterator[tuple[
         truth = truth_of(point, exact.at(point).astype(float))
         made = point_representations(space, exact, point)
         field = float(degrees_from_slope(point.field_slope[0]))
-        yield field, tuple(measured(one, truth) for one in made if one.family != "huygens")
+        yield field, tuple(measured(one, truth) for one in made if one.family != REFERENCE)
 
 
 def truth_of(points: SpacePoints, pictures: np.ndarray) -> Truth:

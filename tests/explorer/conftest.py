@@ -8,8 +8,8 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from p2sf.psf import methods
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.compute import deferred_sums
 from p2sf_explorer.panels import image
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
@@ -57,7 +57,7 @@ def known_answers():
         return known[asked]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(deferred_sums, "by_coefficients", lru_cache(maxsize=100)(deferred_sums.by_coefficients))
+        patch.setattr(methods, "seidel_psf", lru_cache(maxsize=100)(methods.seidel_psf))
         patch.setattr(analysis, "BUILDS", FEW_BUILDS)
         patch.setattr(analysis.Analyst, "answer", answer)
         yield

@@ -64,10 +64,17 @@ def _names(tree: ast.AST) -> Iterator[ast.Attribute | ast.Name]:
 def method_comparisons(path: Path, tree: ast.Module) -> Iterator[Place]:
     """Yield the comparisons with the name of a method, and the cases of match statements."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Compare) and _constants(node) & METHODS:
+        if isinstance(node, ast.Compare) and _asks_for_method(node):
             yield path, node.lineno, ast.unparse(node)
         elif isinstance(node, ast.match_case) and _constants(node.pattern) & METHODS:
             yield path, node.pattern.lineno, ast.unparse(node.pattern)
+
+
+def _asks_for_method(node: ast.Compare) -> bool:
+    """Return whether a comparison has a method's name; "auto" alone may be a stop or a size left to the program."""
+    found = _constants(node) & METHODS
+    about = {n.attr if isinstance(n, ast.Attribute) else n.id for n in _names(node)}
+    return bool(found - {"auto"}) or (bool(found) and any("method" in name for name in about))
 
 
 def _constants(tree: ast.AST) -> set[str]:

@@ -9,9 +9,10 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
+from p2sf.psf.methods import PsfRequest
 from p2sf_explorer.compare.differences import WHY, subtracted
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
+from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
 from p2sf_explorer.compute.pupil import WavefrontMap, disc, pupil_map
@@ -45,7 +46,7 @@ class Answers:
     seen: Live
 
     @property
-    def pending(self) -> SumRequest | None:
+    def pending(self) -> PsfRequest | None:
         """Return the sum of waves that A's picture stands in for, else B's."""
         return self.a.pending or (self.b.pending if self.b else None)
 
@@ -78,7 +79,7 @@ def answers(
     )
     b = _b(other, conditions, prescription(other))
     if larger(window_of(b), window_of(a)):
-        a = compute.live(state, quality, {}, a.method if state.optics.method == "auto" else "", window_of(b), cache)
+        a = compute.live(state, quality, {}, a.method if state.optics.automatic else "", window_of(b), cache)
     return Answers(a, b, seen(state, a, b, views, begun))
 
 
@@ -101,7 +102,7 @@ def _b(state: State, conditions: _Conditions, lens: Lens) -> Live:
 
 def kept_method(last: Live | None, state: State) -> str:
     """Return the method that ``auto`` had chosen in the last answer, if the state still leaves it to ``auto``."""
-    return last.method if last and state.optics.method == "auto" and not last.setup.altered else ""
+    return last.method if last and state.optics.automatic and not last.setup.altered else ""
 
 
 def window_of(live: Live) -> Least:

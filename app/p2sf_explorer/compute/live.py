@@ -8,8 +8,9 @@ from typing import Any
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
+from p2sf.psf.methods import PsfRequest
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.deferred_sums import SumCache, SumRequest
+from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.method import ALONE, Least, Rendered, rendered
 from p2sf_explorer.compute.pupil import WavefrontMap, dominant, pupil_of
@@ -44,8 +45,8 @@ class Live:
     views: Mapping[str, Any] = field(default_factory=dict)
     side: str = ""
     sides: tuple[State, ...] = ()
-    pending: SumRequest | None = None
-    request: SumRequest | None = None
+    pending: PsfRequest | None = None
+    request: PsfRequest | None = None
     finest: int = 0
     refused: Message | None = None
     difference: Any = None

@@ -3,15 +3,16 @@
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import floor, log10
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.messages import Message, Number
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients, without_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
+from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
 from p2sf.psf.geometric import geometric_psf, main_reach_um
+from p2sf.psf.methods import FITTED, SEIDEL, TRACED, PsfRequest, by_six, choose, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS, check_focus, check_image
 from p2sf.psf.smooth_pupil import all_reach
@@ -19,18 +20,7 @@ from p2sf.pupil.mask import PupilMask, mask_slopes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf_explorer.compute.deferred_sums import (
-    SumCache,
-    SumRequest,
-    by_rays,
-    coefficient_nodes,
-    fit_node_count,
-    impossible,
-    most_samples,
-    seconds,
-    slow,
-    sum_request,
-)
+from p2sf_explorer.compute.deferred_sums import SumCache, most_samples, psf_request, slow
 from p2sf_explorer.compute.preview import (
     FAR,
     Preview,
@@ -50,9 +40,6 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
-
-if TYPE_CHECKING:
-    from p2sf.psf.methods import Choice
 
 Window = tuple[int, float]
 """Samples on a side, µm per sample."""
@@ -86,8 +73,8 @@ class Rendered:
     exact: bool
     method: str
     pupil: WavefrontMap | None = None
-    pending: SumRequest | None = None
-    request: SumRequest | None = None
+    pending: PsfRequest | None = None
+    request: PsfRequest | None = None
     finest: int = 0
     refused: Message | None = None
 
@@ -110,7 +97,7 @@ class Task:
     @property
     def exact(self) -> bool:
         """Return whether exact rays make the picture."""
-        return self.method != "seidel"
+        return not by_six(self.method)
 
     @property
     def six(self) -> Coefficients | None:
@@ -136,7 +123,7 @@ class Task:
     def extent(self) -> "Extent":
         """Return how far the light reaches on the sensor."""
         if not self.exact:
-            return extent(self.setup, "seidel")
+            return extent_of_six(self.setup)
         return extent_of(self.setup, self.traced.rays if self.traced else edge_pencil(self.setup))
 
     @cached_property
@@ -157,7 +144,7 @@ class Task:
     def finest(self, width: float) -> int:
         """Return the most samples a side that a picture so wide is made with in some seconds."""
         window = SIZES[-1], width / SIZES[-1]
-        request = sum_request(self.state, self.setup, self.method, window)
+        request = psf_request(self.state, self.setup, self.method, window)
         return most_samples(request, self.fitted if self.exact else None)
 
     @property
@@ -196,14 +183,14 @@ def rendered(
     """
     check_focus(setup.coefficients)
     if setup.altered:
-        method = "seidel"
+        method = SEIDEL.name
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
         method, why = (kept_method, NO_REASON) if kept_method else chosen(state, setup)
-    refused = without_coefficients(setup.lens) if method == "seidel" and not state.what_if.free_pupil else None
+    refused = without_coefficients(setup.lens) if by_six(method) and not state.what_if.free_pupil else None
     if refused:
-        method = "traced"  # for the pupil; the picture itself is covered
-    elif method == "seidel":
+        method = TRACED.name  # for the pupil; the picture itself is covered
+    elif by_six(method):
         check_image(setup.coefficients)
     task = Task(state, setup, method, why, least, cache)
     picture = moving(task, quality) if quality == "preview" else resting(task)
@@ -212,17 +199,17 @@ def rendered(
 
 def resting(task: Task) -> Rendered:
     """Return the settled picture; its stand-in while it is pending, or where it failed, is too large or too coarse."""
-    window, own = task.window("settled"), task.state.optics.method != "auto" or task.setup.altered
-    request = sum_request(task.state, task.setup, task.method, window)
+    window, own = task.window("settled"), not task.state.optics.automatic or task.setup.altered
+    request = psf_request(task.state, task.setup, task.method, window)
     fitted = task.fitted if task.exact else None
-    samples = impossible(request, fitted)
+    samples = nodes_beyond(request, fitted)
     if samples and own and task.least[1] <= task.own_width_um:
         refused = too_many(task, samples)
         return replace(blurred(task, window), why=refused, refused=refused)
     if samples or task.coarse:
         return blurred(task, window)
     if task.cache is None or not slow(request, fitted):
-        return summed(task, by_rays(request), request)
+        return summed(task, psf_of(request), request)
     result = task.cache.get(request)
     if isinstance(result, Psf):
         return summed(task, result, request)
@@ -233,7 +220,7 @@ def resting(task: Task) -> Rendered:
     return replace(stand_in, why=soon, pending=request)
 
 
-def summed(task: Task, psf: Psf, request: SumRequest) -> Rendered:
+def summed(task: Task, psf: Psf, request: PsfRequest) -> Rendered:
     """Return the settled picture that a sum made."""
     finest = task.finest(request.window[0] * request.window[1])
     return Rendered(psf, task.why, task.exact, task.method, request=request, finest=finest)
@@ -262,15 +249,21 @@ def moving(task: Task, quality: str) -> Rendered:
     pupil = preview_pupil(traced) if traced and quality == "preview" else None
     if task.coarse or (traced and not quickly(task, window)):
         return replace(blurred(task, window, quality), pupil=pupil)
-    why = NO_REASON
-    if task.method != "fitted":
-        why = Message("fitted while the slider moves, {method} when it rests", method=task.method)
     if traced:
-        return Rendered(preview_psf(traced, *window, task.fitted), why, True, task.method, pupil)
+        psf = preview_psf(traced, *window, task.fitted)
+        return Rendered(psf, instead(task, psf), True, task.method, pupil)
     if task.cache is None:
-        waited = sum_request(task.state, task.setup, "traced", window)
-        return Rendered(by_rays(waited, "preview"), NO_REASON, True, task.method)
-    return replace(rimmed(task, window, quality), why=why)
+        waited = replace(psf_request(task.state, task.setup, TRACED.name, window), quality="preview")
+        return Rendered(psf_of(waited), NO_REASON, True, task.method)
+    found = rimmed(task, window, quality)
+    return replace(found, why=instead(task, found.psf))
+
+
+def instead(task: Task, psf: Psf) -> Message:
+    """Return that a quicker method than the one in use made a picture that moves; empty where it is that one."""
+    if psf.method == task.method:
+        return NO_REASON
+    return Message("{quicker} while the slider moves, {method} when it rests", quicker=psf.method, method=task.method)
 
 
 def moving_coefficients(task: Task, window: Window, quality: str) -> Rendered:
@@ -286,7 +279,7 @@ def steep_coefficients(task: Task, window: Window, mask: PupilMask) -> bool:
     c = task.setup.coefficients
     if float(steepest_slope(c)) + corner_waves(task, window) > STEEPEST_IN_ALL:
         return True
-    return not mask.clear and seconds("seidel", coefficient_nodes(c, window, mask), window[0]) > QUICK_SECONDS
+    return not mask.clear and seconds(SEIDEL, coefficient_node_count(c, window, mask), window[0]) > QUICK_SECONDS
 
 
 def too_coarse(task: Task, window: Window) -> bool:
@@ -310,10 +303,10 @@ def quickly(task: Task, window: Window) -> bool:
     """
     if task.first_fit is None:
         return False
-    if seconds("fitted", fit_node_count(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
+    if seconds(FITTED, fit_node_count(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
         return False
     if task.fitted.error_waves > FAR:
-        few = seconds("traced", fit_node_count(task.fitted, window), window[0]) < QUICK_SECONDS
+        few = seconds(TRACED, fit_node_count(task.fitted, window), window[0]) < QUICK_SECONDS
         return few and all_reach(task.setup.lens, task.setup.source)
     return True
 
@@ -343,10 +336,8 @@ def density_reason(psf: Psf) -> Message:
     )
 
 
-def extent(setup: ParaxialSetup, method: str) -> Extent:
-    """Return how far light reaches: by the six coefficients' slope for seidel, else by exact rays at the rim."""
-    if method != "seidel":
-        return extent_of(setup, edge_pencil(setup))
+def extent_of_six(setup: ParaxialSetup) -> Extent:
+    """Return how far light reaches by the slope of the six coefficients."""
     cycles = float(setup.coefficients.na) / setup.source.wavelength_um
     slope = float(steepest_slope(setup.coefficients)) + mask_slope(setup)
     return Extent(slope / cycles, AIRY_RADIUS / cycles)
@@ -385,9 +376,9 @@ def round_width_um(reach_um: float, airy_um: float) -> float:
     return nice(2 * (reach_um + ROOM * airy_um), WINDOWS)
 
 
-def window_um(setup: ParaxialSetup, method: str, clip: bool = False) -> float:
-    """Return the width of the window that a method asks for, µm."""
-    return width_um(setup, method != "seidel", extent(setup, method), clip)
+def window_um(setup: ParaxialSetup, clip: bool = False) -> float:
+    """Return the width of the window that exact rays ask for, µm."""
+    return width_um(setup, True, extent_of(setup, edge_pencil(setup)), clip)
 
 
 def edge_pencil(setup: ParaxialSetup) -> Rays:
@@ -397,43 +388,10 @@ def edge_pencil(setup: ParaxialSetup) -> Rays:
 
 def chosen(state: State, setup: ParaxialSetup) -> tuple[str, Message]:
     """Return the method in use and why: a person's choice needs no reason."""
-    if state.optics.method != "auto":
+    if not state.optics.automatic:
         return state.optics.method, NO_REASON
-    from p2sf.psf.methods import choose
-
     choice = choose(setup.lens, setup.source, state.optics.tolerance, state.optics.clip)
-    return choice.method, reason(choice, state.optics.tolerance)
-
-
-def reason(choice: "Choice", tolerance: float) -> Message:
-    """Return why ``auto`` took this method for a least R²."""
-    r_squared = Number(at_least(1 - choice.predicted_error))
-    if choice.method == "seidel":
-        return Message("seidel: six coefficients are enough, predicted R² ≥ {r_squared}", r_squared=r_squared)
-    if choice.method == "fitted":
-        return Message(
-            "fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients "
-            "would miss {tolerance:g}",
-            numbers=choice.numbers,
-            rays=choice.tried_rays,
-            r_squared=r_squared,
-            tolerance=tolerance,
-        )
-    if choice.lost_rays:
-        return Message(
-            "{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil "
-            "does not describe that",
-            method=choice.method,
-            r_squared=r_squared,
-            lost=choice.lost_rays,
-            count=choice.tried_rays,
-        )
-    return Message(
-        "{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}",
-        method=choice.method,
-        r_squared=r_squared,
-        tolerance=tolerance,
-    )
+    return choice.method, Message("{method}: {reason}", method=choice.method, reason=choice.reason)
 
 
 def at_least(r_squared: float) -> str:

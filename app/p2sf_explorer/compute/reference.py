@@ -52,7 +52,7 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
     """Return the accuracy of an answer, or of ``every_method`` beside it. Raises P2SFError, Cancelled among them."""
     if live.setup.altered:
         raise SamplingError(NO_REFERENCE)
-    window = PIXELS["settled"], window_um(live.setup, "huygens", live.state.optics.clip) / PIXELS["settled"]
+    window = PIXELS["settled"], window_um(live.setup, live.state.optics.clip) / PIXELS["settled"]
     if live.psf.method == "geometric" or reference_nodes(live, window) > MOST_NODES:
         raise SamplingError("the blur is too large for a reference here; {remedy}", remedy=remedy(live.setup))
     share = 0.5 if every_method else 1.0

@@ -1,8 +1,11 @@
 """Small PSFs of the present setup with something changed, for panels that show many of them."""
 
+from dataclasses import replace
+
 from p2sf.psf.geometric import geometric_psf
+from p2sf.psf.methods import FITTED, SEIDEL, TRACED, by_six, psf_of
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.deferred_sums import by_rays, sum_request
+from p2sf_explorer.compute.deferred_sums import psf_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import ALONE, NO_REASON, Task, too_coarse
 from p2sf_explorer.compute.preview import preview, preview_of_coefficients, preview_psf
@@ -22,7 +25,7 @@ def optics(state: State) -> State:
 
 def by_coefficients(live: Live) -> bool:
     """Return whether the present point is shown by the six coefficients."""
-    return live.method == "seidel" or live.setup.altered
+    return by_six(live.method) or live.setup.altered
 
 
 def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
@@ -32,7 +35,7 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     P2SFError's kinds where there is no PSF.
     """
     setup = paraxial_setup(state)
-    task = Task(state, setup, "seidel" if six or setup.altered else "fitted", NO_REASON, ALONE, None)
+    task = Task(state, setup, (SEIDEL if six or setup.altered else FITTED).name, NO_REASON, ALONE, None)
     if too_coarse(task, window):
         return geometric_psf(setup.lens, setup.source, window, "preview", state.optics.clip, task.six)
     if not task.exact:
@@ -40,4 +43,4 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     traced = preview(setup, True) if state.optics.clip else task.traced
     if traced:
         return preview_psf(traced, *window, task.fitted)
-    return by_rays(sum_request(state, setup, "traced", window), "preview")
+    return psf_of(replace(psf_request(state, setup, TRACED.name, window), quality="preview"))

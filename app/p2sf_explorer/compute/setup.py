@@ -18,6 +18,7 @@ from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
 from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
+from p2sf.psf.methods import by_six
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.request import Request, Setup, set_up, with_field
 from p2sf.tolerance.errors_of_build import MOVES, source_of_build
@@ -72,7 +73,7 @@ def everywhere_by_coefficients(state: State, setup: ParaxialSetup) -> bool:
 
     What ``auto`` chooses holds for the present point only, not for other fields and sensor positions.
     """
-    return state.optics.method == "seidel" or setup.altered
+    return by_six(state.optics.method) or setup.altered
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ from math import inf, pi, sqrt
 import numpy as np
 
 from p2sf.errors import P2SFError
-from p2sf.psf.methods import METHODS
+from p2sf.psf.cost import nodes_beyond
+from p2sf.psf.methods import METHODS, psf_of
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.deferred_sums import by_rays, impossible, slow, sum_request
+from p2sf_explorer.compute.deferred_sums import psf_request, slow
 from p2sf_explorer.compute.method import ALONE, NO_REASON, Task
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State, changed
@@ -75,11 +76,11 @@ def _cost(state: State) -> PredictedCost:
     try:
         setup = paraxial_setup(state)
         task = Task(state, setup, method, NO_REASON, ALONE, None)
-        request = sum_request(state, setup, method, task.window("settled"))
+        request = psf_request(state, setup, method, task.window("settled"))
         fitted = task.fitted if task.exact else None
-        if impossible(request, fitted) or slow(request, fitted):
+        if nodes_beyond(request, fitted) or slow(request, fitted):
             return PredictedCost(method, inf, inf)
-        psfs = [by_rays(request) for _ in range(REPEATS)]
+        psfs = [psf_of(request) for _ in range(REPEATS)]
     except P2SFError:  # this method has no picture here
         return PredictedCost(method, inf, inf)
     error = psfs[-1].predicted_error

@@ -47,7 +47,7 @@ class ExactnessButton(QPushButton):
 
     def show_state(self, state: State) -> None:
         """Follow a state: the error that auto may make; of a method that a person chose the help tells."""
-        auto = state.optics.method == "auto"
+        auto = state.optics.automatic
         asked = local(f"R² ≥ {state.optics.tolerance:g}" if auto else state.optics.method)
         if asked != self._asked:
             self._asked = asked
@@ -270,7 +270,7 @@ def dot_of(curve: TradeCurve, measure: str) -> TradeDot:
     """Return a method of the complete trade as a dot of the chart."""
     errors, first = curve.errors(measure), curve.family not in ("fitted 46", "fitted adaptive")
     name = curve.family if first else ""
-    token = TOKENS[curve.method]
+    token = TOKENS.get(curve.method, "text")
     return TradeDot(curve.milliseconds, errors.median, errors.most, token, name or curve.family, curve.settings, first)
 
 

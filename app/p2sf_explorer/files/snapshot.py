@@ -10,9 +10,9 @@ from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe, versions
+from p2sf.psf.methods import psf_of
 from p2sf.psf.pixel_integrals import critical_pixel_um, fine_side, integrated, samples_across
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.deferred_sums import by_rays
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import request_setup
 from p2sf_explorer.files.embedded_state import with_state
@@ -68,7 +68,7 @@ def light_of(live: Live) -> Psf:
     if across == 1 or fine_side(pixels, across) > live.finest:
         return psf
     light = integrated(
-        lambda count, pitch: by_rays(replace(request, window=(count, pitch))), pixels, psf.pixel_um, finest
+        lambda count, pitch: psf_of(replace(request, window=(count, pitch))), pixels, psf.pixel_um, finest
     )
     return replace(light, azimuth_deg=psf.azimuth_deg)
 

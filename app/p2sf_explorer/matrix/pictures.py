@@ -15,13 +15,15 @@ from p2sf.messages import Message, Number
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.metrics.window import radius_of_energy
 from p2sf.paraxial.seidel import check_seidel
+from p2sf.psf.cost import nodes_beyond
 from p2sf.psf.geometric import geometric_psf
+from p2sf.psf.methods import SEIDEL, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import Fan, Rays, pencil
 from p2sf.raytrace.spot import Spot
-from p2sf_explorer.compute.deferred_sums import by_rays, impossible, sum_request
+from p2sf_explorer.compute.deferred_sums import psf_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest
 from p2sf_explorer.compute.method import (
@@ -283,14 +285,14 @@ def _moving_psf(place: MatrixPoint, task: Task, width_um: float) -> MatrixTile:
 
 def _resting_psf(place: MatrixPoint, width_um: float, stopped: Callable[[], bool]) -> MatrixTile:
     """Return the PSF by the method that was chosen; the density of rays where that would need too many samples."""
-    method = "seidel" if place.setup.altered else chosen(place.state, place.setup)[0]
+    method = SEIDEL.name if place.setup.altered else chosen(place.state, place.setup)[0]
     task = _task(place, method)
     count = SAMPLES[2 * task.own_width_um * AIRY_RADIUS / task.extent.airy_um > SAMPLES[0]]
     window = count, width_um / count
-    request = sum_request(place.state, place.setup, method, window)
-    if too_coarse(task, window) or impossible(request, task.fitted if task.exact else None):
+    request = psf_request(place.state, place.setup, method, window)
+    if too_coarse(task, window) or nodes_beyond(request, task.fitted if task.exact else None):
         return _light(place, _density(task, window, "settled"), settled=True)
-    return _light(place, by_rays(request, cancelled=stopped), settled=True)
+    return _light(place, psf_of(request, stopped), settled=True)
 
 
 def _density(task: Task, window: Window, quality: str) -> Psf:

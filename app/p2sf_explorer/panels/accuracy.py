@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QLabel
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf.psf.methods import REFERENCE
 from p2sf.studies.complete_trade import Row
 from p2sf.studies.trade_fronts import batch_us, error, front, group_of, nbytes
 from p2sf_explorer.charts.axes import decades
@@ -261,7 +262,7 @@ def common_limit(delta: np.ndarray) -> float:
 
 def method_words(method: MethodResult) -> str:
     """Return a method's name and R²; the reference has no R² against itself."""
-    return method.method if method.method == "huygens" else f"{method.method}  R² {written_r_squared(method.r_squared)}"
+    return method.method if method.method == REFERENCE else f"{method.method}  R² {written_r_squared(method.r_squared)}"
 
 
 def with_margin(values: list[float], length_px: float) -> tuple[float, float]:

@@ -4,13 +4,13 @@ import numpy as np
 from PySide6.QtCore import QTimer
 
 from p2sf.messages import Message
+from p2sf.psf.methods import PsfRequest
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf_explorer.charts.brightness import SCALES, UNITS
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.deferred_sums import SumRequest
 from p2sf_explorer.compute.finer import SettledSum, answer, finer
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
@@ -57,7 +57,7 @@ class PsfPanel:
         self._framed, self._airy = (0.0, False), 0.0
         self._times: dict[str, str] = {}
         self._live: Live | None = None
-        self._finer: tuple[SumRequest, Psf] | None = None
+        self._finer: tuple[PsfRequest, Psf] | None = None
         self.asking = Asking(self.widget, answer, self._take, lambda text: None)
         self._settled = QTimer(self.widget, singleShot=True, interval=RESIZED_MS)
         self._settled.timeout.connect(self._on_resized)
@@ -80,12 +80,12 @@ class PsfPanel:
         elif not known:
             self.asking.ask(wanted)
 
-    def _wanted(self, live: Live) -> SumRequest | None:
+    def _wanted(self, live: Live) -> PsfRequest | None:
         """Return the sum with a sample for each pixel of the panel; None where the picture is as fine as that."""
         found = None if live.difference else live.views.get("psf")
         return finer(found, self.map.device_pixels) if isinstance(found, SettledSum) else None
 
-    def _take(self, request: SumRequest, psf: Psf) -> str:
+    def _take(self, request: PsfRequest, psf: Psf) -> str:
         """Show a finer picture if it is that of the present answer."""
         if self._live and request == self._wanted(self._live):
             self._finer = request, psf

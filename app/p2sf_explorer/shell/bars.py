@@ -65,7 +65,7 @@ class TopBar(QFrame):
         self.edited = QLabel(tr("edited"), self)
         self.edited.setObjectName("badge")
         self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
-        self.method = described({name: METHOD_WORDS[name] for name in CHOICES["method"]}, METHOD_TIP, self)
+        self.method = described({name: METHOD_WORDS.get(name, name) for name in CHOICES["method"]}, METHOD_TIP, self)
         self.tolerance = ExactnessButton(store, self)
         self.method.setObjectName("")
         self.named = QLabel(tr("Method"), self)

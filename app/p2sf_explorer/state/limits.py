@@ -4,6 +4,7 @@ from math import inf
 
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
+from p2sf.psf.methods import AUTO, METHODS
 from p2sf.pupil.mask import LARGEST_OBSCURATION, MOST_BLADES, MOST_POWER, MOST_VANES, NARROWEST_APODISATION, WIDEST_VANE
 from p2sf.pupil.zernike_terms import ORDERS
 from p2sf.tolerance.criteria import CRITERIA
@@ -13,7 +14,7 @@ from p2sf_explorer.state.terms import TERMS
 CHOICES = {
     "stop": ("file", "auto"),
     "aim": AIMS,
-    "method": ("auto", "seidel", "fitted", "traced", "huygens"),
+    "method": (AUTO, *(method.name for method in METHODS if method.pupil)),
     "psf_scale": ("linear", "sqrt", "log"),
     "psf_units": ("sum", "peak", "strehl"),
     "phase": ("waves", "contour", "surface", "wrapped"),

@@ -15,6 +15,7 @@ from p2sf.errors import P2SFError, RequestError
 from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Alternatives, Message
 from p2sf.parameters import FARTHER
+from p2sf.psf.methods import AUTO
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.tolerance.criteria import Criterion
@@ -134,7 +135,7 @@ class Optics:
     stop: str = "file"
     aim: str = USUAL_AIM
     clip: bool = False
-    method: str = "auto"
+    method: str = AUTO
     tolerance: float = 0.99
     obscuration: float | None = None
     vanes: int | None = None
@@ -159,6 +160,11 @@ class Optics:
             raise P2SFError(
                 "the state's edited lens is not text; leave lens_text out to take the lens as its file has it"
             )
+
+    @property
+    def automatic(self) -> bool:
+        """Return whether the method is left to ``auto``."""
+        return self.method == AUTO
 
     @property
     def mask(self) -> dict[str, Any]:

@@ -19,7 +19,7 @@ def moving(lens, **changes):
     """Return what moves, its window, and the exact picture in it."""
     setup = paraxial_setup(changed(default_state(lens), aim="paraxial", **changes))  # 26 numbers and more, no weights
     made = quick.preview(setup)
-    window = PIXELS, window_um(setup, "fitted") / PIXELS
+    window = PIXELS, window_um(setup) / PIXELS
     return made, window, render(setup.lens, setup.source, "traced", *window).values
 
 

@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
-import p2sf_explorer.compute.deferred_sums as wavesums
 import p2sf_explorer.workers.deferred as deferred
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
+from p2sf.psf import methods
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
-from p2sf_explorer.compute.deferred_sums import AT_ONCE_SECONDS, KEPT, NODE_SECONDS, SumCache, SumRequest
+from p2sf.psf.methods import METHODS, PsfRequest
+from p2sf_explorer.compute.deferred_sums import AT_ONCE_SECONDS, KEPT, SumCache
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.pinning import optics
@@ -45,7 +46,7 @@ def noted(patch, gate: Event | None = None):
 
     with patch.context() as inner:
         for name in ("huygens_psf", "traced_psf"):
-            inner.setattr(wavesums, name, call)
+            inner.setattr(methods, name, call)
         yield found
 
 
@@ -97,7 +98,7 @@ def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeyp
     def fail(pending, cancelled):
         raise GeometryError("no ray passes; stop down.")
 
-    monkeypatch.setattr(deferred, "by_rays", fail)
+    monkeypatch.setattr(deferred, "psf_of", fail)
     window.store.replace(WIDE)
     with qtbot.waitSignal(window.deferred.worker.failed):
         assert window.live.pending
@@ -125,7 +126,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
         return replace(ready, method="huygens", pixel_um=pending.window[1])
 
     said = []
-    monkeypatch.setattr(deferred, "by_rays", stoppable)
+    monkeypatch.setattr(deferred, "psf_of", stoppable)
     monkeypatch.setattr(window, "refuse", said.append)
     window.store.replace(WIDE)
     window.store.update(field_deg=13.0)
@@ -145,26 +146,26 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
         values = np.full((pending.window[0],) * 2, pending.window[0] ** -2.0, np.float32)
         return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
-    monkeypatch.setattr(deferred, "by_rays", counted)
+    monkeypatch.setattr(deferred, "psf_of", counted)
     window.store.replace(changed(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
     qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending))
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 
-@pytest.mark.parametrize("method", NODE_SECONDS)
+@pytest.mark.parametrize("method", [method for method in METHODS if method.pupil], ids=lambda method: method.name)
 def test_what_is_summed_at_once_is_small(method):
     """The estimate of nodes before any is traced keeps what it promises, to a factor of 2 in a corner's slope."""
     for name in ("fast_gauss_f14", "telephoto", "landscape"):
         for shift in (0.0, 100.0, 300.0, 900.0):
-            state = changed(with_lens(State(), name), method=method, sensor_shift_um=shift)
+            state = changed(with_lens(State(), name), method=method.name, sensor_shift_um=shift)
             answer = live(state, cache=SumCache())
-            assert answer.pending or answer.psf.rays * NODE_SECONDS[method] <= 2 * AT_ONCE_SECONDS
+            assert answer.pending or answer.psf.rays * method.node_seconds <= 2 * AT_ONCE_SECONDS
 
 
 def test_the_latest_sums_are_kept_and_no_more():
     cache, psf = SumCache(), live(new_state(method="seidel"), "preview").psf
-    asks = [SumRequest(None, None, "traced", (8, float(number)), 0.99, False) for number in range(KEPT + 2)]
+    asks = [PsfRequest(None, None, "traced", (8, float(number))) for number in range(KEPT + 2)]
     for each in asks:
         cache.keep(each, psf)
     assert [each for each in asks if cache.get(each)] == asks[2:]

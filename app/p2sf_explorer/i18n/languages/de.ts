@@ -1244,9 +1244,7 @@
 <message><source>fitted 46</source><translation>fitted 46</translation></message>
 <message><source>fitted adaptive</source><translation>fitted adaptiv</translation></message>
 <message><source>fitted numbers</source><translation>angepasste Zahlen</translation></message>
-<message><source>fitted while the slider moves, {method} when it rests</source><translation>fitted, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>fitted: polynomial from real rays</source><translation>fitted: Polynom aus wahren Strahlen</translation></message>
-<message><source>fitted: {numbers} numbers from {rays} rays, predicted R² ≥ {r_squared}; the six Seidel coefficients would miss {tolerance:g}</source><translation>fitted: {numbers} Zahlen aus {rays} Strahlen, vorhergesagt R² ≥ {r_squared}; die sechs Seidel-Koeffizienten verfehlten {tolerance:g}</translation></message>
 <message><source>focus</source><translation>Fokus</translation></message>
 <message><source>focus behind the sensor, mm</source><translation>Fokus hinter dem Sensor, mm</translation></message>
 <message><source>focus distance</source><translation>Fokusabstand</translation></message>
@@ -1599,7 +1597,6 @@
 <message><source>seidel</source><translation>seidel</translation></message>
 <message><source>seidel from the six coefficients (what-if: coefficients altered by hand)</source><translation>seidel aus den sechs Koeffizienten (Was wäre wenn: von Hand geändert)</translation></message>
 <message><source>seidel: six coefficients</source><translation>seidel: sechs Koeffizienten</translation></message>
-<message><source>seidel: six coefficients are enough, predicted R² ≥ {r_squared}</source><translation>seidel: sechs Koeffizienten genügen, vorhergesagt R² ≥ {r_squared}</translation></message>
 <message><source>semi-diameter</source><translation>Halbmesser</translation></message>
 <message><source>semicolons</source><translation>Semikolons</translation></message>
 <message><source>sensor</source><translation>Sensor</translation></message>
@@ -2155,8 +2152,6 @@
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
 <message><source>{method}, by waves of the pupil; the picture is the density of its rays</source><translation>{method}, durch Wellen der Pupille; das Bild ist die Dichte ihrer Strahlen</translation></message>
 <message><source>{method}, {count} numbers</source><translation>{method}, {count} Zahlen</translation></message>
-<message><source>{method}: exact rays, predicted R² ≥ {r_squared}; a smooth fit would miss {tolerance:g}</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; eine glatte Anpassung verfehlte {tolerance:g}</translation></message>
-<message><source>{method}: exact rays, predicted R² ≥ {r_squared}; {lost} of {count} rays are lost, and a smooth pupil does not describe that</source><translation>{method}: exakte Strahlen, vorhergesagt R² ≥ {r_squared}; {lost} von {count} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
 <message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, its unit, the distance, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei, ihre Einheit und die Entfernung prüfen, und ob sie die dieses Bildes ist</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
@@ -2329,6 +2324,7 @@
 <message><source>{quantity} differ between columns and are those of the nearest, {near}</source><translation>{quantity} sind in den Spalten verschieden und sind die der nächsten, {near}</translation></message>
 <message><source>{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}</source><translation>{quantity} ist {value}{unit}; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
 <message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
+<message><source>{quicker} while the slider moves, {method} when it rests</source><translation>{quicker}, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2</source><translation>{radial} Radien × {angular} Richtungen; mindestens 1 Radius und eine gerade Anzahl ≥ 2 angeben</translation></message>
 <message><source>{radii} radii × {directions} directions</source><translation>{radii} Radien × {directions} Richtungen</translation></message>
 <message><source>{rounds} rounds of Richardson–Lucy; give at least 1</source><translation>{rounds} Runden Richardson–Lucy; mindestens 1 angeben</translation></message>
