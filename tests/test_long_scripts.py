@@ -27,9 +27,18 @@ def test_what_cannot_be_compared_is_infinitely_far(other):
 def test_the_worst_state_and_what_one_version_refuses_are_named():
     before = {("PSF", "a"): {"x": np.array(1.0)}, ("PSF", "b"): {"x": np.array(1.0)}, ("MTF", "c"): "too wide"}
     now = {("PSF", "a"): {"x": np.array(1.0)}, ("PSF", "b"): {"x": np.array(1.1)}, ("MTF", "c"): {"y": np.array(1.0)}}
-    table, refusals = golden.compared(now, before)
-    assert table["PSF"] == [2, 2, pytest.approx(0.1 / 1.1), "b: x"]
+    table, deliberate, refusals = golden.compared(now, before)
+    assert table["PSF"] == golden.Row(2, 2, 1, pytest.approx(0.1 / 1.1), "b: x") and not deliberate
     assert len(refusals) == 1 and "MTF, c" in refusals[0]
+
+
+def test_what_differs_on_purpose_stands_apart(monkeypatch):
+    monkeypatch.setattr(golden, "DELIBERATE", {("PSF", "x"): "better"})
+    before = {("PSF fitted", "a"): {"x": np.array(1.0), "y": np.array(1.0)}}
+    now = {("PSF fitted", "a"): {"x": np.array(1.5), "y": np.array(1.5)}}
+    table, deliberate, _ = golden.compared(now, before)
+    assert table["PSF fitted"].where == "a: y" and deliberate["better"].where == "PSF fitted, a: x"
+    assert table["PSF fitted"].figures == deliberate["better"].figures == 1
 
 
 def test_a_state_gives_figures():

@@ -1,9 +1,10 @@
 """Figures of an earlier version beside this one's: ``python -m tests.long.golden OTHER_CHECKOUT [--quick]``.
 
 Some three thousand states: lenses × fields × depths × methods × masks × clipped rims × tilts × zooms, as PSFs, MTF,
-energy, Zernike terms, coefficients, databases, tolerances, plans, pictures and measurements. Each version computes them
-in a process of its own, through public functions and the command line, so that the modules behind these may move.
-Printed per kind: how many figures there are, the worst difference and where; then what only one version refuses.
+energy, Zernike terms, coefficients, kernels in pictures, databases, tolerances, plans and measurements. Each version
+computes them in a process of its own, through public functions and the command line, so that the modules behind these
+may move. Printed per kind: how many figures there are, how many differ by more than rounding, the worst difference and
+where; then what differs on purpose (`DELIBERATE`), and what only one version refuses.
 
 A picture differs by its largest difference over its peak, a number by the difference over the larger of the two or, if
 that is larger, over the unit below which a difference means nothing (`FLOORS`).
@@ -19,6 +20,7 @@ import tempfile
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
 from functools import partial
 from io import StringIO
 from itertools import product
@@ -43,9 +45,15 @@ MASKS = {
     "turned blades": {"blades": 5, "roundness": 0.4, "blade_angle_deg": 11.0},
     "Gaussian": {"apodisation": 0.8},
     "cubic": {"cubic_um": 1.5},
+    "decentred": {"obscuration": 0.25, "obscuration_x": 0.2, "obscuration_y": -0.3},
 }
 FLOORS = {"waves": 1e-3, "um": 1e-3, "deg": 1e-3}  # the least size against which a difference is judged, by ending
-IGNORED = {"seconds", "file", "versions", "cpu_seconds", "peak_bytes"}
+ROUNDING = 1e-12  # of the larger figure, or of a picture's peak
+IGNORED = {
+    *("seconds", "file", "versions", "cpu_seconds", "peak_bytes", "kernel_seconds", "picture_seconds", "memory_bytes"),
+    *("scene", "why"),  # a path, and sentences
+}
+DELIBERATE: dict[tuple[str, str], str] = {}  # (how the kind begins, how the figure ends): why it is not as it was
 State = tuple[str, str, Callable[[], Any]]  # kind, name, and what computes its figures
 
 
@@ -61,8 +69,10 @@ def states() -> Iterator[State]:
         yield from _masked(name, lenses[name])
         yield from _misaligned(name, lenses[name])
         yield from _commands(name, lenses[name])
+        yield from _freeform(name, lenses[name])
     for name in FEW[:4]:
         yield from _databases(name, lenses[name])
+        yield "measurement", name, partial(_measurement, name, lenses[name])
         yield from _pictures(name, lenses[name])
     yield from _zooms(lenses)
     yield from _arrays()
@@ -126,16 +136,8 @@ def _masked(name: str, lens: Any) -> Iterator[State]:
 def _misaligned(name: str, lens: Any) -> Iterator[State]:
     """Yield figures of lenses with an element tilted, one decentred, and the sensor tilted."""
     import p2sf
-    from p2sf.lens.misalignment import displaced, with_tilted_sensor
-    from p2sf.lens.placement import Placement
 
-    last = len(lens.surfaces)
-    built = {
-        "decentred": displaced(lens, 1, 2, Placement(decentre_x=0.02, decentre_y=-0.03)),
-        "tilted": displaced(lens, last - 1, last, Placement(tilt_x_deg=0.2, tilt_y_deg=-0.1)),
-        "sensor": with_tilted_sensor(lens, Placement(tilt_x_deg=0.5)),
-    }
-    field = 0.7 * max(lens.fields_deg)
+    built, field = _built(lens), 0.7 * max(lens.fields_deg)
     angles = {"axis": 0.0, "y": field, "xy": (field / 2, -field / 3)}
     for (what, skew), (place, angle) in product(built.items(), angles.items()):
         where, source = f"{name} {what} {place}", p2sf.Source(field_deg=angle)
@@ -145,6 +147,53 @@ def _misaligned(name: str, lens: Any) -> Iterator[State]:
         yield "MTF misaligned", where, partial(_mtf, skew, source, "traced")
         yield "energy misaligned", where, partial(_energy, skew, source, "fitted")
         yield "Zernike misaligned", where, partial(_zernike, skew, source)
+    for (what, skew), mask in product(built.items(), ("vanes", "decentred")):
+        masked, source = p2sf.with_mask(skew, p2sf.PupilMask(**MASKS[mask])), p2sf.Source(field_deg=angles["xy"])
+        where = f"{name} {what} {mask}"
+        for method in METHODS[1:]:
+            yield f"PSF {method} misaligned masked", where, partial(_psf, masked, source, method)
+        yield "PSF clipped misaligned masked", where, partial(_psf, masked, source, "traced", clip=True)
+        yield "MTF misaligned masked", where, partial(_mtf, masked, source, "traced")
+        yield "energy misaligned masked", where, partial(_energy, masked, source, "fitted")
+
+
+def _built(lens: Any) -> dict[str, Any]:
+    """Return a lens with its first element decentred, its last tilted, and its sensor tilted."""
+    from p2sf.lens import Placement
+    from p2sf.lens.misalignment import displaced, with_tilted_sensor
+
+    last = len(lens.surfaces)
+    return {
+        "decentred": displaced(lens, 1, 2, Placement(decentre_x=0.02, decentre_y=-0.03)),
+        "tilted": displaced(lens, last - 1, last, Placement(tilt_x_deg=0.2, tilt_y_deg=-0.1)),
+        "sensor": with_tilted_sensor(lens, Placement(tilt_x_deg=0.5)),
+    }
+
+
+def _freeform(name: str, lens: Any) -> Iterator[State]:
+    """Yield figures of lenses with a polynomial or Zernike terms on a surface, and with one that is shaded."""
+    from dataclasses import replace
+
+    import p2sf
+    from p2sf.lens import Transmission, XYPolynomial, ZernikeFringeSag
+
+    radius = lens.surfaces[0].semi_diameter or 10.0
+    parts: dict[str, dict[str, Any]] = {
+        "XY": {"shape": XYPolynomial((0.0, 0.0, 2e-4, -1e-4, 3e-4, 1e-4, -2e-4), radius)},
+        "Zernike": {"shape": ZernikeFringeSag((0.0, 0.0, 0.0, 0.0, 2e-4, -1e-4, 1e-4, 2e-4), radius)},
+        "shaded": {"transmission": Transmission(0.9, -0.5 / radius**2)},
+    }
+    for what, part in parts.items():
+        if "shape" in part and lens.surfaces[0].shape is not None:
+            continue
+        changed = replace(lens, surfaces=(replace(lens.surfaces[0], **part), *lens.surfaces[1:]))
+        for share in (0.0, 0.7):
+            where, source = f"{name} {what} {share}", p2sf.Source(field_deg=share * max(lens.fields_deg))
+            for method in METHODS[1:]:
+                yield f"PSF {method} freeform", where, partial(_psf, changed, source, method)
+            yield "MTF freeform", where, partial(_mtf, changed, source, "traced")
+            yield "energy freeform", where, partial(_energy, changed, source, "fitted")
+            yield "Zernike freeform", where, partial(_zernike, changed, source)
 
 
 def _commands(name: str, lens: Any) -> Iterator[State]:
@@ -188,13 +237,48 @@ def _pictures(name: str, lens: Any) -> Iterator[State]:
     """Yield plans, and pictures of a few points, which are the kernels themselves."""
     for tolerance, number in product((0.2, 0.05), (8, 11)):
         yield "pictures", f"{name} f/{number} {tolerance}", partial(_picture, name, lens, tolerance, number)
+        yield "plans", f"{name} f/{number} {tolerance}", partial(_plan, name, lens, tolerance, number)
+    for what, skew in _built(lens).items():
+        yield "pictures misaligned", f"{name} {what}", partial(_picture, name, skew, 0.1, 8)
+
+
+def _pixel_um(name: str, lens: Any) -> float:
+    """Return the pitch of pixels of which 60 reach from the middle to the end of the field."""
+    wide = 1000 * abs(_focal(name)) * np.tan(np.deg2rad(max(lens.fields_deg)))  # µm
+    return float(f"{wide / 60:.3g}")
+
+
+def _plan(name: str, lens: Any, tolerance: float, f_number: float) -> dict[str, Any]:
+    with tempfile.TemporaryDirectory() as folder:
+        scene = Path(folder) / "scene.toml"
+        sensor = f"[sensor]\nrows = 24\ncolumns = 36\npixel_um = {_pixel_um(name, lens)}\n"
+        scene.write_text(f"tolerance = {tolerance}\nf_number = {f_number}\n{sensor}", encoding="utf-8")
+        return _command("plan", name, str(scene))
+
+
+def _measurement(name: str, lens: Any) -> dict[str, Any]:
+    """Return what is measured in a picture of points whose sensor stands 20 µm too far."""
+    import p2sf
+
+    side, half, pitch, focal = 121, 12, 3.45, abs(_focal(name))
+    picture = np.random.default_rng(1).normal(50, 2, (side, side))
+    for row, column in product((-36, 0, 36), repeat=2):  # up the sensor rows run down
+        angle = tuple(float(np.degrees(np.arctan(n * pitch / 1000 / focal))) for n in (column, -row))
+        source = p2sf.Source(field_deg=(angle[0] or 0.0, angle[1]))
+        spot = p2sf.render(lens, source, "fitted", pixels=2 * half + 1, pixel_um=pitch, f_number=8, sensor_shift_um=20)
+        place = tuple(slice(side // 2 + n - half, side // 2 + n + half + 1) for n in (row, column))
+        picture[place] += 1000 * spot.values[::-1] / spot.values.max()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "points.npy"
+        np.save(file, picture)
+        flags = ("--lens", name, "--pixel-um", str(pitch), "--f-number", "8", "--unknowns", "sensor_shift_um")
+        return _command("measure", str(file), *flags)
 
 
 def _picture(name: str, lens: Any, tolerance: float, f_number: float) -> dict[str, Any]:
     import p2sf
 
-    wide = 1000 * abs(_focal(name)) * np.tan(np.deg2rad(max(lens.fields_deg)))  # µm, half the field
-    sensor = p2sf.Sensor(rows=24, columns=36, pixel_um=float(f"{wide / 60:.3g}"))
+    sensor = p2sf.Sensor(rows=24, columns=36, pixel_um=_pixel_um(name, lens))
     planned = p2sf.plan(lens, p2sf.Scene(sensor, tolerance=tolerance, f_number=f_number))
     points = np.zeros((24, 36, 3))
     points[4::8, 4::8] = 1
@@ -349,26 +433,50 @@ def difference(name: str, one: Any, other: Any) -> float:
     return 0.0 if type(one) is type(other) and one == other else inf
 
 
-def compared(now: dict[Any, Any], before: dict[Any, Any]) -> tuple[dict[str, list[Any]], list[str]]:
-    """Return per kind the number of figures, the worst difference and its place, and lines on refusals."""
-    table: dict[str, list[Any]] = {}
+@dataclass
+class Row:
+    """What became of one kind: states, figures, how many differ by more than rounding, the worst and where."""
+
+    states: int = 0
+    figures: int = 0
+    differing: int = 0
+    worst: float = 0.0
+    where: str = ""
+
+    def add(self, apart: float, where: str) -> None:
+        self.figures += 1
+        self.differing += apart > ROUNDING
+        if apart > self.worst:
+            self.worst, self.where = apart, where
+
+
+def compared(now: dict[Any, Any], before: dict[Any, Any]) -> tuple[dict[str, Row], dict[str, Row], list[str]]:
+    """Return a row for every kind, one for every deliberate change by its reason, and lines on refusals."""
+    table: dict[str, Row] = {}
+    deliberate: dict[str, Row] = {}
     refusals = []
     for key in sorted(now.keys() | before.keys()):
         kind, state = key
         ours, theirs = now.get(key), before.get(key)
-        row = table.setdefault(kind, [0, 0, -1.0, ""])
-        row[0] += 1
+        row = table.setdefault(kind, Row())
+        row.states += 1
         if not isinstance(ours, dict) or not isinstance(theirs, dict):
             if isinstance(ours, dict) != isinstance(theirs, dict):
                 said = theirs if isinstance(ours, dict) else ours
                 refusals.append(f"{kind}, {state}: {'no longer' if isinstance(ours, dict) else 'now'} refused: {said}")
             continue
-        row[1] += len(ours)
         for name in sorted(ours.keys() | theirs.keys()):
             apart = difference(name, ours.get(name), theirs.get(name))
-            if apart > row[2]:
-                row[2:] = apart, f"{state}: {name}"
-    return table, refusals
+            reason = _reason(kind, name) if apart > ROUNDING else ""
+            where = f"{kind}, {state}: {name}" if reason else f"{state}: {name}"
+            (deliberate.setdefault(reason, Row()) if reason else row).add(apart, where)
+    return table, deliberate, refusals
+
+
+def _reason(kind: str, name: str) -> str:
+    """Return why a figure of this kind differs on purpose; empty where it should not."""
+    rules = DELIBERATE.items()
+    return next((why for (begins, ends), why in rules if kind.startswith(begins) and name.endswith(ends)), "")
 
 
 def main() -> None:
@@ -386,11 +494,19 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         keep = given.keep or Path(folder)
         before, now = (_figures(root, keep, step, given.kinds) for root in (given.other, HERE))
-    table, refusals = compared(now, before)
-    for kind, (count, figures, apart, where) in sorted(table.items()):
-        print(f"{kind:24s} {count:5d} states {figures:6d} figures, worst {apart:8.1e}  {where if apart > 0 else ''}")
+    table, deliberate, refusals = compared(now, before)
+    for kind, row in sorted(table.items()):
+        print(f"{kind:30s} {row.states:5d} states {_shown(row)}")
+    for reason, row in deliberate.items():
+        print(f"on purpose, {reason}:\n    {_shown(row)}")
     print(*refusals, sep="\n")
-    print(f"{sum(row[0] for row in table.values())} states, {sum(row[1] for row in table.values())} figures")
+    rows = [*table.values(), *deliberate.values()]
+    figures, differing = (sum(getattr(row, name) for row in rows) for name in ("figures", "differing"))
+    print(f"{len(now)} states, {figures} figures, {differing} differ by more than {ROUNDING:g}")
+
+
+def _shown(row: Row) -> str:
+    return f"{row.figures:6d} figures, {row.differing:5d} differ, worst {row.worst:8.1e}  {row.where}"
 
 
 def _figures(root: Path, keep: Path, step: int, kinds: list[str]) -> dict[Any, Any]:
