@@ -1,9 +1,10 @@
 """An earlier checkout beside this one: ``python -m tests.benchmarks.versions OTHER_CHECKOUT [--rounds 15]``.
 
 One process per version stays alive and both take turns, so that a machine whose speed drifts is as fast for one as for
-the other; printed are medians of CPU time and the median of the ratios, this version over the other. The jobs: a step
-of each slider until all panels are painted, also with a matrix of 3 × 3 PSFs on the stage, 12 400 previews of PSFs, and
-``p2sf info`` as a whole process. ``--jobs matrix`` does those jobs alone whose names begin so.
+the other; printed are the least CPU times, since other work only adds to them, and their ratio, this version over the
+other. The jobs: previews of a field that moves, by each method; 12 400 previews of PSFs; tolerances; a step of each
+slider until all panels are painted, also with a matrix of 3 × 3 PSFs on the stage; and whole processes, ``p2sf info``
+and ``import p2sf``. ``--jobs matrix`` does those jobs alone whose names begin so.
 """
 
 import argparse
@@ -12,10 +13,10 @@ import resource
 import subprocess
 import sys
 from pathlib import Path
-from statistics import median
 
 HERE = Path(__file__).parents[2]
 FRAMES = 20  # of one slider in one turn
+MOVES = 60  # fields of one turn
 WORKER = """
 import os, sys
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
@@ -23,63 +24,111 @@ from itertools import count
 from statistics import median
 from time import process_time
 import numpy as np
-from PySide6.QtWidgets import QApplication
 from threadpoolctl import threadpool_limits
 if sys.argv[1] == "0.1":
-    from app.state import State
-    from app.theme import configure_plots
-    from app.window import Window
     from p2sf.library import find_lens
     from p2sf.psf import seidel_psf
     from p2sf.seidel import coefficients
-    fresh = State
 else:
     from p2sf.lensfile.library import find_lens
     from p2sf.paraxial.seidel import coefficients
     from p2sf.psf.seidel import seidel_psf
-    from p2sf_explorer.charts.theme import configure_plots
-    from p2sf_explorer.shell.window import MainWindow as Window
-    from p2sf_explorer.state.state import new_state as fresh
+
 lens = find_lens("double_gauss_28")
-depths = 1 / np.linspace(1e-6, 1 / 5000, 20)
-six = coefficients(lens, depths[:, None, None], np.linspace(0, 0.1, 20)[:, None], np.linspace(0.4, 0.7, 31))
-app = QApplication([])
-app.setStyle("Fusion")
-configure_plots()
 steps = count()
-with threadpool_limits(1):
+
+def moved(method):
+    from p2sf.lens.source import Source
+    from p2sf.psf.methods import render
+    spent = []
+    for _ in range(MOVES):
+        slope = 0.249328 + 1e-4 * (next(steps) % 997)
+        begun = process_time()
+        if method == "seidel":
+            seidel_psf(coefficients(lens, np.inf, slope, 0.6562725), 64, 0.69125, "preview")
+        else:
+            source = Source(field_slope=slope, wavelength_um=0.6562725)
+            render(lens, source, method, 64, 0.69125, "preview")
+        spent.append(process_time() - begun)
+    return min(spent)
+
+def stack():
+    depths = 1 / np.linspace(1e-6, 1 / 5000, 20)
+    fields, waves = np.linspace(0, 0.1, 20)[:, None], np.linspace(0.4, 0.7, 31)
+    six = coefficients(lens, depths[:, None, None], fields, waves)
+    begun = process_time()
+    seidel_psf(six, 32, 1.5, "preview")
+    return process_time() - begun
+
+def tolerances():
+    from p2sf.lens.source import Source
+    from p2sf.tolerance.builds import simulate
+    from p2sf.tolerance.differentials import differentials
+    from p2sf.tolerance.errors_of_build import Tolerance, usual_tolerances
+    own = (*usual_tolerances(lens, "commercial"), Tolerance("thickness", len(lens.surfaces), 0.2))
+    begun = process_time()
+    known = differentials(lens, [Source(field_deg=field) for field in (0.0, 10.0, 14.0)], own)
+    simulate(known, 2000, (len(own) - 1,))
+    return process_time() - begun
+
+def opened():
+    from PySide6.QtWidgets import QApplication
+    if sys.argv[1] == "0.1":
+        from app.state import State as fresh
+        from app.theme import configure_plots
+        from app.window import Window
+    else:
+        from p2sf_explorer.charts.theme import configure_plots
+        from p2sf_explorer.shell.window import MainWindow as Window
+        from p2sf_explorer.state.state import new_state as fresh
+    app = QApplication([])
+    app.setStyle("Fusion")
+    configure_plots()
     window = Window(fresh(theme="light", method="seidel"), measured=False)
     window.resize(1440, 900)
     window.show()
     app.processEvents()
+    return app, window, fresh
+
+def dragged(app, window, fresh, job, method):
+    state = fresh(theme="light", method=method or "auto")
+    if job.startswith("matrix"):
+        from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
+        state = with_workspace(state, "inspect", WORKSPACES["inspect"])
+        job = job.removeprefix("matrix-")
+    window.store.replace(state)
+    app.processEvents()
+    slider, spent = window.controls.rows[job].slider, []
+    window.store.begin()
+    for _ in range(FRAMES + 3):
+        begun = process_time()
+        slider.setValue(650 + (13 * next(steps)) % 350)
+        app.processEvents()
+        spent.append(process_time() - begun)
+    window.store.end()
+    return median(spent[3:])
+
+place = None
+with threadpool_limits(1):
     print("ready", flush=True)
     for line in sys.stdin:
         job, _, method = line.strip().partition(" ")
-        if job == "stack":
-            begun = process_time()
-            seidel_psf(six, 32, 1.5, "preview")
-            print(process_time() - begun, flush=True)
-            continue
-        state = fresh(theme="light", method=method or "auto")
-        if job.startswith("matrix"):
-            from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
-            state = with_workspace(state, "inspect", WORKSPACES["inspect"])
-            job = job.removeprefix("matrix-")
-        window.store.replace(state)
-        app.processEvents()
-        slider, spent = window.controls.rows[job].slider, []
-        window.store.begin()
-        for _ in range(FRAMES + 3):
-            begun = process_time()
-            slider.setValue(650 + (13 * next(steps)) % 350)
-            app.processEvents()
-            spent.append(process_time() - begun)
-        window.store.end()
-        print(median(spent[3:]), flush=True)
-""".replace("FRAMES", str(FRAMES))
+        if job == "moving":
+            seconds = moved(method)
+        elif job in ("stack", "tolerances"):
+            seconds = globals()[job]()
+        else:
+            place = place or opened()
+            seconds = dragged(*place, job, method)
+        print(seconds, flush=True)
+""".replace("FRAMES", str(FRAMES)).replace("MOVES", str(MOVES))
 SLIDERS = ("field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number")
 MATRICES = "matrix-f_number", "matrix-sensor_shift_um"
-JOBS = (*(f"{slider} {method}" for slider in SLIDERS for method in ("seidel", "auto")), *MATRICES, "stack", "p2sf info")
+MOVING = tuple(f"moving {method}" for method in ("seidel", "fitted", "traced"))
+FRAME_JOBS = tuple(f"{slider} {method}" for slider in SLIDERS for method in ("seidel", "auto"))
+PROCESSES = {"p2sf info": ["-m", "p2sf", "info", "double_gauss_28"], "import p2sf": ["-c", "import p2sf"]}
+JOBS = (*MOVING, "stack", "tolerances", *FRAME_JOBS, *MATRICES, *PROCESSES)
+SINCE_0_2 = (*MOVING[1:], "tolerances", *MATRICES)
 
 
 class Version:
@@ -102,9 +151,9 @@ class Version:
 
     def seconds(self, job: str) -> float:
         """Return the CPU time of one turn of a job."""
-        if job == "p2sf info":
+        if job in PROCESSES:
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            command = [sys.executable, "-m", "p2sf", "info", "double_gauss_28"]
+            command = [sys.executable, *PROCESSES[job]]
             subprocess.run(command, env=self.environment, stdout=subprocess.DEVNULL, check=True, cwd="/")
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -121,14 +170,13 @@ def main() -> None:
     options = parser.parse_args()
     versions = [Version(HERE), Version(options.other.resolve())]
     print(f"{'job':28} {'this ms':>9} {'other ms':>9} {'ratio':>6}")
-    known = [job for job in JOBS if "0.1" not in {v.layout for v in versions} or not job.startswith("matrix")]
+    known = [job for job in JOBS if "0.1" not in {v.layout for v in versions} or job not in SINCE_0_2]
     for job in (job for job in known if job.startswith(tuple(options.jobs))):
         for version in versions:
             version.seconds(job)  # caches and lazy imports
         turns = [[version.seconds(job) for version in versions] for _ in range(options.rounds)]
-        this, other = (median(turn[k] for turn in turns) for k in (0, 1))
-        ratio = median(turn[0] / turn[1] for turn in turns)
-        print(f"{job:28} {1e3 * this:9.2f} {1e3 * other:9.2f} {ratio:6.3f}", flush=True)
+        this, other = (min(turn[k] for turn in turns) for k in (0, 1))
+        print(f"{job:28} {1e3 * this:9.3f} {1e3 * other:9.3f} {this / other:6.3f}", flush=True)
 
 
 if __name__ == "__main__":
