@@ -15,7 +15,7 @@ from p2sf.messages import Message
 from p2sf.parameters import check_positive
 from p2sf.psf import pixel_integrals
 from p2sf.psf.opd_array import opd_intensity
-from p2sf.psf.peak import peak_of
+from p2sf.psf.peak import peak_on_demand
 from p2sf.psf.picture import Origin, psf_from_intensity, resolved
 from p2sf.psf.plane_waves import Waves
 from p2sf.psf.result import Psf, warned
@@ -115,7 +115,7 @@ class _Pupil:
             intensity = np.abs(field / clear.sum()) ** 2
         light = self.light * (size / (2 * spread)) ** 2 if resolved(spread, pixel_um) else None
         made = Origin("opd", int(np.count_nonzero(clear)), 0, Message("{size} × {size} cells", size=size), start)
-        peak = peak_of(intensity, pixel_um, self.waves, lambda _: None)
+        peak = peak_on_demand(intensity, pixel_um, self.waves, lambda _: None)
         return psf_from_intensity(intensity, pixel_um, self.wavelength_um, light, made, peak)
 
     @cached_property

@@ -19,7 +19,7 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.peak import peak_of
+from p2sf.psf.peak import peak_on_demand
 from p2sf.psf.picture import Origin, Window, psf_from_intensity, resolved
 from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import EDGE_ERROR
@@ -99,7 +99,7 @@ def huygens_psf(
     def reaching(reach_um: float) -> Waves | None:
         return waves_reaching(lens, source, reach_um, clip, pupil)
 
-    peak = peak_of(intensity, pixel_um, found.waves, reaching, quality)
+    peak = peak_on_demand(intensity, pixel_um, found.waves, reaching, quality)
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
 
 

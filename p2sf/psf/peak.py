@@ -10,12 +10,14 @@ maxima are tried, and fewer where a climb is dear (MOST_TERMS).
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache, partial
 from math import ceil, cos, hypot, pi, sqrt
 
 import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.psf.plane_waves import Waves
+from p2sf.threads import one_blas_thread
 
 FINE = 6  # samples per period of the pupil's highest frequency where the picture is looked at on a grid of its own
 ENOUGH_SAMPLES = 4  # of them that the samples of a picture need to serve instead
@@ -39,6 +41,22 @@ class Peak:
     y_um: float
 
 
+def peak_on_demand(
+    intensity: np.ndarray,
+    pixel_um: float,
+    waves: Waves,
+    reaching: Callable[[float], Waves | None],
+    quality: str = "settled",
+) -> Callable[[], Peak]:
+    """Return a function that returns `peak_of`; that of a "preview" is looked for when it is first called."""
+    find = partial(peak_of, intensity, pixel_um, waves, reaching, quality)
+    if quality == "preview" and waves.fx.size <= MOST_IN_PREVIEW:
+        return cache(find)
+    found = find()
+    return lambda: found
+
+
+@one_blas_thread
 def peak_of(
     intensity: np.ndarray,
     pixel_um: float,

@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.messages import Message
-from p2sf.psf.peak import Peak, peak_of
+from p2sf.psf.peak import Peak, peak_on_demand
 from p2sf.psf.plane_waves import Waves
 from p2sf.psf.result import Psf
 
@@ -41,19 +41,23 @@ def psf_of_waves(
     """Return the PSF of plane waves in a window; a "preview" is summed in float32. ``reaching`` as `peak_of` has it."""
     axis = centred_axis(*window)
     intensity = waves.intensity(axis, axis, np.float64 if quality == "settled" else np.float32)
-    return psf_from_intensity(
-        intensity, window[1], wavelength_um, blur_um2, made, peak_of(intensity, window[1], waves, reaching, quality)
-    )
+    peak = peak_on_demand(intensity, window[1], waves, reaching, quality)
+    return psf_from_intensity(intensity, window[1], wavelength_um, blur_um2, made, peak)
 
 
 def psf_from_intensity(
-    intensity: np.ndarray, pixel_um: float, wavelength_um: float, blur_um2: float | None, made: Origin, peak: Peak
+    intensity: np.ndarray,
+    pixel_um: float,
+    wavelength_um: float,
+    blur_um2: float | None,
+    made: Origin,
+    peak: Callable[[], Peak],
 ) -> Psf:
     """Return the PSF of an intensity in units of the unaberrated peak.
 
     ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an
-    integral only while the pitch is below half the period of the finest fringe; else the caller passes None. ``peak``:
-    of the continuous intensity.
+    integral only while the pitch is below half the period of the finest fringe; else the caller passes None. ``peak``
+    returns that of the continuous intensity.
     """
     total = float(intensity.sum(dtype=float))
     return Psf(
@@ -61,7 +65,7 @@ def psf_from_intensity(
         pixel_um=pixel_um,
         wavelength_um=float(wavelength_um),
         method=made.method,
-        strehl=peak.value,
+        strehl=lambda: peak().value,
         energy=None if blur_um2 is None else total * pixel_um**2 / blur_um2,
         numbers=made.numbers,
         rays=made.rays,
@@ -69,7 +73,7 @@ def psf_from_intensity(
         seconds=perf_counter() - made.started,
         tolerance=made.tolerance,
         predicted_error=made.predicted_error,
-        peak_um=(peak.x_um, peak.y_um),
+        peak_um=lambda: (peak().x_um, peak().y_um),
         sum_over_peak=total,
     )
 

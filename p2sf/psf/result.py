@@ -1,7 +1,9 @@
 """The point spread function as a result: samples, scale, and how they were computed."""
 
 import warnings
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
@@ -13,12 +15,44 @@ UNSTATED = Message("")
 LEAST_LIGHT = 0.9  # share of all light below which a window cuts a PSF off, and this is said
 IN_WINDOW = "light in the window"  # what `Psf.energy` is called wherever it is shown, and that figures may be shares of
 
+Value = TypeVar("Value")
+Figure = float | np.ndarray | None
+
+
+class OnDemand(Generic[Value]):
+    """A field of `Psf`, None by default, that may be given as a function without arguments: its first reader calls it.
+
+    A picture that is dragged shows few of its figures, and some take as long as the picture.
+    """
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = f"_{name}"
+
+    @overload
+    def __get__(self, psf: None, owner: type) -> None: ...
+
+    @overload
+    def __get__(self, psf: object, owner: type) -> Value: ...
+
+    def __get__(self, psf: object | None, owner: type) -> Value | None:
+        if psf is None:
+            return None
+        value = vars(psf)[self.name]
+        if callable(value):
+            value = vars(psf)[self.name] = value()
+        found: Value = value
+        return found
+
+    def __set__(self, psf: object, value: Value | Callable[[], Value]) -> None:
+        vars(psf)[self.name] = value
+
 
 @dataclass(frozen=True, eq=False)
 class Psf:
     """A point spread function, or a stack of them, and how it was computed.
 
-    A notebook shows it as a picture.
+    A notebook shows it as a picture. ``strehl``, ``energy`` and ``peak_um`` may be given as functions without
+    arguments, which are called when the values are first read.
 
     Attributes
     ----------
@@ -64,8 +98,8 @@ class Psf:
     pixel_um: float
     wavelength_um: float | np.ndarray
     method: str
-    strehl: float | np.ndarray | None
-    energy: float | np.ndarray | None = None
+    strehl: OnDemand[Figure] = OnDemand()
+    energy: OnDemand[Figure] = OnDemand()
     numbers: int = 0
     rays: int = 0
     sampling: Message = UNSTATED
@@ -74,8 +108,11 @@ class Psf:
     azimuth_deg: float = 0.0
     predicted_error: float | None = None
     integrated: bool = False
-    peak_um: tuple[float, float] | np.ndarray | None = None
+    peak_um: OnDemand[tuple[float, float] | np.ndarray | None] = OnDemand()
     sum_over_peak: float | np.ndarray | None = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Psf, tuple(getattr(self, field.name) for field in fields(self))
 
     @property
     def over_unaberrated(self) -> np.ndarray | None:

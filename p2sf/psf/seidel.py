@@ -1,6 +1,6 @@
 """The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
-from functools import partial
+from functools import cache, partial
 from math import isfinite, prod
 from time import perf_counter
 
@@ -139,24 +139,27 @@ def _result(
 ) -> Psf:
     wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
     energy = energy_fraction(coefficients, stack.total, pixel_um, throughput(mask).spreading)
-    strehl, place = _peaks(coefficients, stack, pixel_um, mask, quality)
+    peaks = cache(partial(_peaks, coefficients, stack, pixel_um, mask, quality))
+    if quality == "settled" and prod(stack.total.shape) <= MOST_SEARCHED:
+        peaks()  # now, and not when it is first read
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
         wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
         method="seidel",
-        strehl=float(strehl) if single else strehl,
+        strehl=lambda: float(peaks()[0]) if single else peaks()[0],
         energy=float(energy) if single and energy is not None else energy,
         numbers=6,
         rays=2,
         sampling=stack.sampling,
         seconds=perf_counter() - start,
         tolerance=tolerance,
-        peak_um=(float(place[0]), float(place[1])) if single else place,
+        peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
         sum_over_peak=float(stack.total) if single else stack.total,
     )
 
 
+@one_blas_thread
 def _peaks(
     coefficients: Coefficients, stack: SummedStack, pixel_um: float, mask: PupilMask, quality: str
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -1,5 +1,8 @@
 """The Strehl ratio: the peak of the continuous picture, whatever samples show, against dense sums over the pupil."""
 
+import pickle
+from dataclasses import FrozenInstanceError
+
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
@@ -11,6 +14,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 from p2sf.psf.pixel_integrals import render_integrated
+from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.pencil import pencil
 from p2sf.request import Request, set_up
@@ -137,3 +141,18 @@ def test_a_single_lit_cell_is_equally_bright_everywhere():
     for lit in (np.ones((1, 1)), np.arange(9).reshape(3, 3) == 4):
         psf = p2sf.psf_of_opd(0 * lit, na=0.1, wavelength_nm=500, amplitude=1.0 * lit, pixels=1)
         assert psf.strehl == pytest.approx(1) and psf.peak_um == (0, 0)
+
+
+def test_figures_given_as_functions_are_asked_for_once_and_travel_as_numbers():
+    calls = []
+
+    def strehl() -> float:
+        calls.append(1)
+        return 0.25
+
+    psf = Psf(np.full((4, 4), 1 / 16), 1.0, 0.5, "seidel", strehl, energy=0.5)
+    assert not calls
+    copy = pickle.loads(pickle.dumps(psf))
+    assert (psf.strehl, copy.strehl, copy.energy, copy.peak_um, len(calls)) == (0.25, 0.25, 0.5, None, 1)
+    with pytest.raises(FrozenInstanceError):
+        psf.strehl = 1.0
