@@ -237,7 +237,8 @@ class Window:
     def panel(self, key: str, answer: Any) -> Any:
         """Return a panel that shows an answer; P2SFError where it has nothing to show."""
         from p2sf_explorer.compute.live import Refused, with_views
-        from p2sf_explorer.panels import REGISTRY, build, view_of
+        from p2sf_explorer.panels import build
+        from p2sf_explorer.state.panels import REGISTRY, view_of
         from p2sf_explorer.store.store import Store
 
         entry = next(entry for entry in REGISTRY if entry.key == key)

@@ -10,13 +10,14 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.psf.methods import PsfRequest
-from p2sf_explorer.compare.differences import WHY, subtracted
+from p2sf_explorer.compare.differences import subtracted
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
 from p2sf_explorer.compute.pupil import WavefrontMap, disc, pupil_map
 from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.pinning import side_b
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
@@ -123,7 +124,8 @@ def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], be
     if state.compare.shown != "difference":
         return replace(chosen, side=state.compare.shown.upper())
     found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}
-    why = WHY | {name: message for name, (_, message) in found.items() if message}
+    why = {entry.key: entry.minus for entry in REGISTRY if isinstance(entry.minus, Message)}
+    why |= {name: message for name, (_, message) in found.items() if message}
     minus = replace(difference(a, b), why=why)
     return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=minus)
 

@@ -1,6 +1,5 @@
 """A − B of what the panels show beside PSF, pupil and coefficients, or why there is none. No Qt in here."""
 
-from collections.abc import Callable
 from dataclasses import fields, replace
 from typing import Any
 
@@ -17,29 +16,8 @@ from p2sf_explorer.results.first_order import NONE, Row
 from p2sf_explorer.results.seidel import PerSurface
 from p2sf_explorer.results.through_focus import Strip
 from p2sf_explorer.results.zernike import ZernikeView
+from p2sf_explorer.state.panels import PANELS, difference_of
 from p2sf_explorer.state.scales import signed
-
-FROM_ANSWERS = ("psf", "pupil", "coefficients")  # what `p2sf_explorer.compare.comparison.difference` holds
-WHY = {
-    "layout": Message("This is A: two drawings of lenses have no difference to draw."),
-    "field_map": Message("This is A: the pictures of A and of B have different windows; PSF shows A − B."),
-    "matrix": Message("This is A: fields × A | B shows the pictures of both side by side."),
-    "curves": Message("This is A: there are many curves already; MTF and Field show A − B."),
-    "beside": Message("This is A: here it is compared with a perfect lens."),
-    "colour": Message("This is A: one colour minus another is not a colour."),
-    "spot": Message("This is A: a spot diagram has positions, not amounts, to subtract; the fans show A − B."),
-    "lens": Message("This is A: it is the lens that is edited here; the strip above names what differs."),
-    "misalign": Message("This is A: it is the lens whose build is set here; the strip above names what differs."),
-    "ybar": Message("This is A: the points of the diagram are surfaces, and B has different ones."),
-    "depth_of_field": Message("This is A: the limits of sharpness are positions, not amounts, to subtract."),
-    "solid": Message("This is A: solid bodies have no difference to show."),
-    "import": Message("This is A: it is what was read from its file."),
-    "image": Message("This is A: a photograph cannot show negative light."),
-    "measured": Message("This is A: a picture is measured beside one lens."),
-    "tolerances": Message("This is A: a build is shown as A and the designed lens as B, and both have the same yield."),
-    "database": Message("This is A: a database belongs to one lens."),
-    "accuracy": Message("This is A: each lens is measured against its own rays."),
-}
 
 
 def curves(a: Any, b: Any) -> Any:
@@ -126,25 +104,12 @@ def _less(mine: object, other: object) -> object:
     return Number(signed(first - second, places))
 
 
-SUBTRACTED: dict[str, Callable[[Any, Any], Any]] = {
-    "profiles": curves,
-    "mtf": curves,
-    "ray_fan": curves,
-    "opd_fan": curves,
-    "seidel": surfaces,
-    "zernike": terms,
-    "field": field,
-    "chromatic": colours,
-    "first_order": tables,
-    "through_focus": strips,
-}
-
-
 def subtracted(key: str, a: object, b: object) -> tuple[object, Message | None]:
     """Return what a panel shows for A − B of two views, and a message where that is A alone."""
-    if key not in SUBTRACTED or isinstance(a, Refused):
-        return a, WHY.get(key)
+    minus = difference_of(PANELS[key])
+    if minus is None or isinstance(minus, Message) or isinstance(a, Refused):
+        return a, minus if isinstance(minus, Message) else None
     if isinstance(b, Refused):
         return a, Message("This is A; B has none: {why}", why=b.message)
-    difference = SUBTRACTED[key](a, b)
+    difference = minus(a, b)
     return (a, difference) if isinstance(difference, Message) else (difference, None)

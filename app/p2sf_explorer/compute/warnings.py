@@ -14,19 +14,9 @@ from p2sf.raytrace.trace import out_of_order
 from p2sf_explorer.compute.layout import RayPath
 from p2sf_explorer.compute.pupil import WavefrontMap, disc, strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
+from p2sf_explorer.state.panels import PANELS, REGISTRY, REMAINS
 from p2sf_explorer.state.scales import significant
 
-SET_STRAIGHT: dict[str, Message] = {
-    "seidel": Message("Of the aligned lens: its tilts, decentres and irregularities have no part in these sums."),
-    "coefficients": Message("Of the aligned lens: six coefficients leave out tilts, decentres and irregularities."),
-    "first_order": Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
-    "ybar": Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
-    "depth_of_field": Message("The paraxial curve and its limits are of the aligned lens; the exact rays are not."),
-    "accuracy": Message(
-        "Seidel is of the aligned lens; the other methods include its tilts, decentres and irregularities."
-    ),
-}
-"""What panels leave out of a misaligned lens."""
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 TOGETHER = Message("bring focus and source together to see waves")
 NEARER = Message("stop down or go nearer the axis to see waves")
@@ -80,10 +70,8 @@ def _narrower_rim(setup: ParaxialSetup) -> Message | None:
 def _by_hand(setup: ParaxialSetup) -> Message | None:
     if not setup.altered:
         return None
-    return Message(
-        "What-if: coefficients altered by hand; image, database, field curves, chromatic shift, depth of field, "
-        "rays, spots, fans and sums per surface remain those of the lens."
-    )
+    panels = tuple(Message(entry.title) for entry in REGISTRY if entry.by_hand == REMAINS)
+    return Message("What-if: coefficients altered by hand; of the lens itself remain: {panels}.", panels=panels)
 
 
 def _set_straight(setup: ParaxialSetup) -> Message | None:
@@ -97,7 +85,7 @@ def _set_straight(setup: ParaxialSetup) -> Message | None:
 
 def left_out(live_lens: Lens, panel: str) -> Message | None:
     """Return what a panel leaves out of a lens; None where it leaves out nothing."""
-    return SET_STRAIGHT.get(panel) if live_lens.misaligned else None
+    return PANELS[panel].aligned if live_lens.misaligned else None
 
 
 def _image_at_infinity(setup: ParaxialSetup) -> Message | None:

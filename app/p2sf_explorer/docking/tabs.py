@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.docking.stage import PanelPlace
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.panels import GROUPS, PanelEntry
+from p2sf_explorer.state.panels import GROUPS, PanelEntry
 from p2sf_explorer.widgets.card import paint_chevron
 from p2sf_explorer.widgets.command import Command
 

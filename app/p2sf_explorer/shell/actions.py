@@ -27,7 +27,6 @@ from p2sf_explorer.handbook.pages import PAGES
 from p2sf_explorer.handbook.viewer import Handbook
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.playback.play_bar import PlayBar
 from p2sf_explorer.shell.bars import TopBar
 from p2sf_explorer.shell.choices import choices, fill
@@ -36,6 +35,7 @@ from p2sf_explorer.shell.controls import Controls
 from p2sf_explorer.shell.help import HelpPage, help_text
 from p2sf_explorer.shell.quantity_rows import PupilShape
 from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.command import Command

@@ -9,8 +9,8 @@ from p2sf_explorer.compute.quantities import OF_THE_LENS
 from p2sf_explorer.compute.setup import prescription, ranges, shipped, title
 from p2sf_explorer.i18n.language import languages
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.state.limits import CHOICES
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.what_if import PRESETS, of_preset
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication
 from p2sf_explorer.charts.theme import configure_plots, screen_scale
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.limits import CHOICES
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, on_stage, with_workspace
 

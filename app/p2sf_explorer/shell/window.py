@@ -35,7 +35,7 @@ from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.files.opening import REPORT_TAB, Refusal
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.controller import LessonController, LessonRoom
-from p2sf_explorer.panels import REGISTRY, BackgroundPanel, FilmedPanel, Panel, PreparingPanel, build, view_of
+from p2sf_explorer.panels import BackgroundPanel, FilmedPanel, Panel, PreparingPanel, build
 from p2sf_explorer.panels.coefficients import CoefficientsPanel
 from p2sf_explorer.panels.psf import PsfPanel
 from p2sf_explorer.playback.filming import Filming
@@ -50,6 +50,7 @@ from p2sf_explorer.shell.sharing import Sharing
 from p2sf_explorer.shell.view import View, next_stop
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
+from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
 from p2sf_explorer.state.state import Display, State
 from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_show, on_stage, placed, put_to_tabs
 from p2sf_explorer.store.store import Store
@@ -63,7 +64,6 @@ from p2sf_explorer.workers.worker import LatestWins
 T = TypeVar("T")
 
 
-ENTRIES = {entry.key: entry for entry in REGISTRY}
 DIGIT_MODIFIERS = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.KeypadModifier
 FIRST_SIZE, FRAME_PX = (1440, 900), 40  # of the window at the first start, and what a desktop adds above it
 ALWAYS = "layout", "psf", "coefficients"  # panels that other parts of the window speak to
@@ -84,7 +84,7 @@ class MainWindow(QMainWindow):
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
-        self.display = placed(self.store.state.display, tuple(ENTRIES))
+        self.display = placed(self.store.state.display, tuple(PANELS))
         self._placed_from: Display | None = None
         self._theme: Tokens = self._tokens(self.store.state)
         self._styled: dict[str, Tokens] = {}
@@ -289,7 +289,7 @@ class MainWindow(QMainWindow):
         return (self.display.stage, *self.display.rail, self.display.tab)
 
     def _exchange(self, key: str, other: str) -> None:
-        if key in ENTRIES:  # a title may come from another program's window
+        if key in PANELS:  # a title may come from another program's window
             self.store.update(**exchanged(self.display, key, other))
 
     def _move_to(self, place: str, key: str) -> None:
@@ -366,13 +366,13 @@ class MainWindow(QMainWindow):
         return tuple(key for key in on_show(self.display) if key in self.panels)
 
     def _wanted(self) -> dict[str, compute.ResultFunction]:
-        views = {key: view_of(ENTRIES[key]) for key in self._visible()}
+        views = {key: view_of(PANELS[key]) for key in self._visible()}
         return {key: view for key, view in views.items() if view}
 
     def _bring_up(self, state: State) -> None:
         """Put the state's panels where they stand, building each the first time it is on show."""
         if state.display is not self._placed_from:  # a slider changes nothing here
-            self._placed_from, self.display = state.display, placed(state.display, tuple(ENTRIES))
+            self._placed_from, self.display = state.display, placed(state.display, tuple(PANELS))
             if self.presentation.on:
                 self.display = replace(self.display, show_rail=False)
             self._place_panels(self.display)
@@ -383,7 +383,7 @@ class MainWindow(QMainWindow):
             self._style(name)
 
     def _place_panels(self, display: Display) -> None:
-        apart = tuple(key for key in display.windows if key in ENTRIES)
+        apart = tuple(key for key in display.windows if key in PANELS)
         homes = self._homes(display)
         for key in {*homes, *apart} - set(self.panels):
             self._build(key)
@@ -416,7 +416,7 @@ class MainWindow(QMainWindow):
         return homes
 
     def _build(self, key: str) -> None:
-        self.panels[key] = made = build(ENTRIES[key], self.store)
+        self.panels[key] = made = build(PANELS[key], self.store)
         made.widget.key = key
         made.widget.apart_asked.connect(partial(self.floating.toggle, key))
         made.widget.place_asked.connect(lambda place: self._move_to(place, key))

@@ -8,8 +8,8 @@ from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QScrollArea, QWidget
 
 from p2sf_explorer.crash.dialog import CrashDialog
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.solid import SolidPanel
+from p2sf_explorer.state.panels import REGISTRY
 from tests.support.screen_reader import EMPTY, nodes, transcript
 
 ROLE = QAccessible.Role

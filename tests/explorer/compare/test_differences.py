@@ -10,34 +10,37 @@ from pytest import approx
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf_explorer.compare.comparison import answers
-from p2sf_explorer.compare.differences import FROM_ANSWERS, SUBTRACTED, WHY, minus, subtracted
+from p2sf_explorer.compare.differences import minus, subtracted
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.i18n import language as languages
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.panels import REGISTRY, view_of
 from p2sf_explorer.results.first_order import aperture, distance, length, pupil, stop
 from p2sf_explorer.results.through_focus import answer
+from p2sf_explorer.state.panels import PANELS, difference_of, view_of
 from p2sf_explorer.state.pinning import side_b
 from p2sf_explorer.state.state import changed, new_state
 
-ENTRIES = {entry.key: entry for entry in REGISTRY}
 PAIR = new_state(
     method="seidel", f_number=4.0, field_deg=5.0, theme="light", pinned=new_state(method="seidel", f_number=8.0)
 )
 STOP = Stop(np.asarray(6), np.asarray(9.0), np.asarray(6), "file")
+FROM_ANSWERS = {"psf", "pupil", "coefficients"}  # what `p2sf_explorer.compare.comparison.difference` holds
+WHY = {key: entry.minus for key, entry in PANELS.items() if isinstance(entry.minus, Message)}
+SUBTRACTED = [key for key in PANELS if key not in WHY and key not in FROM_ANSWERS]
 STILL = ("solid", "image", "database", "accuracy", "colour")  # OpenGL, or seconds of work; their sentences are the same
 
 
 @pytest.fixture(scope="module")
 def views():
-    wanted = {key: view_of(ENTRIES[key]) for key in SUBTRACTED}
+    wanted = {key: view_of(PANELS[key]) for key in SUBTRACTED}
     a, b = (compute.live(side, "preview", wanted).views for side in (changed(PAIR, pinned=None), side_b(PAIR)))
     return a, b, answers(changed(PAIR, shown="difference"), "preview", wanted).seen.views
 
 
 def test_every_panel_either_differs_or_says_why():
-    parts = (FROM_ANSWERS, SUBTRACTED, WHY)
-    assert sorted(key for part in parts for key in part) == sorted(ENTRIES)
+    found = {key: difference_of(entry) for key, entry in PANELS.items()}
+    assert {key for key, minus in found.items() if minus is None} == FROM_ANSWERS
+    assert set(WHY) | set(SUBTRACTED) | FROM_ANSWERS == set(PANELS)
     assert all(str(why).startswith("This is A: ") and str(why).endswith(".") for why in WHY.values())
     german = (languages.FOLDER / "de.ts").read_text(encoding="utf-8")
     assert all(f"<source>{why}</source>" in german for why in WHY.values())
@@ -45,7 +48,7 @@ def test_every_panel_either_differs_or_says_why():
 
 def test_in_the_window_every_panel_names_its_side_and_says_why(window):
     window.store.replace(changed(PAIR, shown="difference"))
-    for key in (key for key in ENTRIES if key not in STILL):
+    for key in (key for key in PANELS if key not in STILL):
         window.open_panel(key)
         card = window.panels[key].widget
         assert card.note.isVisible() == (key in WHY)
@@ -71,7 +74,7 @@ def test_fans_and_sums_per_surface_are_taken_from_each_other(views):
 
 def test_a_lens_with_other_surfaces_has_no_sums_to_take_away(views):
     other = compute.live(
-        new_state(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(ENTRIES["seidel"])}
+        new_state(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(PANELS["seidel"])}
     )
     shown, why = subtracted("seidel", views[0]["seidel"], other.views["seidel"])
     assert shown is views[0]["seidel"] and why.values == {"a": 11, "b": 6}

@@ -12,7 +12,7 @@ from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.panels import REGISTRY, view_of
+from p2sf_explorer.state.panels import REGISTRY, view_of
 from p2sf_explorer.state.state import changed
 from tests.support.mirrors import folded
 

@@ -11,7 +11,7 @@ from p2sf.lensfile.toml import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.panels import REGISTRY, view_of
+from p2sf_explorer.state.panels import REGISTRY, view_of
 from p2sf_explorer.state.state import changed
 
 

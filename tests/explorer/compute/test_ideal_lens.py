@@ -13,8 +13,8 @@ from p2sf_explorer.compute.glass_outlines import glass_of, still
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.meridional import path
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.panels import REGISTRY, view_of
 from p2sf_explorer.scene3d.meshes import elements
+from p2sf_explorer.state.panels import REGISTRY, view_of
 from p2sf_explorer.state.state import changed
 from tests.support.simple_lenses import two_thin_lenses
 

@@ -14,12 +14,12 @@ from p2sf_explorer.i18n import extract
 from p2sf_explorer.i18n import language as languages
 from p2sf_explorer.i18n.language import FOLDER, Translation, current_language, set_language, texts
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d import opengl_probe as probe
 from p2sf_explorer.shell.command_palette import named
 from p2sf_explorer.shell.help import help_text
 from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.readout import FactTable, Readout
 

@@ -14,7 +14,7 @@ from p2sf_explorer.lessons.changes import applied
 from p2sf_explorer.lessons.claims import Claim, holds, measured, parse_claim
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, parse_lesson, read_lesson, shipped_lessons
 from p2sf_explorer.lessons.measures import MEASURES
-from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import Optics, new_state
 
 FILES = lesson_files()

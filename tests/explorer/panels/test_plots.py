@@ -12,7 +12,7 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.crosshair import boxed, lines_of, marks_of
 from p2sf_explorer.charts.plots import ColourBar
 from p2sf_explorer.compute.reference import measure
-from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.widgets.card import chart_at
 from p2sf_explorer.widgets.copying import copy_menu, data_of, picture_of

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication, QWidget
 from p2sf.lensfile.toml import lens_to_toml
 from p2sf_explorer.compute.setup import shipped, title, with_lens
 from p2sf_explorer.i18n.language import set_language
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.command_palette import Palette, named, ranked, score
 from p2sf_explorer.shell.help import HelpPage
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.what_if import PRESETS
 from p2sf_explorer.widgets.command import Command
 from tests.support.events import choose

@@ -1,8 +1,8 @@
 from PySide6.QtGui import QImage
 
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.gallery import SIZES, picture, sizes_of, states
 from p2sf_explorer.state.limits import CHOICES
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.workspaces import WORKSPACES
 

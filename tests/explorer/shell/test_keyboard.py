@@ -6,7 +6,7 @@ from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QLineEdit, QWidget
 
-from p2sf_explorer.panels import REGISTRY
+from p2sf_explorer.state.panels import REGISTRY
 from tests.explorer.panels.test_strip_and_map import filled
 from tests.support.tiers import in_tiers
 

@@ -18,9 +18,9 @@ from p2sf_explorer.docking.tabs import Tabs
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.panels.lens_table import LensTablePanel
 from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.readout import BAR_AIR, Readout, Sentence

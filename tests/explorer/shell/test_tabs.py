@@ -11,8 +11,8 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.docking.tabs import beside
 from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
-from p2sf_explorer.panels import GROUPS, REGISTRY
 from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.state.panels import GROUPS, REGISTRY
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 

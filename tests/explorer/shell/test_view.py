@@ -18,10 +18,10 @@ from PySide6.QtWidgets import (
 
 from p2sf_explorer.charts import painting
 from p2sf_explorer.i18n.language import set_language
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.shell.presentation import LARGER
 from p2sf_explorer.shell.view import PERCENTS
 from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from tests.explorer.conftest import FIRST

@@ -13,8 +13,8 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.reference import measure
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.panels import REGISTRY, view_of
 from p2sf_explorer.scene3d.scene import scene
+from p2sf_explorer.state.panels import FOLLOWS, REGISTRY, REMAINS, view_of
 from p2sf_explorer.state.state import State, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
@@ -61,27 +61,13 @@ def test_the_picture_is_of_the_altered_six_whatever_the_method(changes):
         measure(live, False, None, None)
 
 
-NAMED = {
-    **{"spot": "spots", "ray_fan": "fans", "opd_fan": "fans", "seidel": "sums per surface", "field": "field curves"},
-    **{"chromatic": "chromatic shift", "depth_of_field": "depth of field", "image": "image", "database": "database"},
-}
-OF_THE_LENS = {
-    "layout",
-    "lens",
-    "misalign",
-    "first_order",
-    "ybar",
-    "import",
-    "measured",
-}  # data of the lens or of a photograph: nobody expects other waves in them
-
-
 def test_the_warning_names_every_tab_that_does_not_follow():
     own, other = (compute.live(new_state(method="seidel", added_waves=(w, w, 0.0, 0.0, w, 0.0))) for w in (0.0, 0.5))
     views = {entry.key: view_of(entry) for entry in REGISTRY if view_of(entry)}
     still = {key for key, view in views.items() if pickle.dumps(view(own)) == pickle.dumps(view(other))}
-    assert still - OF_THE_LENS == set(NAMED)
-    assert all(word in str(other.warnings[0]) for word in NAMED.values())
+    assert still == {entry.key for entry in REGISTRY if entry.view and entry.by_hand != FOLLOWS}
+    named = [str(title) for title in other.warnings[0].values["panels"]]
+    assert named == [entry.title for entry in REGISTRY if entry.by_hand == REMAINS]
 
 
 def test_the_wavefront_in_space_is_the_altered_one():
@@ -236,4 +222,4 @@ def test_where_the_warning_has_no_room_it_ends_with_a_clause_and_not_within_a_wo
     window.store.update(added_waves=(0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
     line = window.status.warning
     line.resize(500, line.height())
-    assert line._cut() == "⚠ What-if: coefficients altered by hand …" and "depth of field" in line.toolTip()
+    assert line._cut() == "⚠ What-if: coefficients altered by hand …" and "Depth of field" in line.toolTip()

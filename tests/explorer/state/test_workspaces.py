@@ -5,8 +5,8 @@ import random
 import pytest
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.panels import REGISTRY
 from p2sf_explorer.state.link import link, state_of_link
+from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.state.workspaces import (

@@ -1,0 +1,331 @@
+"""The list of panels: all that the window knows of each stands in its entry here. No Qt in here."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from p2sf.messages import Message
+
+GROUPS = ("PSF", "Rays", "Aberrations", "Lens", "Tools")
+FOLLOWS, REMAINS, OF_THE_LENS = "follows", "remains", "of the lens"
+
+
+@dataclass(frozen=True)
+class PanelEntry:
+    """One panel, of the group of `GROUPS` among whose tabs it stands.
+
+    ``handbook`` is the section of the theory it leads to; ``panel`` its module:class among the panels; ``view`` the
+    module:function of its view in the explorer, if it has one. ``minus``: what A − B means for it, a module:function
+    of two views, or why it has none; empty where `compare.comparison.difference` holds it. ``by_hand``: whether it
+    follows waves added by hand, remains as it was, or shows data in which nobody expects them. ``aligned``: what it
+    leaves out of a lens that is not symmetric.
+    """
+
+    group: str
+    key: str
+    title: str
+    handbook: str
+    panel: str
+    view: str = ""
+    minus: str | Message = ""
+    by_hand: str = FOLLOWS
+    aligned: Message | None = None
+
+
+REGISTRY = (
+    PanelEntry("PSF", "psf", "PSF", "4.1", "psf:PsfPanel", "compute.finer:source"),
+    PanelEntry(
+        "PSF",
+        "profiles",
+        "Profiles",
+        "6.3",
+        "profiles:ProfilesPanel",
+        "results.profiles:profiles",
+        minus="compare.differences:curves",
+    ),
+    PanelEntry("PSF", "mtf", "MTF", "6.3", "mtf:MtfPanel", "results.mtf:contrast", minus="compare.differences:curves"),
+    PanelEntry(
+        "PSF",
+        "through_focus",
+        "Through focus",
+        "3.3",
+        "through_focus:ThroughFocusPanel",
+        "results.through_focus:strip",
+        minus="compare.differences:strips",
+    ),
+    PanelEntry(
+        "PSF",
+        "matrix",
+        "Matrix",
+        "6.4",
+        "matrix:MatrixPanel",
+        "matrix.pictures:matrix",
+        minus=Message("This is A: fields × A | B shows the pictures of both side by side."),
+    ),
+    PanelEntry(
+        "PSF",
+        "field_map",
+        "Field map",
+        "1.3",
+        "field_map:FieldMapPanel",
+        "results.field_map:field_map",
+        minus=Message("This is A: the pictures of A and of B have different windows; PSF shows A − B."),
+    ),
+    PanelEntry(
+        "PSF",
+        "beside",
+        "Perfect lens",
+        "9.2",
+        "pixels:BesidePanel",
+        "results.pixels:beside",
+        minus=Message("This is A: here it is compared with a perfect lens."),
+    ),
+    PanelEntry(
+        "PSF",
+        "colour",
+        "Colour",
+        "9.1",
+        "colour:ColourPanel",
+        "results.colour:question",
+        minus=Message("This is A: one colour minus another is not a colour."),
+    ),
+    PanelEntry(
+        "Rays",
+        "spot",
+        "Spot",
+        "8.3",
+        "spot:SpotPanel",
+        "results.rays:spots",
+        minus=Message("This is A: a spot diagram has positions, not amounts, to subtract; the fans show A − B."),
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Rays",
+        "ray_fan",
+        "Ray fan",
+        "8.3",
+        "fans:RayFanPanel",
+        "results.rays:ray_errors",
+        minus="compare.differences:curves",
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Rays",
+        "opd_fan",
+        "OPD fan",
+        "4.3",
+        "fans:OpdFanPanel",
+        "results.rays:path_errors",
+        minus="compare.differences:curves",
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Aberrations",
+        "coefficients",
+        "Coefficients",
+        "3.2",
+        "coefficients:CoefficientsPanel",
+        "results.seidel:six",
+        aligned=Message("Of the aligned lens: six coefficients leave out tilts, decentres and irregularities."),
+    ),
+    PanelEntry("Aberrations", "pupil", "Pupil", "3.1", "pupil:PupilPanel"),
+    PanelEntry(
+        "Aberrations",
+        "seidel",
+        "Seidel per surface",
+        "3.2",
+        "seidel:SeidelPanel",
+        "results.seidel:per_surface",
+        minus="compare.differences:surfaces",
+        by_hand=REMAINS,
+        aligned=Message("Of the aligned lens: its tilts, decentres and irregularities have no part in these sums."),
+    ),
+    PanelEntry(
+        "Aberrations",
+        "zernike",
+        "Zernike",
+        "3.4",
+        "zernike:ZernikePanel",
+        "results.zernike:zernike",
+        minus="compare.differences:terms",
+    ),
+    PanelEntry(
+        "Aberrations",
+        "field",
+        "Field curves",
+        "8.3",
+        "field:FieldPanel",
+        "results.field:field_curves",
+        minus="compare.differences:field",
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Aberrations",
+        "chromatic",
+        "Chromatic shift",
+        "8.3",
+        "chromatic:ChromaticPanel",
+        "results.chromatic:chromatic",
+        minus="compare.differences:colours",
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Lens",
+        "layout",
+        "Layout",
+        "2.2",
+        "layout:LayoutPanel",
+        "results.rays:lens_drawn",
+        minus=Message("This is A: two drawings of lenses have no difference to draw."),
+        by_hand=OF_THE_LENS,
+    ),
+    PanelEntry(
+        "Lens",
+        "lens",
+        "Table",
+        "1.1",
+        "lens_table:LensTablePanel",
+        "results.lens_table:rows",
+        minus=Message("This is A: it is the lens that is edited here; the strip above names what differs."),
+        by_hand=OF_THE_LENS,
+    ),
+    PanelEntry(
+        "Lens",
+        "misalign",
+        "Misalign",
+        "8.5",
+        "misalign:MisalignPanel",
+        "results.lens_table:misalignment",
+        minus=Message("This is A: it is the lens whose build is set here; the strip above names what differs."),
+        by_hand=OF_THE_LENS,
+    ),
+    PanelEntry(
+        "Lens",
+        "first_order",
+        "First order",
+        "2.1",
+        "first_order:FirstOrderPanel",
+        "results.first_order:first_order",
+        minus="compare.differences:tables",
+        by_hand=OF_THE_LENS,
+        aligned=Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
+    ),
+    PanelEntry(
+        "Lens",
+        "curves",
+        "Overlays",
+        "6.5",
+        "overlays:OverlaysPanel",
+        "matrix.overlays:overlay",
+        minus=Message("This is A: there are many curves already; MTF and Field show A − B."),
+    ),
+    PanelEntry(
+        "Lens",
+        "ybar",
+        "y–ȳ",
+        "8.4",
+        "ybar:YBarPanel",
+        "results.ybar:ybar",
+        minus=Message("This is A: the points of the diagram are surfaces, and B has different ones."),
+        by_hand=OF_THE_LENS,
+        aligned=Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
+    ),
+    PanelEntry(
+        "Lens",
+        "depth_of_field",
+        "Depth of field",
+        "10.3",
+        "depth_of_field:DepthOfFieldPanel",
+        "results.depth_of_field:depth_of_field",
+        minus=Message("This is A: the limits of sharpness are positions, not amounts, to subtract."),
+        by_hand=REMAINS,
+        aligned=Message("The paraxial curve and its limits are of the aligned lens; the exact rays are not."),
+    ),
+    PanelEntry(
+        "Lens",
+        "solid",
+        "3D",
+        "8.1",
+        "solid:SolidPanel",
+        "scene3d.scene:scene",
+        minus=Message("This is A: solid bodies have no difference to show."),
+    ),
+    PanelEntry(
+        "Tools",
+        "image",
+        "Image",
+        "10.1",
+        "image:ImagePanel",
+        "results.image:question",
+        minus=Message("This is A: a photograph cannot show negative light."),
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Tools",
+        "measured",
+        "Measured",
+        "11.3",
+        "measured:MeasuredPanel",
+        "measuring.measurement:question",
+        minus=Message("This is A: a picture is measured beside one lens."),
+        by_hand=OF_THE_LENS,
+    ),
+    PanelEntry(
+        "Tools",
+        "tolerances",
+        "Tolerances",
+        "8.8",
+        "tolerances:TolerancesPanel",
+        "tolerancing.analysis:question",
+        minus=Message("This is A: a build is shown as A and the designed lens as B, and both have the same yield."),
+    ),
+    PanelEntry(
+        "Tools",
+        "database",
+        "Database",
+        "7.1",
+        "database:DatabasePanel",
+        "results.database:question",
+        minus=Message("This is A: a database belongs to one lens."),
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
+        "Tools",
+        "accuracy",
+        "Accuracy",
+        "6.1",
+        "accuracy:AccuracyPanel",
+        minus=Message("This is A: each lens is measured against its own rays."),
+        aligned=Message(
+            "Seidel is of the aligned lens; the other methods include its tilts, decentres and irregularities."
+        ),
+    ),
+    PanelEntry(
+        "Tools",
+        "import",
+        "Import",
+        "1.1",
+        "import_report:ImportReportPanel",
+        "results.import_report:report",
+        minus=Message("This is A: it is what was read from its file."),
+        by_hand=OF_THE_LENS,
+    ),
+)
+PANELS = {entry.key: entry for entry in REGISTRY}
+
+
+def resolved(path: str) -> Any:
+    """Return what a module:name within the explorer names; imported when first asked for."""
+    module, name = path.split(":")
+    return getattr(import_module(f"p2sf_explorer.{module}"), name)
+
+
+def view_of(entry: PanelEntry) -> Callable[[Any], object] | None:
+    """Return the view function of an entry, None where it has none."""
+    return resolved(entry.view) if entry.view else None
+
+
+def difference_of(entry: PanelEntry) -> Callable[[Any, Any], Any] | Message | None:
+    """Return what subtracts two views of a panel, or why nothing does; None where the answers hold its difference."""
+    return resolved(entry.minus) if entry.minus and isinstance(entry.minus, str) else entry.minus or None
