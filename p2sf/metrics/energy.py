@@ -140,9 +140,8 @@ def landed(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0, radiu
     half = max(pupil.half_x, pupil.half_y)
     blur = blur_waves(pupil, centre_um, aside_um)
     waves = float(np.clip(radius_um * half, blur + BEYOND, blur + FARTHEST))
-    circles = _circles(even_count(waves), pupil.even and pupil.mask.clear)
-    nodes = _even_nodes if circles.halved else _nodes_of_lines
-    x, y, wave, light = nodes(pupil, (aside_um, centre_um), 2 * waves)
+    x, y, wave, light = _nodes(pupil, (aside_um, centre_um), 2 * waves)
+    circles = _circles(even_count(waves), pupil.even)
     top = waves / half
     field = _at_points(x * pupil.half_x * top, y * pupil.half_y * top, wave, circles)
     mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
@@ -212,29 +211,14 @@ def _counted(waves: float) -> int:
     return even_count(NODES * pi * waves + NODES_LEAST)
 
 
-def _even_nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) -> Nodes:
-    """Return the nodes of an even clear pupil, whose phase has such a slope: rows and nodes along them.
+def _nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) -> Nodes:
+    """Return the nodes of a pupil whose phase has such a slope: columns between the ends and corners of its edges.
 
-    Chebyshev rows times Gauss nodes of each chord, as `p2sf.pupil.quadrature.chord_rows`.
+    Those of an even pupil at fx < 0 mirror the others.
     """
-    rows, columns = max(_counted(waves), FEWEST_LINES), _counted(waves)
-    angle = np.arange(1, rows + 1) * (pi / (rows + 1))
-    y, (node, weight) = np.cos(angle), (one[columns // 2 :] for one in gauss_legendre(columns))
-    chord = pupil.chords(y)
-    x = chord[:, None] * node
-    area = (np.sin(angle) * chord * (pi / (rows + 1)))[:, None] * weight
-    square = 2 * x * x - 1  # of which an even polynomial is one of half the order
-    phase, density = (_clenshaw(_lines(table, y)[:, ::2], square) for table in (pupil.phase, pupil.density))
-    phase += (centre_um[1] * pupil.half_y * y)[:, None]
-    wave, light = _waves(area * density, density, phase)
-    y = np.repeat(y, x.shape[1])
-    return np.append(x, -x), np.append(y, y), np.append(wave, wave), 2 * light
-
-
-def _nodes_of_lines(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) -> Nodes:
-    """Return the nodes of any pupil, `_even_nodes`: columns between the ends and corners of its edges, and of masks."""
     light, dark = box_edges(pupil)
-    places, weights = places_between([*light, *dark], max(FEWEST_LINES, ceil(LINE_EXCESS * _counted(waves))))
+    lines = max(FEWEST_LINES, ceil(LINE_EXCESS * _counted(waves)))
+    places, weights = places_between([*light, *dark], lines, pupil.even)
     parts = []
     for low, high in zip(*open_intervals(light, dark, places), strict=True):
         length = (high - low)[:, None] / 2
@@ -242,7 +226,10 @@ def _nodes_of_lines(pupil: FrequencyPupil, centre_um: tuple[float, float], waves
         y = (low + high)[:, None] / 2 + length * node
         parts.append(_column_nodes(pupil, centre_um, (places, y), weights[:, None] * length * weight))
     x, y, wave = (np.concatenate(column) for column in zip(*(part[:3] for part in parts), strict=True))
-    return x, y, wave, sum(part[3] for part in parts)
+    total = sum(part[3] for part in parts)
+    if pupil.even:
+        return np.append(x, -x), np.append(y, y), np.append(wave, wave) / 2, total
+    return x, y, wave, total
 
 
 def _column_nodes(

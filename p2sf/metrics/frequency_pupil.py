@@ -13,12 +13,12 @@ See handbook 6.3.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import inf, nan, sqrt
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
-from scipy.fft import dct, dst, irfft, rfft
+from scipy.fft import irfft, rfft
 from scipy.linalg import qr, solve_triangular
 
 from p2sf.conventions import protected
@@ -30,6 +30,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.smooth_pupil import all_reach
 from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
@@ -43,10 +44,11 @@ JUDGED_AT = 18  # the order from which on a fold that the one before sees too is
 HOPELESS = 0.1  # waves at that order, which the highest does not bring down to MOST_RESIDUAL
 REACH_RINGS = 8  # of rays that show how much of the pupil reaches the sensor
 LEAST_REACHING = 0.05
-RIM = 64  # intervals of the rim's right half that are traced
-OUTLINE = 2048  # intervals of the outline: chords between them depart from it by 3e-7 of the radius
+RIM = 64  # intervals of half the rim that are traced
+OUTLINE = 4096  # intervals of the edge: chords between them depart from it by 3e-7 of the radius
 CENTROID_CELLS = 256  # along each side, for the centroid of the light that a mask lets through: 1e-3 of its radius
 PROBE = 33  # points along each axis where slopes are looked for
+OFF_AXIS = 1e-9  # of the radius: what lies nearer to the plane of symmetry lies in it
 
 UNFOLLOWED = "no polynomial fits the rays of this pupil; stop the lens down or reduce the field"
 
@@ -59,6 +61,11 @@ class RayCounts:
     radii: int
     directions: int
 
+    @property
+    def counts(self) -> tuple[int, int]:
+        """Return the radii and the directions around the whole disc."""
+        return self.radii, 2 * self.directions
+
 
 ORDERS = (
     RayCounts(8, 10, 16),
@@ -70,15 +77,18 @@ ORDERS = (
     RayCounts(44, 40, 70),
 )
 STOP_ORDERS = 4  # more over the stop, which the same rays carry
+MOST_KEPT_ORDER = 28  # of the polynomials over the stop that are kept: 10 MB
 EXACT = RayCounts(4, 6, 10)  # the six coefficients are a polynomial of fourth order
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PupilSamples:
-    """Rays over half the pupil, (nodes,): the last ``rim`` of them on its edge, from the top to the bottom.
+    """Rays over the whole pupil, (nodes,): the last ``rim`` of them once around its edge.
 
+    ``traced``: how many of them were; of even ones the others mirror these.
     ``share``: the area that each stands for, 0 on the edge; ``weight``: of its field; phase in waves, fx and fy in
-    cycles per µm.
+    cycles per µm. ``even``: whether rays at −ξ mirror those at ξ. ``disc``: the counts of nodes over the whole disc;
+    None where the pupil ends elsewhere.
     """
 
     xi: np.ndarray
@@ -89,6 +99,18 @@ class PupilSamples:
     fx: np.ndarray
     fy: np.ndarray
     rim: int
+    even: bool
+    disc: tuple[int, int] | None
+    traced: int
+
+    @property
+    def edge(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return fx and fy once around the edge, of the whole disc at OUTLINE steps, by its Fourier series."""
+        edge = self.fx[-self.rim :], self.fy[-self.rim :]
+        if self.disc is None:
+            return edge
+        x, y = (irfft(rfft(one), OUTLINE) * (OUTLINE / one.size) for one in edge)
+        return x, y
 
 
 @dataclass(frozen=True)
@@ -105,7 +127,7 @@ ONE_POINT = RayMoments()
 
 @dataclass(frozen=True, eq=False)
 class FrequencyPupil:
-    """The pupil over spatial frequencies (fx, fy), even in fx, its mask too, unless ``even`` is False.
+    """The pupil over spatial frequencies (fx, fy).
 
     Attributes
     ----------
@@ -114,9 +136,8 @@ class FrequencyPupil:
     phase, density : numpy.ndarray
         Coefficients of T_b(y)·T_a(x), (order + 1, order + 1), in the box's own coordinates; phase in waves, the density
         positive and up to a factor.
-    outline_x, outline_y : numpy.ndarray
-        The edge's right half from the largest to the smallest fy, in the box's coordinates; the whole, once around,
-        where the pupil is not even.
+    edge : numpy.ndarray
+        The edge, once around, (2, points), in the box's coordinates.
     centroid_um : float
         The light's centroid along y, µm from the chief ray: the mean landing point, weighted by the energy of the
         waves, the square of their amplitude.
@@ -135,9 +156,9 @@ class FrequencyPupil:
     xi, eta : numpy.ndarray
         ξ and η of the ray at a point of the box, as ``phase`` is.
     even : bool
-        Whether fx and −fx are alike, as they are in the plane of symmetry of a lens that has one.
+        Whether fx and −fx are alike, the mask included, so that sums take half of the lines.
     centroid_x_um : float
-        The light's centroid along x, 0 where the pupil is even.
+        The light's centroid along x.
     """
 
     half_x: float
@@ -145,8 +166,7 @@ class FrequencyPupil:
     middle_y: float
     phase: np.ndarray
     density: np.ndarray
-    outline_x: np.ndarray
-    outline_y: np.ndarray
+    edge: np.ndarray
     centroid_um: float
     spot: RayMoments
     residual_waves: float
@@ -178,46 +198,36 @@ class FrequencyPupil:
 
     @property
     def transposed(self) -> "FrequencyPupil":
-        """Return a pupil that is not even with x and y exchanged; its middle and its map to the stop are left out."""
+        """Return the pupil with x and y exchanged; the middle of its box is left out."""
         return replace(
             self,
             half_x=self.half_y,
             half_y=self.half_x,
             phase=self.phase.T,
             density=self.density.T,
-            outline_x=self.outline_y,
-            outline_y=self.outline_x,
+            edge=self.edge[::-1],
+            xi=self.xi.T,
+            eta=self.eta.T,
             centroid_um=self.centroid_x_um,
             centroid_x_um=self.centroid_um,
+            even=False,
         )
 
-    @property
-    def edge(self) -> np.ndarray:
-        """Return the whole edge, once around, (2, points), in the box's coordinates."""
-        outline = np.stack([self.outline_x, self.outline_y])
-        if not self.even:
-            return outline
-        return np.concatenate([outline, outline[:, -2:0:-1] * [[-1.0], [1.0]]], axis=1)
-
-    @property
-    def unfolded(self) -> "FrequencyPupil":
-        """Return the same pupil described as one that is not even, which it need not be behind a mask."""
-        outline_x, outline_y = self.edge
-        return replace(self, outline_x=outline_x, outline_y=outline_y, even=False)
-
-    def chords(self, y: np.ndarray) -> np.ndarray:
-        """Return the half length of the row at each y, in the box's coordinates; 0 outside the pupil."""
-        half: np.ndarray = np.interp(-y, -self.outline_y, self.outline_x, left=0.0, right=0.0)
-        return half
-
     def columns(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the lower and the upper end of the column at each x of the box, ≥ 0 of an even pupil."""
-        if not self.even:
-            return _ends(self.outline_x, self.outline_y, x)
-        widest = int(self.outline_x.argmax())
-        upper = np.interp(x, self.outline_x[: widest + 1], self.outline_y[: widest + 1])
-        lower = np.interp(x, self.outline_x[: widest - 1 : -1], self.outline_y[: widest - 1 : -1])
-        return lower, upper
+        """Return the lower and the upper end of the column at each x of the box; one point beside the pupil."""
+        one, two = (np.interp(x, *side) for side in self._sides)
+        return np.minimum(one, two), np.maximum(one, two)
+
+    @cached_property
+    def _sides(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the edge from its smallest x to its largest, there and back, each (2, points) with ascending x."""
+        closed = np.concatenate([self.edge, self.edge], axis=1)
+        first, size = int(self.edge[0].argmin()), self.edge.shape[1]
+        farthest = first + int(closed[0, first : first + size].argmax())
+        there, back = closed[:, first : farthest + 1].copy(), closed[:, first + size : farthest - 1 : -1].copy()
+        for side in (there, back):
+            np.maximum.accumulate(side[0], out=side[0])
+        return there, back
 
     def on_grid(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return phase and density at the points (y, x) of a grid in the box's coordinates."""
@@ -226,16 +236,6 @@ class FrequencyPupil:
     def stop_on_grid(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return ξ and η at the points (y, x) of a grid in the box's coordinates."""
         return _on_grid(self.xi, x, y), _on_grid(self.eta, x, y)
-
-
-def _ends(edge_x: np.ndarray, edge_y: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lower and the upper end, at each x, of what a closed curve goes around once; one point beside it."""
-    edge_x, edge_y = (np.roll(edge, -int(edge_x.argmin())) for edge in (edge_x, edge_y))
-    farthest = int(edge_x.argmax())
-    there = edge_x[: farthest + 1], edge_y[: farthest + 1]
-    back = np.append(edge_x[farthest:], edge_x[0])[::-1], np.append(edge_y[farthest:], edge_y[0])[::-1]
-    one, two = (np.interp(x, np.maximum.accumulate(side), height) for side, height in (there, back))
-    return np.minimum(one, two), np.maximum(one, two)
 
 
 def _on_grid(table: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -260,14 +260,10 @@ class Reach:
 
 def reach_of(pupil: FrequencyPupil) -> Reach:
     """Return how far apart rays land: over f, the phase has the gradient −(x, y) (Hamilton)."""
-    x, y = np.linspace(0, 1, PROBE), np.cos(np.linspace(0, np.pi, PROBE))
-    if pupil.even:
-        outside = x > pupil.chords(y)[:, None] + 1 / PROBE
-    else:
-        x = np.linspace(-1, 1, 2 * PROBE - 1)
-        low, high = pupil.columns(x)
-        margin = 2 / PROBE  # so that no column, however short, is without a point
-        outside = (y[:, None] > high + margin) | (y[:, None] < low - margin)
+    x, y = np.linspace(-1, 1, 2 * PROBE - 1), np.cos(np.linspace(0, np.pi, PROBE))
+    low, high = pupil.columns(x)
+    margin = 2 / PROBE  # so that no column, however short, is without a point
+    outside = (y[:, None] > high + margin) | (y[:, None] < low - margin)
     along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y, x))
     by_x, by_y = _derivatives(pupil.phase)
     landing_x = np.where(outside, np.nan, along @ by_x @ across[:, :-1].T)
@@ -284,23 +280,6 @@ def reach_of(pupil: FrequencyPupil) -> Reach:
 
 def landing_um(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return where rays land, x and y in µm from the chief ray, and the light of each, up to a factor."""
-    if not pupil.even:
-        return _landing_by_columns(pupil, count)
-    angle = np.arange(1, count + 1) * (np.pi / (count + 1))
-    y = np.cos(angle)[:, None]
-    chord = pupil.chords(y[:, 0])[:, None]
-    x = chord * (np.arange(count) + 0.5) / count
-    along, across = (chebvander(points, len(pupil.phase) - 1) for points in (y[:, 0], x))
-    by_x, by_y = _derivatives(pupil.phase)
-    landing_x, landing_y, density = (
-        (across[..., : table.shape[1]] @ (along[:, : len(table)] @ table)[..., None])[..., 0]
-        for table in (by_x, by_y, pupil.density)
-    )
-    light: np.ndarray = density**2 * chord * np.sin(angle)[:, None]
-    return -landing_x / pupil.half_x, -landing_y / pupil.half_y, light
-
-
-def _landing_by_columns(pupil: FrequencyPupil, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     angle = np.arange(1, count + 1) * (np.pi / (count + 1))
     x = np.cos(angle)[:, None]
     low, high = (end[:, None] for end in pupil.columns(x[:, 0]))
@@ -327,10 +306,11 @@ def _derivative(order: int) -> np.ndarray:
     return protected(chebder(np.eye(order + 1)))
 
 
-def uniform_disc(half: float = 1.0, even: bool = True) -> FrequencyPupil:
+def uniform_disc(half: float = 1.0) -> FrequencyPupil:
     """Return the pupil of a perfect lens whose cut-off is 2·half cycles per µm."""
-    x, y = _rim(OUTLINE, even)
-    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), x, y, 0.0, ONE_POINT, 0.0, 0, even=even)
+    angle = np.arange(OUTLINE) * (2 * np.pi / OUTLINE)
+    edge = np.stack([np.sin(angle), np.cos(angle)])
+    return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), edge, 0.0, ONE_POINT, 0.0, 0)
 
 
 def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: float = 0.0) -> FrequencyPupil:
@@ -340,29 +320,27 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
     Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
     rays of different parts of it arrive in one direction.
     """
-    mask = mask_seen(lens, source)
-    whole, even = not clip and all_reach(lens, source), not (lens.misaligned or turn_deg)
+    mask, even = mask_seen(lens, source), not (lens.misaligned or turn_deg)
+    whole = not clip and all_reach(lens, source)
     if not (whole or mask.clear):
         check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
     if not (whole or clip):
         _check_reach(lens, source)
-    edge = _rim(RIM, even) if whole else clear_outline(lens, source, OUTLINE // 4, clip, even)
+    outline = None if whole else clear_outline(lens, source, OUTLINE // 8, clip, even)
 
     def traced(sampling: RayCounts) -> PupilSamples:
-        counts = sampling.radii, 2 * sampling.directions
-        inside = whole_nodes(counts) if whole else clear_nodes(lens, source, counts, clip)
-        inside = inside if even else inside.unfolded()
-        xi, eta = np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1])
-        rays = pencil(lens, source, xi, eta)
-        passed = rays.passed  # where light is lost, an outline by directions misses a few rays
-        if whole and not passed.all():
+        if outline is None:
+            columns, rim = _over_disc(sampling.counts, even)
+        else:
+            columns, rim = _with_edge(clear_nodes(lens, source, sampling.counts, clip), outline, even)
+        rays = pencil(lens, source, *columns[:2])
+        if whole and not rays.passed.all():
             raise GeometryError(UNFOLLOWED)
-        across, up = turned(rays.fx, rays.fy, turn_deg)
-        columns = xi, eta, _shares(inside.weight, edge), rays.amplitude, rays.phase, across, up
-        xi, eta, share, weight, phase, fx, fy = (column[passed] for column in columns)
-        return PupilSamples(xi, eta, share, weight, phase, fx, fy, int(passed[-edge[0].size :].sum()))
+        kept = rays.passed  # where light is lost, an outline by directions misses a few rays
+        columns = np.stack([*columns, rays.amplitude, rays.phase, *turned(rays.fx, rays.fy, turn_deg)])[:, kept]
+        return _samples(columns, int(kept[-rim:].sum()), even, sampling.counts if whole else None)
 
-    found = behind_mask(_settled(traced, ORDERS, whole, even), mask, float(source.wavelength_um))
+    found = behind_mask(_settled(traced, ORDERS), mask, float(source.wavelength_um))
     return with_spot(found, lens, source, clip, turn_deg)
 
 
@@ -403,25 +381,17 @@ def turned(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple[np.ndarray,
 def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
     """Return the pupil that a fit describes, axes as `pupil_of_rays`. Raises GeometryError where its map folds."""
     even = not (found.level.skew or turn_deg)
-    edge = _rim(RIM, even)
 
     def evaluated(sampling: RayCounts) -> PupilSamples:
-        xi, eta, share = _over_disc(sampling, edge, even)
-        phase, fx, fy = found.at(xi, eta)
-        return PupilSamples(xi, eta, share, found.amplitude_at(xi, eta), phase, *turned(fx, fy, turn_deg), edge[0].size)
+        columns, rim = _over_disc(sampling.counts, even)
+        phase, fx, fy = found.at(*columns[:2])
+        weight = found.amplitude_at(*columns[:2])
+        table = np.stack([*columns, weight, phase, *turned(fx, fy, turn_deg)])
+        return _samples(table, rim, even, sampling.counts)
 
-    known = _settled(evaluated, ORDERS, True, even)
+    known = _settled(evaluated, ORDERS)
     known = replace(known, rays=found.rays, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
     return behind_mask(known, found.mask, found.wavelength_um)
-
-
-def _over_disc(
-    sampling: RayCounts, edge: tuple[np.ndarray, np.ndarray], even: bool
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return ξ, η and shares of the area of nodes over the disc, half of it for an even pupil, and on its edge."""
-    inside = whole_nodes((sampling.radii, 2 * sampling.directions))
-    inside = inside if even else inside.unfolded()
-    return np.append(inside.xi, edge[0]), np.append(inside.eta, edge[1]), _shares(inside.weight, edge)
 
 
 def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR, turn_deg: float = 0.0) -> FrequencyPupil:
@@ -430,26 +400,52 @@ def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR, turn_deg: 
     ``mask``: what else stands in it, as the source sees it. W counts the other way round than the mask's path.
     """
     even, scale = not turn_deg, -float(six.reduced_slope) / float(six.wavelength_um)
-    edge = _rim(RIM, even)
 
     def evaluated(sampling: RayCounts) -> PupilSamples:
-        xi, eta, share = _over_disc(sampling, edge, even)
+        columns, rim = _over_disc(sampling.counts, even)
+        xi, eta, _ = columns
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
-        across, up = turned(scale * xi, scale * eta, turn_deg)
-        return PupilSamples(xi, eta, share, one, phase, across, up, edge[0].size)
+        table = np.stack([*columns, one, phase, *turned(scale * xi, scale * eta, turn_deg)])
+        return _samples(table, rim, even, sampling.counts)
 
-    found = replace(_settled(evaluated, (EXACT,), True, even), rays=2)
+    found = replace(_settled(evaluated, (EXACT,)), rays=2)
     return behind_mask(found, mask, -float(six.wavelength_um))
+
+
+@lru_cache(maxsize=16)
+def _over_disc(counts: tuple[int, int], even: bool) -> tuple[np.ndarray, int]:
+    """Return ξ, η and shares of the area of nodes over the disc, of an even pupil over half of it, and on its rim."""
+    angle = np.linspace(0, np.pi, RIM + 1) if even else np.arange(2 * RIM) * (np.pi / RIM)
+    columns, rim = _with_edge(whole_nodes(counts), (np.sin(angle), np.cos(angle)), even)
+    return protected(columns), rim
+
+
+def _with_edge(inside: ClearNodes, edge: tuple[np.ndarray, np.ndarray], even: bool) -> tuple[np.ndarray, int]:
+    """Return ξ, η and shares of the area of nodes and behind them of points on the edge, and how many these are."""
+    nodes = (inside if even else inside.unfolded()).with_points(*edge)
+    return np.stack([nodes.xi, nodes.eta, nodes.weight]), edge[0].size
+
+
+def _samples(table: np.ndarray, rim: int, even: bool, disc: tuple[int, int] | None) -> PupilSamples:
+    """Return samples of (ξ, η, share, weight, phase, fx, fy), of an even pupil given for half of it."""
+    traced = table.shape[1]
+    if even:
+        mirrored = table * np.array([-1, 1, 1, 1, 1, -1, 1])[:, None]
+        parts = table[:, :-rim], mirrored[:, :-rim], table[:, -rim:], mirrored[:, -2:-rim:-1]
+        table, rim = np.concatenate(parts, axis=1), 2 * rim - 2
+    xi, eta, share, weight, phase, fx, fy = table
+    return PupilSamples(xi, eta, share, weight, phase, fx, fy, rim, even, disc, traced)
 
 
 def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) -> FrequencyPupil:
     """Return the pupil behind a mask: centroid and RMS distance are those of the light that passes."""
     if mask.clear:
         return pupil
-    pupil = replace(pupil if mask.even else pupil.unfolded, mask=mask, wavelength_um=wavelength_um)
+    pupil = replace(pupil, even=pupil.even and mask.even, mask=mask, wavelength_um=wavelength_um)
     axis = (np.arange(CENTROID_CELLS) + 0.5) * (2 / CENTROID_CELLS) - 1
     xi, eta = pupil.stop_on_grid(axis, axis)
-    inside = mask.opens(xi, eta) & (xi * xi + eta * eta <= 1)
+    low, high = pupil.columns(axis)  # beyond the edge its polynomials are of no use
+    inside = mask.opens(xi, eta) & (xi * xi + eta * eta <= 1) & (axis[:, None] >= low) & (axis[:, None] <= high)
     phase, density = pupil.on_grid(axis, axis)
     if mask.phased:
         phase = phase + np.where(inside, mask.path_um(xi * inside, eta * inside), 0.0) / wavelength_um
@@ -459,14 +455,14 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     # Of rays the density is the light, of waves the amplitude.
     light = np.where(whole, density * np.square(mask.amplitude(xi * inside, eta * inside)), 0.0)
     landing_x, landing_y = -slope_x / pupil.half_x, -slope_y / pupil.half_y
-    spot, waves = (_moments(landing_x, landing_y, part, pupil.even) for part in (light, light * density))
+    spot, waves = (_moments(landing_x, landing_y, part) for part in (light, light * density))
     return replace(pupil, centroid_um=waves.y_um, centroid_x_um=waves.x_um, spot=spot)
 
 
-def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray, even: bool) -> RayMoments:
-    """Return the moments of light that lands at x and y; where it is ``even`` the mean x is 0."""
+def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray) -> RayMoments:
+    """Return the moments of light that lands at x and y."""
     share = light / light.sum()
-    aside, centre = 0.0 if even else float((share * x).sum()), float((share * y).sum())
+    aside, centre = float((share * x).sum()), float((share * y).sum())
     square = float((share * ((x - aside) ** 2 + (y - centre) ** 2)).sum())
     return RayMoments(aside, centre, float(np.sqrt(square)))
 
@@ -477,27 +473,14 @@ def _beside(cells: np.ndarray) -> np.ndarray:
     return beside
 
 
-def _shares(weight: np.ndarray, edge: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    return np.append(weight, np.zeros(edge[0].size))
-
-
-@lru_cache(maxsize=4)
-def _rim(intervals: int, even: bool = True) -> tuple[np.ndarray, np.ndarray]:
-    """Return the right half of the unit circle from (0, 1) to (0, −1), or once around, ``intervals`` to the half."""
-    angle = np.linspace(0, np.pi, intervals + 1) if even else np.arange(2 * intervals) * (np.pi / intervals)
-    return protected(np.sin(angle)), protected(np.cos(angle))
-
-
-def _settled(
-    nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCounts, ...], smooth: bool, even: bool = True
-) -> FrequencyPupil:
+def _settled(nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCounts, ...]) -> FrequencyPupil:
     """Return the pupil through nodes, of the first order whose residual is small enough."""
     counts, traced, before = (0, 0), 0, 0.0
     for sampling in orders:
-        if counts != (sampling.radii, sampling.directions):
-            nodes, counts = nodes_of(sampling), (sampling.radii, sampling.directions)
-            traced += nodes.xi.size
-        found = _through(nodes, sampling.order, smooth, even)
+        if counts != sampling.counts:
+            nodes, counts = nodes_of(sampling), sampling.counts
+            traced += nodes.traced
+        found = _through(nodes, sampling.order)
         hopeless = sampling.order >= JUDGED_AT and min(before, found.residual_waves) > HOPELESS
         if hopeless or found.residual_waves < RESIDUAL_WAVES:
             break
@@ -512,98 +495,110 @@ def _settled(
     return replace(found, rays=traced)
 
 
-def _through(nodes: PupilSamples, order: int, smooth: bool, even: bool) -> FrequencyPupil:
+def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     """Return the polynomials through nodes by least squares, and what else follows from the rays."""
-    fx, fy = np.abs(nodes.fx) if even else nodes.fx, nodes.fy  # of a pupil that is even in fx, either half will do
-    edge_x, edge_y = (_outline if even else _whole_outline)(fx[-nodes.rim :], fy[-nodes.rim :], smooth)
-    (left, right), (low, high) = ((float(edge.min()), float(edge.max())) for edge in (edge_x, edge_y))
-    half_x, centre = (right, 0.0) if even else ((right - left) / 2, (right + left) / 2)
-    half_y, middle = (high - low) / 2, (high + low) / 2
-    x, y = (fx - centre) / half_x, (fy - middle) / half_y
-    used = nodes.xi > 0 if even else np.ones(x.size, bool)
-    least = LeastSquares(order, x[used], y[used], nodes.share[used], even)
-    phase = least.solve(nodes.phase[used])
-    miss = least.values(phase) - nodes.phase[used]
-    freedom = max(1 - least.unknowns / miss.size, 1e-3)
-    share = nodes.share[used]
-    area = _area(nodes, (x, y), used, order + STOP_ORDERS, even)
-    true = nodes.weight[used] / np.abs(area)
+    edge = np.stack(nodes.edge)
+    low, high = edge.min(1), edge.max(1)
+    half_x, half_y = half = (high - low) / 2
+    middle = (high + low) / 2
+    (centre_x, centre_y), share = middle, nodes.share
+    x, y = (nodes.fx - centre_x) / half_x, (nodes.fy - centre_y) / half_y
+    least = LeastSquares(order, x, y, share, nodes.even)
+    phase = least.solve(nodes.phase)
+    miss = least.values(phase) - nodes.phase
+    area = _over_stop(nodes, order + STOP_ORDERS).area(x, y)
+    true = nodes.weight / np.abs(area)
     density = least.solve(true)
-    light = share * nodes.weight[used]
-    landing_x, landing_y = (-slope / half for slope, half in zip(least.slopes(phase), (half_x, half_y), strict=True))
+    light = share * nodes.weight
+    landing_x, landing_y = (-slope / size for slope, size in zip(least.slopes(phase), half, strict=True))
     # Of rays weight·dξdη is the light, of waves D²df = D·weight·dξdη.
-    spot, waves = (_moments(landing_x, landing_y, part, even) for part in (light, light * true))
+    spot, waves = (_moments(landing_x, landing_y, part) for part in (light, light * true))
     thin = light * true @ (least.values(density) / true - 1) ** 2 / (light @ true)
     # An error of the amplitude changes the field as a phase of 1/2π of it does.
-    residual = float(np.sqrt((share @ miss**2 / share.sum() + thin / (2 * np.pi) ** 2) / freedom))
-    xi = least.solve(nodes.xi[used] / x[used] if even else nodes.xi[used])
-    xi = _times_x(xi) if even else xi
+    residual = float(np.sqrt((share @ miss**2 / share.sum() + thin / (2 * np.pi) ** 2) / least.freedom))
     return FrequencyPupil(
-        half_x,
-        half_y,
-        middle,
+        float(half_x),
+        float(half_y),
+        float(centre_y),
         phase,
         density,
-        (edge_x - centre) / half_x,
-        (edge_y - middle) / half_y,
+        (edge - middle[:, None]) / half[:, None],
         waves.y_um,
         spot,
         residual if area.min() * area.max() > 0 else inf,
         0,
-        xi=-xi if even and nodes.xi @ nodes.fx < 0 else xi,
-        eta=least.solve(nodes.eta[used]),
-        even=even,
+        xi=least.solve_across(nodes.xi),
+        eta=least.solve(nodes.eta),
+        even=nodes.even,
         centroid_x_um=waves.x_um,
     )
 
 
 class LeastSquares:
-    """Polynomials T_a(x)·T_b(y), a + b ≤ order, through values at points of the box, by one QR; ``even``: a even."""
+    """Polynomials T_a(x)·T_b(y), a + b ≤ order, through values at points of the box, by one QR.
 
-    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray, even: bool = True):
-        self._x, self._y, self._order, self._even = x, y, order, even
+    Of ``even`` points, which x = 0 mirrors, it is that of half the points and of even a.
+    """
+
+    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray, even: bool):
+        self._x, self._order, self._even = x, order, even
         self._at = np.array([(b, a) for a in range(0, order + 1, 1 + even) for b in range(order + 1 - a)]).T
-        self._across, self._along = chebvander(x, order), chebvander(y, order)
-        self._design = self._along[:, self._at[0]] * self._across[:, self._at[1]]
+        self._across, self._along = chebvander(x, order + 1), chebvander(y, order + 1)
+        self._used = x > OFF_AXIS if even else np.ones(x.size, bool)
+        design = self._along[self._used][:, self._at[0]] * self._across[self._used][:, self._at[1]]
         self._root = np.sqrt(share + share[share > 0].min())  # the edge counts too, where polynomials deviate first
-        self._factor, self._upper = qr(self._design * self._root[:, None], mode="economic", check_finite=False)
-        self.unknowns = self._at.shape[1]
+        self._factor, self._upper = qr(design * self._root[self._used, None], mode="economic", check_finite=False)
+        self.freedom = max(1 - design.shape[1] / design.shape[0], 1e-3)
 
     def solve(self, values: np.ndarray) -> np.ndarray:
-        """Return the coefficients, (order + 1, order + 1) for (b, a)."""
+        """Return the coefficients, (order + 1, order + 1) for (b, a), of what even points mirror alike."""
         table = np.zeros((self._order + 1, self._order + 1))
-        table[tuple(self._at)] = solve_triangular(self._upper, self._factor.T @ (values * self._root))
+        table[tuple(self._at)] = solve_triangular(self._upper, self._factor.T @ (values * self._root)[self._used])
         return table
+
+    def solve_across(self, values: np.ndarray) -> np.ndarray:
+        """Return the coefficients, up to (order + 2, order + 2), of what changes its sign between mirrored points."""
+        if not self._even:
+            return self.solve(values)
+        # Over x it is even.
+        return _times_x(self.solve(np.divide(values, self._x, out=np.zeros_like(values), where=self._used)))
 
     def values(self, table: np.ndarray) -> np.ndarray:
         """Return the polynomial at the points."""
-        values: np.ndarray = self._design @ table[tuple(self._at)]
-        return values
+        return self._sum(table)
 
     def slopes(self, table: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return ∂/∂x and ∂/∂y of the polynomial at the points."""
         by_x, by_y = _derivatives(table)
-        across = np.einsum("na,na->n", self._along @ by_x, self._across[:, :-1])
-        along = np.einsum("na,na->n", self._along[:, :-1] @ by_y, self._across)
-        return across, along
+        return self._sum(by_x), self._sum(by_y)
+
+    def _sum(self, table: np.ndarray) -> np.ndarray:
+        rows, columns = table.shape
+        found: np.ndarray = np.einsum("na,na->n", self._along[:, :rows] @ table, self._across[:, :columns])
+        return found
 
     def area(self, across: np.ndarray, along: np.ndarray) -> np.ndarray:
-        """Return ∂(across, along)/∂(x, y) at the points, of two functions of them; ``across`` odd in x if even."""
-        # Of an even pupil across is odd in x, and across/x even.
-        stretch, up = self.solve(across / self._x if self._even else across), self.solve(along)
-        (stretch_x, stretch_y), (up_x, up_y) = self.slopes(stretch), self.slopes(up)
-        if self._even:
-            stretch_x, stretch_y = self.values(stretch) + self._x * stretch_x, self._x * stretch_y
+        """Return ∂(across, along)/∂(x, y) at the points, of two functions of them, as `solve_across` and `solve`."""
+        (stretch_x, stretch_y), (up_x, up_y) = self.slopes(self.solve_across(across)), self.slopes(self.solve(along))
         area: np.ndarray = stretch_x * up_y - stretch_y * up_x
         return area
 
 
-def _area(
-    nodes: PupilSamples, box: tuple[np.ndarray, np.ndarray], used: np.ndarray, order: int, even: bool
-) -> np.ndarray:
-    """Return ∂(x, y)/∂(ξ, η) at the used nodes, (x, y) in the box: over the stop it is smooth however rays crowd."""
-    stop = LeastSquares(order, nodes.xi[used], nodes.eta[used], nodes.share[used], even)
-    return stop.area(box[0][used], box[1][used])
+def _over_stop(nodes: PupilSamples, order: int) -> LeastSquares:
+    """Return polynomials over the stop, where ∂(x, y)/∂(ξ, η) is smooth however rays crowd."""
+    if nodes.disc is None:
+        return LeastSquares(order, nodes.xi, nodes.eta, nodes.share, nodes.even)
+    return (_over_whole_stop if order <= MOST_KEPT_ORDER else _over_whole_stop.__wrapped__)(
+        nodes.disc, nodes.even, order
+    )
+
+
+@lru_cache(maxsize=8)
+def _over_whole_stop(counts: tuple[int, int], even: bool, order: int) -> LeastSquares:
+    """Return the same of rays over the whole disc, whatever the source and the wavelength."""
+    columns, rim = _over_disc(counts, even)
+    nodes = _samples(np.stack([*columns, *columns, columns[0]]), rim, even, counts)
+    return LeastSquares(order, nodes.xi, nodes.eta, nodes.share, even)
 
 
 def _times_x(table: np.ndarray) -> np.ndarray:
@@ -614,30 +609,3 @@ def _times_x(table: np.ndarray) -> np.ndarray:
     product[:size, : size - 1] += table[:, 1:] / 2
     product[:size, 1] += table[:, 0] / 2
     return product
-
-
-def _outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the edge's right half from the largest to the smallest y; a smooth one refined by its Fourier series."""
-    if y[0] < y[-1]:
-        x, y = x[::-1], y[::-1]
-    if smooth:
-        x, y = _refined(x, y)
-    return np.maximum(x, 0.0), np.minimum.accumulate(y)
-
-
-def _whole_outline(x: np.ndarray, y: np.ndarray, smooth: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the whole edge, once around; a smooth one at 2·OUTLINE equal steps, where its Fourier series goes on."""
-    if not smooth:
-        return x, y
-    finer = 2 * OUTLINE
-    one, two = (irfft(rfft(edge), finer) * (finer / edge.size) for edge in (x, y))
-    return one, two
-
-
-def _refined(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return x, odd, and y, even about both ends, at OUTLINE equal steps: their sine and cosine series go on."""
-    more = (0, OUTLINE + 1 - y.size)
-    sines, cosines = np.pad(dst(x[1:-1], 1), more), np.pad(dct(y, 1), more)
-    cosines[y.size - 1] /= 2  # the last of a cosine series counts once, in a longer one twice
-    scale = 1 / (2 * (y.size - 1))
-    return np.concatenate([[0.0], dst(sines, 1) * scale, [0.0]]), dct(cosines, 1) * scale

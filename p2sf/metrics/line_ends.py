@@ -4,7 +4,9 @@ import numpy as np
 
 END = 3  # samples at the end of a line whose weights differ from 1
 ENDS = np.arange(END)[:, None]
-GREGORY = np.array([1 / 2, 1 / 12, 0.0])  # −B₁, B₂/2, B₃/3: see `end_weights`
+GREGORY = np.array([[1 / 2], [1 / 12], [0.0]])  # −B₁, B₂/2, B₃/3: see `end_weights`
+BY_MOMENTS = np.linalg.inv(np.vander(-np.arange(float(END)), END, increasing=True).T)
+POWERS = np.arange(1, END + 1)[:, None]
 
 
 def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -15,9 +17,7 @@ def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     the end, and those of plain samples (Euler–Maclaurin) −Bₘ₊₁(1)·(−1)ᵐ/(m + 1).
     """
     last = np.floor(ends + 0.5).astype(int)
-    powers = np.arange(1, END + 1)[:, None]
-    moments = (ends - last) ** powers / powers - GREGORY[:, None]
-    return last, 1 + np.linalg.solve(np.vander(-np.arange(float(END)), END, increasing=True).T, moments)
+    return last, 1 + BY_MOMENTS @ ((ends - last) ** POWERS / POWERS - GREGORY)
 
 
 def interval_weights(low: np.ndarray, high: np.ndarray, size: int) -> np.ndarray:

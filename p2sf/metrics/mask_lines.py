@@ -86,8 +86,8 @@ def _with_slopes(table: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.nd
     )
 
 
-def places_between(curves: list[np.ndarray], count: int, least: float = -np.inf) -> tuple[np.ndarray, np.ndarray]:
-    """Return places of lines from ``least`` on, and weights.
+def places_between(curves: list[np.ndarray], count: int, even: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Return places of some ``count`` lines and weights; where all is ``even`` of those from 0 on, which count twice.
 
     Between the ends and corners of all edges they are those of Gauss–Legendre in an angle, which crowd there.
     """
@@ -96,7 +96,7 @@ def places_between(curves: list[np.ndarray], count: int, least: float = -np.inf)
         across = curve[0]
         turning = (across >= np.roll(across, 1)) != (np.roll(across, -1) >= across)
         breaks |= set(np.round(across[turning], 9).tolist())
-    low, high = max(least, float(curves[0][0].min())), float(curves[0][0].max())
+    low, high = float(curves[0][0].min()), float(curves[0][0].max())
     inside = [low, *sorted(b for b in breaks if low + CLOSE < b < high - CLOSE), high]
     places, weights = [], []
     for low, high in pairwise(inside):
@@ -104,7 +104,11 @@ def places_between(curves: list[np.ndarray], count: int, least: float = -np.inf)
         angle = node * pi / 2
         places.append((low + high + (high - low) * np.sin(angle)) / 2)
         weights.append((high - low) / 2 * np.cos(angle) * weight * pi / 2)
-    return np.concatenate(places), np.concatenate(weights)
+    place, share = np.concatenate(places), np.concatenate(weights)
+    if not even:
+        return place, share
+    half = place > -CLOSE  # a line in the middle is its own mirror image
+    return place[half], (share * np.where(place > CLOSE, 2, 1))[half]
 
 
 def open_intervals(

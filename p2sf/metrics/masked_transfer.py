@@ -8,7 +8,7 @@ root does.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, hypot, inf
+from math import ceil, hypot
 
 import numpy as np
 from scipy import fft
@@ -56,8 +56,7 @@ def masked_lines(pupil: FrequencyPupil) -> tuple[MaskedLines, MaskedLines]:
             max(FEWEST_SAMPLES, SAMPLES_PER_WIDTH / (1 - mask.obscuration)) + SAMPLES_PER_WAVE * (along + more)
         )
         fewest = max(FEWEST_ROWS, ROWS_OF_RING / (1 - mask.obscuration) ** NARROW)
-        halved = along_y and pupil.even  # columns at −x are the same
-        rows = ceil((fewest + ROWS_PER_WAVE * (across + more)) / (2 if halved else 1))
+        rows = ceil(fewest + ROWS_PER_WAVE * (across + more))
         if rows * samples > MOST_SAMPLES:
             raise SamplingError(
                 "a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or "
@@ -65,7 +64,7 @@ def masked_lines(pupil: FrequencyPupil) -> tuple[MaskedLines, MaskedLines]:
                 waves=along + more,
             )
         inner, outer = ([curve if along_y else curve[::-1] for curve in curves] for curves in (light, dark))
-        places, weights = places_between([*inner, *outer], rows, 0.0 if halved else -inf)
+        places, weights = places_between([*inner, *outer], rows, along_y and pupil.even)
         found.append(MaskedLines(along_y, samples, places, weights, *open_intervals(inner, outer, places)))
     return found[0], found[1]
 

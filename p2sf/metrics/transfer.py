@@ -1,8 +1,8 @@
 """Transfer function, line spread and edge spread from the pupil, without a window (handbook 6.3).
 
-The transfer function is the autocorrelation of the pupil over spatial frequency (Goodman 2005, eq. 6-28). Along x it is
-the sum over rows of constant fy of each row's own autocorrelation, along y that over columns of constant fx: sums over
-even samples by FFT, with weights that end each line between two samples.
+The transfer function is the autocorrelation of the pupil over spatial frequency (Goodman 2005, eq. 6-28). Along y it is
+the sum over columns of constant fx of each column's own autocorrelation, along x the same of the pupil transposed: sums
+over even samples by FFT, with weights that end each column between two samples.
 
 The same sums over the modulus of the pupil are those of the perfect lens. All weights are positive, so the triangle
 inequality |Σ w·P·P′*| ≤ Σ w·|P|·|P′| bounds the one by the other at every lag, whatever error the sums have.
@@ -38,7 +38,6 @@ Counts = tuple[int, int]
 Sums = tuple[np.ndarray, np.ndarray]
 """Autocorrelations at even lags, complex, and those of the modulus, real."""
 Stop = Callable[[], bool]
-LineSum = Callable[[FrequencyPupil, Counts, Stop], Sums]
 
 
 def never() -> bool:
@@ -87,30 +86,21 @@ def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice
     if not pupil.mask.clear:
         lines = masked_lines(pupil)
         return _masked_slice(pupil, lines[0], cancelled), _masked_slice(pupil, lines[1], cancelled)
-    across, along = _line_counts(reach_of(pupil), pupil.even)
-    if not pupil.even:
-        other = pupil.transposed
-        return (
-            _slice(_column_sum, other, across, 2 * pupil.half_x, False, cancelled),
-            _slice(_column_sum, pupil, along, 2 * pupil.half_y, True, cancelled),
-        )
-    return (
-        _slice(_row_sum, pupil, across, 2 * pupil.half_x, False, cancelled),
-        _slice(_column_sum, pupil, along, 2 * pupil.half_y, True, cancelled),
-    )
+    across, along = line_counts(reach_of(pupil))
+    return _slice(pupil.transposed, across, False, cancelled), _slice(pupil, along, True, cancelled)
 
 
 def check_contrast(pupil: FrequencyPupil) -> None:
     """Raise the SamplingError of `otf_slices` for a pupil that takes too many samples."""
-    _ = _line_counts(reach_of(pupil), pupil.even) if pupil.mask.clear else masked_lines(pupil)
+    _ = line_counts(reach_of(pupil)) if pupil.mask.clear else masked_lines(pupil)
 
 
-def _slice(
-    line_sum: LineSum, pupil: FrequencyPupil, counts: Counts, cut_off: float, along_y: bool, cancelled: Stop = never
-) -> OtfSlice:
-    own, perfect = line_sum(pupil, counts, cancelled)
-    factor = _calibration(counts, line_sum, pupil.even) if counts[0] <= CALIBRATED else np.ones(own.size)
-    return OtfSlice(cut_off / counts[1], own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
+def _slice(pupil: FrequencyPupil, counts: Counts, along_y: bool, cancelled: Stop = never) -> OtfSlice:
+    """Return the transfer function along y of a pupil, which for that along x is transposed."""
+    own, perfect = column_sum(pupil, counts, cancelled)
+    factor = _calibration(counts) if counts[0] <= CALIBRATED else np.ones(own.size)
+    step = 2 * pupil.half_y / counts[1]
+    return OtfSlice(step, own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
 
 
 def _masked_slice(pupil: FrequencyPupil, lines: MaskedLines, cancelled: Stop) -> OtfSlice:
@@ -149,14 +139,12 @@ def _waves(transfer: np.ndarray, step: float, position_um: np.ndarray, first: in
 
 def otf_samples(pupil: FrequencyPupil) -> int:
     """Return how many samples both slices of the transfer function take together, behind no mask."""
-    across, along = _line_counts(reach_of(pupil), pupil.even)
-    return across[0] * across[1] + along[0] * along[1]
+    return sum(lines * samples for lines, samples in line_counts(reach_of(pupil)))
 
 
-def _line_counts(reach: Reach, even: bool) -> tuple[Counts, Counts]:
-    """Return the counts of rows and of columns, of an even pupil at fx > 0: those at fx < 0 are the same."""
-    across, along = _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
-    return across, (along[0] // 2, along[1]) if even else along
+def line_counts(reach: Reach) -> tuple[Counts, Counts]:
+    """Return the counts of rows and of columns."""
+    return _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
 
 
 def _counts(across: float, along: float) -> Counts:
@@ -174,42 +162,20 @@ def _counts(across: float, along: float) -> Counts:
     return lines, samples
 
 
-def _row_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
-    """Return the sums over rows of their autocorrelations at the lags 0 … counts[1], up to a factor."""
-    lines, samples = counts
-    angle, step = np.arange(1, lines + 1) * (pi / (lines + 1)), 2 / samples  # rows at Gauss–Chebyshev points
-    x, rows_y = (np.arange(samples // 2 + 2) + 0.5) * step, np.cos(angle)
-    half, place = x.size, np.arange(x.size)
-    last, weight = end_weights(pupil.chords(rows_y) / step - 0.5)
-    lines_of = _Lines(pupil, rows_y, x, np.sin(angle), True)
-    length = _even_length(4 * half + 2)
-    total = np.zeros((2, length // 2 + 1), complex)
-    for some, packed in _blocks(lines, half, length, cancelled):
-        count = some.stop - some.start
-        lines_of.pack(some, place <= last[some, None], packed[:, half : 2 * half])
-        packed[:, :half] = packed[:, 2 * half - 1 : half - 1 : -1]
-        packed[:, 2 * half :] = 0
-        _weigh(packed, half + last[some] - ENDS, weight[:, some])
-        # A row is even: its mirror image, weighted at the other end, has the same spectrum at the opposite frequency.
-        spectrum = fft.fft(packed, overwrite_x=True)
-        power = np.empty((len(packed), length // 2 + 1), np.complex64)
-        power[:, 0], power[:, 1:] = spectrum[:, 0], spectrum[:, : length // 2 - 1 : -1]
-        _add_power(total, spectrum[:, : length // 2 + 1], power, count)
-    own, perfect = fft.irfft(total, length)[:, 2 * half - 1 + np.arange(samples + 1)]
-    return own, perfect
+def column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
+    """Return the sums over columns of their autocorrelations about the centroid at the lags 0 … counts[1].
 
-
-def _column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
-    """Return the sums over columns of their autocorrelations about the centroid, as `_row_sum` does over rows."""
-    lines, samples = counts
-    reach = pi / 2 if pupil.even else pi
-    angle, step, size = (np.arange(lines) + 0.5) * (reach / lines), 2 / samples, samples + 4
+    Up to a factor: of an even pupil over half of the columns, those at Gauss–Chebyshev points with fx > 0.
+    """
+    columns, samples = counts
+    lines = columns // 2 if pupil.even else columns
+    angle, step, size = (np.arange(lines) + 0.5) * (pi / columns), 2 / samples, samples + 4
     columns_x, place = np.cos(angle), np.arange(size)
     y = (place - (size - 1) / 2) * step
     low, high = pupil.columns(columns_x)
     (top, at_top), (under, at_bottom) = end_weights((high - y[0]) / step), end_weights((y[-1] - low) / step)
     bottom = size - 1 - under
-    lines_of = _Lines(pupil, columns_x, y, np.sin(angle), False)
+    lines_of = _Lines(pupil, columns_x, y, np.sin(angle))
     length = fft.next_fast_len(2 * size)
     total = np.zeros((2, length), complex)
     for some, upper in _blocks(lines, size, length, cancelled):
@@ -232,10 +198,9 @@ class _Lines:
     aa′ + bb′, which is their sum.
     """
 
-    def __init__(self, pupil: FrequencyPupil, lines: np.ndarray, places: np.ndarray, share: np.ndarray, rows: bool):
-        phase = pupil.phase.copy()
-        phase[1, 0] += pupil.centroid_um * pupil.half_y  # about the centroid
-        phase, density = (phase, pupil.density) if rows else (phase.T, pupil.density.T)
+    def __init__(self, pupil: FrequencyPupil, lines: np.ndarray, places: np.ndarray, share: np.ndarray):
+        phase, density = pupil.phase.T.copy(), pupil.density.T
+        phase[0, 1] += pupil.centroid_um * pupil.half_y  # about the centroid
         across, along = (chebvander(at, max(len(phase), len(density)) - 1) for at in (lines, places))
         self._across, self._phase = across[:, : len(phase)], phase @ along[:, : len(phase)].T
         # In double precision: coefficients of a pupil that fills its box in part reach 1e10 and cancel.
@@ -280,19 +245,14 @@ def _blocks(lines: int, samples: int, length: int, cancelled: Stop) -> Iterator[
         yield slice(start, stop), room[: 3 * (stop - start) // 2]
 
 
-def _even_length(least: int) -> int:
-    length: int = 2 * fft.next_fast_len(-(-least // 2))
-    return length
-
-
 @lru_cache(maxsize=64)
-def _calibration(counts: Counts, line_sum: LineSum, even: bool) -> np.ndarray:
-    """Return what a rule's sums over a uniform disc lack of the closed form, at every lag.
+def _calibration(counts: Counts) -> np.ndarray:
+    """Return what the sums over a uniform disc lack of the closed form, at every lag.
 
     The lines that a lag leaves no longer than nothing end a sum too abruptly, by 1e-4 where lines are few, and by as
     much for any pupil near an ellipse. The factor takes that away, to 1e-6 for such a pupil.
     """
-    found = line_sum(uniform_disc(even=even), counts, never)[1]
+    found = column_sum(uniform_disc(), counts)[1]
     found /= found[0]
     exact = circle_contrast(np.linspace(0, 1, counts[1] + 1))
     return protected(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))
