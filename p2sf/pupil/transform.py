@@ -7,6 +7,11 @@ point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
 See handbook 4.1.
 """
 
+from functools import lru_cache
+from math import prod
+from threading import local
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -19,6 +24,9 @@ MOST_PRODUCTS = 2**20  # nodes × samples from which a non-uniform FFT is the fa
 NUFFT_ERROR = {np.dtype(np.float64): 1e-14, np.dtype(np.float32): 1e-6}  # of the round-off of each precision
 COARSE_ERROR = 1e-9  # least that a grid 1.25 times as fine as the samples allows, where 2 times is slow
 MANY_SAMPLES = 2**15  # beyond which that one is taken, whose square, 1e-18, is the error of a picture in R²
+FEW_SAMPLES = 2**14  # up to which a plan takes as long as a sum, and is kept; beyond, float32 positions are too coarse
+FEW_NODES = 2**13  # which need not be sorted by place
+_here = local()  # ``plan`` keeps plans, which hold the nodes of one sum at a time, apart in each thread
 
 
 def sum_plane_waves(
@@ -55,30 +63,55 @@ def _nufft(
     amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray, even: bool
 ) -> np.ndarray:
     """Return `sum_plane_waves` over evenly spaced axes by a non-uniform FFT of type 1, each set of nodes in turn."""
-    import finufft
-
     shape = np.broadcast_shapes(amplitude.shape, kx.shape, ky.shape)
     sets = [np.broadcast_to(array, shape).reshape(-1, shape[-1]) for array in (amplitude, kx, ky)]
     steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
     middle = float(x[x.size // 2]), float(y[y.size // 2])  # where Fourier mode 0 is
     # Even sums over half the nodes, as the mean of the other half's mirror image: Fourier modes need an odd number.
     mirrored = even and middle[0] == 0 and x.size > 1
-    fields = np.empty((len(sets[0]), y.size, x.size | 1 if mirrored else x.size), complex)
-    exact = kx.dtype == np.float64 and x.size * y.size <= MANY_SAMPLES
-    settings = {"eps": max(NUFFT_ERROR[kx.dtype], 0.0 if exact else COARSE_ERROR), "isign": 1, "nthreads": 1}
-    settings["upsampfac"] = 2.0 if exact else 1.25
+    grid = y.size, x.size | 1 if mirrored else x.size
+    modes = tuple(length for length in grid if length > 1)
+    transform, precision = _plan(modes, kx.dtype, shape[-1] <= FEW_NODES)
+    fields = np.empty((len(sets[0]), *grid), np.result_type(precision, np.complex64))
     for field, weight, across, up in zip(fields, *sets, strict=True):
         if even and not mirrored:
             weight, across, up = np.tile(weight / 2, 2), np.concatenate([across, -across]), np.tile(up, 2)
         if any(middle):
             weight = weight * np.exp(2j * np.pi * (across * middle[0] + up * middle[1]))
-        turns = [np.ascontiguousarray(k, float) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
-        # Single precision gains nothing: its Fourier transforms are no faster.
-        transform = finufft.nufft2d1 if len(turns) == 2 else finufft.nufft1d1
-        transform(*turns, weight.astype(complex), out=field if len(turns) == 2 else field.ravel(), **settings)
+        turns = [np.ascontiguousarray(k, precision) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
+        transform.setpts(*turns)
+        transform.execute(weight.astype(fields.dtype), out=field.reshape(modes))
     if mirrored:
         fields = (fields[..., : x.size] + fields[..., ::-1][..., : x.size]) / 2
     return fields.astype(np.result_type(kx.dtype, np.complex64), copy=False).reshape(*shape[:-1], y.size, x.size)
+
+
+def _plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> tuple[Any, np.dtype]:
+    """Return a plan of finufft for these Fourier modes, and the precision of the nodes that it takes."""
+    if prod(modes) > FEW_SAMPLES:
+        return _new_plan(modes, dtype, few)
+    if not hasattr(_here, "plan"):
+        _here.plan = lru_cache(maxsize=8)(_new_plan)
+    plan: tuple[Any, np.dtype] = _here.plan(modes, dtype, few)
+    return plan
+
+
+def _new_plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> tuple[Any, np.dtype]:
+    import finufft
+
+    single = dtype == np.float32 and prod(modes) <= FEW_SAMPLES
+    precision = np.dtype(np.float32 if single else np.float64)
+    exact = single or (dtype == np.float64 and prod(modes) <= MANY_SAMPLES)
+    return finufft.Plan(
+        1,
+        modes,
+        eps=max(NUFFT_ERROR[dtype], 0.0 if exact else COARSE_ERROR),
+        isign=1,
+        dtype="complex64" if single else "complex128",
+        nthreads=1,
+        upsampfac=2.0 if exact else 1.25,
+        spread_sort=0 if few else 1,
+    ), precision
 
 
 def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
