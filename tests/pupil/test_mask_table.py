@@ -60,15 +60,21 @@ XI, ETA = GRID[0] * np.cos(LEAN) + GRID[1] * np.sin(LEAN), GRID[1] * np.cos(LEAN
 MOMENTS = (lambda x, y: 1 + 0 * x, lambda x, y: x, lambda x, y: y, lambda x, y: x * y, lambda x, y: x * x - y * y)
 
 
-@pytest.fixture(params=EVERY, ids=str)
+@pytest.fixture(params=EVERY, ids=str, scope="module")
 def mask(request) -> PupilMask:
     return EVERY[request.param]
 
 
-def by_grid(mask: PupilMask) -> np.ndarray:
+@pytest.fixture(scope="module")
+def opened(mask) -> np.ndarray:
+    """Return which points of the grid are open."""
+    return mask.opens(XI, ETA)
+
+
+@pytest.fixture(scope="module")
+def by_grid(opened) -> np.ndarray:
     """Return moments over the open part, as shares of the disc's area."""
-    open_ = mask.opens(XI, ETA)
-    return np.array([moment(XI[open_], ETA[open_]).sum() for moment in MOMENTS]) / XI.size
+    return np.array([moment(XI[opened], ETA[opened]).sum() for moment in MOMENTS]) / XI.size
 
 
 def test_every_field_has_a_sample_that_differs():
@@ -78,35 +84,35 @@ def test_every_field_has_a_sample_that_differs():
         assert getattr(mask, name) != getattr(plain, name), name
 
 
-def test_nodes_are_of_the_open_part(mask):
+def test_nodes_are_of_the_open_part(mask, opened, by_grid):
     """The grid is yes or no at edges: its error falls as side^−1.5, 1e-4 at most here."""
     nodes = mask_nodes(mask, 24, 48).unfolded()
     found = np.array([nodes.share * nodes.weight @ moment(nodes.xi, nodes.eta) for moment in MOMENTS])
-    assert found == pytest.approx(by_grid(mask), abs=2e-4)
+    assert found == pytest.approx(by_grid, abs=2e-4)
     finer = mask_nodes(mask, 48, 96).unfolded()
     again = np.array([finer.share * finer.weight @ moment(finer.xi, finer.eta) for moment in MOMENTS])
     # No edge falls between nodes; the chord of the disc across a vane falls as a root at its ends.
     assert found == pytest.approx(again, abs=2e-6)
     assert nodes.amplitude == pytest.approx(mask.amplitude(nodes.xi, nodes.eta))
     assert nodes.path_um == pytest.approx(mask.path_um(nodes.xi, nodes.eta))
-    passed = mask.opens(XI, ETA) * mask.amplitude(XI, ETA)
+    passed = opened * mask.amplitude(XI, ETA)
     assert throughput(mask).amplitude == pytest.approx(passed.mean(), abs=2e-4)
     assert throughput(mask).light == pytest.approx(np.square(passed).mean(), abs=2e-4)
 
 
-def test_pieces_between_rims_are_of_the_open_part(mask):
+def test_pieces_between_rims_are_of_the_open_part(mask, by_grid):
     """As exact rays have it, of a lens whose rims are nowhere near."""
     lens = with_mask(find_lens("singlet_f6"), mask)
     nodes = piece_nodes(lens, Source(), (16, 32), False, mask).unfolded()
     found = np.array([nodes.share * nodes.weight @ moment(nodes.xi, nodes.eta) for moment in MOMENTS])
-    assert found == pytest.approx(by_grid(mask), abs=3e-4)
+    assert found == pytest.approx(by_grid, abs=3e-4)
 
 
-def test_cells_are_open_where_the_mask_is(mask):
+def test_cells_are_open_where_the_mask_is(mask, opened):
     share = open_share(mask, XI, ETA, np.full(XI.shape, 2 / SIDE))
-    assert share.mean() == pytest.approx(mask.opens(XI, ETA).mean(), abs=3e-4)
+    assert share.mean() == pytest.approx(opened.mean(), abs=3e-4)
     settled = (share == 0) | (share == 1)
-    assert np.array_equal(share[settled] > 0.5, mask.opens(XI, ETA)[settled]) and settled.mean() > 0.97
+    assert np.array_equal(share[settled] > 0.5, opened[settled]) and settled.mean() > 0.97
 
 
 def inside(curve: np.ndarray, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:

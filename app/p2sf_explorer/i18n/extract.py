@@ -57,10 +57,14 @@ Parameter = tuple[str, int | None]
 
 @dataclass
 class Module:
-    """One source file: its constants, and what it imports as (module, name), a whole module as (module, "")."""
+    """One source file: its constants, and what it imports as (module, name), a whole module as (module, "").
+
+    ``nodes``: all of the tree, which is walked once.
+    """
 
     name: str
     tree: ast.Module
+    nodes: tuple[ast.AST, ...] = ()
     constants: dict[str, ast.expr] = field(default_factory=dict)
     imports: dict[str, tuple[str, str]] = field(default_factory=dict)
 
@@ -86,7 +90,7 @@ def unneeded(language: str) -> tuple[str, ...]:
     written = {
         node.value
         for module in _modules().values()
-        for node in ast.walk(module.tree)
+        for node in module.nodes
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
     return tuple(sorted(set(texts(language)) - written - _lens_texts()))
@@ -123,8 +127,8 @@ def _modules() -> dict[str, Module]:
 
 
 def _module(name: str, tree: ast.Module) -> Module:
-    made = Module(name, tree)
-    for node in ast.walk(tree):
+    made = Module(name, tree, tuple(ast.walk(tree)))
+    for node in made.nodes:
         if isinstance(node, ast.ImportFrom) and node.module and not node.level:
             made.imports |= {alias.asname or alias.name: (node.module, alias.name) for alias in node.names}
         elif isinstance(node, ast.Import):
@@ -159,7 +163,7 @@ class _Sources:
             pass
         found = set()
         for module in _modules().values():
-            for scope in _scopes(module.tree):
+            for scope in _scopes(module):
                 for argument, item in self._shown_arguments(module, scope):
                     nodes = _values(argument, module, scope)
                     nodes = nodes if item is None else _items(nodes, item, module, scope)
@@ -214,12 +218,12 @@ def _functions(module: Module) -> Iterator[Function]:
     """Yield the functions of a module, methods without their first parameter, and classes as their constructors."""
     methods = {
         id(part): node.name
-        for node in ast.walk(module.tree)
+        for node in module.nodes
         if isinstance(node, ast.ClassDef)
         for part in node.body
         if isinstance(part, ast.FunctionDef)
     }
-    for node in ast.walk(module.tree):
+    for node in module.nodes:
         if isinstance(node, ast.FunctionDef):
             arguments = node.args
             names = [a.arg for a in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)]
@@ -235,17 +239,17 @@ def _functions(module: Module) -> Iterator[Function]:
 def _subclasses(name: str) -> set[str]:
     """Return a class's name and those of all classes derived from it."""
     found, before = {name}, 0
-    classes = [n for m in _modules().values() for n in ast.walk(m.tree) if isinstance(n, ast.ClassDef)]
+    classes = [n for m in _modules().values() for n in m.nodes if isinstance(n, ast.ClassDef)]
     while len(found) > before:
         before = len(found)
         found |= {c.name for c in classes if any(isinstance(b, ast.Name) and b.id in found for b in c.bases)}
     return found
 
 
-def _scopes(tree: ast.Module) -> Iterator[ast.AST]:
+def _scopes(module: Module) -> Iterator[ast.AST]:
     """Yield a module and the functions in it."""
-    yield tree
-    yield from (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+    yield module.tree
+    yield from (node for node in module.nodes if isinstance(node, ast.FunctionDef))
 
 
 def _own(scope: ast.AST) -> Iterator[ast.AST]:
