@@ -25,9 +25,9 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import psf_of_fit, summed
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.pupil.basis import HALF, WHOLE, Gradient, PupilDomain, PupilValues
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.zernike import basis, terms
-from p2sf.raytrace.fit import UNIFORM, FittedPencil, Gradient, Level, level_rays, phase_slopes, rows_of
+from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
 from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import mapped, one_blas_thread
@@ -73,16 +73,17 @@ class FittedDatabase:
         """
         self.space.check_source(source)
         numbers = self.series
-        for x, count in zip(self._axes.reduced(source), self.series.shape, strict=False):
+        for x, count in zip(self.axes.reduced(source), self.series.shape, strict=False):
             numbers = np.tensordot(chebyshev_terms(np.array(np.clip(x, -1, 1)), count), numbers, 1)
-        numbers *= powers(self.level, source)
+        numbers *= powers(self.level, source, self.axes.fields)
         return numbers
 
     def fit_at(self, source: Source) -> FittedPencil:
         """Return the fitted pencil of one source, looked up and not traced; DatabaseError outside the space."""
         phase, fx, fy, amplitude, _ = split(self.level, self.numbers_at(source))
-        if self.level.skew and source.azimuth_deg:
-            phase, fx, fy, amplitude = turned_fit(self.level, phase, fx, fy, amplitude, source.azimuth_deg)
+        turn_deg = self.axes.fields.turn_deg(source)
+        if turn_deg:
+            phase, fx, fy, amplitude = turned_fit(self.level, phase, fx, fy, amplitude, turn_deg)
         mask, colour = self.mask.turned(-source.azimuth_deg), float(source.wavelength_um)
         steep = with_slopes(steepness(self.level, phase, fx, fy), mask, colour)
         made = self.level, phase, fx, fy, self.residual_waves, steep
@@ -119,121 +120,173 @@ class FittedDatabase:
         return out.reshape(*axes[0].shape, pixels, pixels)
 
     @cached_property
-    def _axes(self) -> "Axes":
+    def axes(self) -> "Axes":
+        """Return the Chebyshev axes of the space."""
         return axes_of(self.space, self.seidel)
 
 
 @dataclass(frozen=True)
-class Axes:
-    """Middle and half-width of s (per mm), h² and wavelength (µm), and the place of the pupil, from which s is counted.
+class FieldLine:
+    """Fields along one line, which stand for all azimuths: one axis, of h²; fits stand in the axes of the field."""
 
-    Over a rectangle of fields h_y and h_x stand in the place of h². ``spread``: which of them vary at all.
+    domain: PupilDomain = HALF
+    chief_numbers: int = 1  # of the chief ray's place on the sensor: y
+
+    def ends(self, space: Space) -> list[np.ndarray]:
+        """Return the ends of h²."""
+        return [space.field_slopes[[0, -1]] ** 2]
+
+    def values(self, source: Source) -> list[float]:
+        """Return h²."""
+        return [source.field_slope**2]
+
+    def source(self, depth_mm: float, values: list[float], wavelength_um: float) -> Source:
+        """Return the source at h²."""
+        return Source(depth_mm, float(np.sqrt(max(values[0], 0.0))), wavelength_um)
+
+    def odd_factor(self, source: Source) -> float:
+        """Return h, by which numbers that are odd in it are divided."""
+        return source.field_slope
+
+    def turn_deg(self, source: Source) -> float:
+        """Return how far the axes of a source are turned from those of its fit: not at all."""
+        return 0.0
+
+
+@dataclass(frozen=True)
+class FieldRectangle:
+    """Fields over a rectangle, in axes of h_y and h_x; fits stand in the axes of the sensor."""
+
+    domain: PupilDomain = WHOLE
+    chief_numbers: int = 2  # x and y
+
+    def ends(self, space: Space) -> list[np.ndarray]:
+        """Return the ends of h_y and h_x."""
+        return [nodes[[0, -1]] for nodes in space.nodes[1:-1]]
+
+    def values(self, source: Source) -> list[float]:
+        """Return h_y and h_x."""
+        return [*source.slopes_xy[::-1]]
+
+    def source(self, depth_mm: float, values: list[float], wavelength_um: float) -> Source:
+        """Return the source at h_y and h_x."""
+        return source_at(depth_mm, values[1], values[0], wavelength_um)
+
+    def odd_factor(self, source: Source) -> float:
+        """Return 1: along these axes no number is even or odd."""
+        return 1.0
+
+    def turn_deg(self, source: Source) -> float:
+        """Return the azimuth."""
+        return source.azimuth_deg
+
+
+FieldAxes = FieldLine | FieldRectangle
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Middle and half-width of s (per mm), fields and wavelength (µm), and the place of the pupil, where s starts.
+
+    ``spread``: which of them vary at all.
     """
 
+    fields: FieldAxes
     middle: np.ndarray
     half: np.ndarray
     spread: tuple[bool, ...]
     pupil_mm: float
 
     def reduced(self, source: Source) -> np.ndarray:
-        """Return (s, h², λ), or (s, h_y, h_x, λ), of a source mapped to −1…1."""
+        """Return s, fields and wavelength of a source, each mapped to −1…1."""
         near = float(vergence(source.depth_mm))
         s = near / (1 + self.pupil_mm * near)
-        fields = [source.field_slope**2] if len(self.middle) == 3 else source.slopes_xy[::-1]
-        reduced: np.ndarray = (np.array([s, *fields, source.wavelength_um]) - self.middle) / self.half
+        values = np.array([s, *self.fields.values(source), source.wavelength_um])
+        reduced: np.ndarray = (values - self.middle) / self.half
         return reduced
 
     def source(self, reduced: ArrayLike) -> Source:
-        """Return the source at (s, h², λ), or (s, h_y, h_x, λ), each mapped to −1…1."""
+        """Return the source at s, fields and wavelength, each mapped to −1…1."""
         s, *fields, wavelength = (self.middle + self.half * np.asarray(reduced)).tolist()
-        depth = depth_of(s) - self.pupil_mm
-        if len(fields) == 2:
-            return source_at(depth, fields[1], fields[0], wavelength)
-        return Source(depth, float(np.sqrt(max(fields[0], 0.0))), wavelength)
+        return self.fields.source(depth_of(s) - self.pupil_mm, fields, wavelength)
+
+
+def fields_of(space: Space) -> FieldAxes:
+    """Return the axes of the fields of a space."""
+    return FieldLine() if space.field_x_slopes is None else FieldRectangle()
 
 
 def axes_of(space: Space, seidel: ExactDatabase) -> Axes:
     """Return the Chebyshev axes of a space; ``seidel`` knows where the entrance pupil is."""
-    colours, slopes = space.wavelengths_um, space.field_slopes
-    fields = [slopes[[0, -1]] ** 2]
-    if space.field_x_slopes is not None:
-        fields = [slopes[[0, -1]], space.field_x_slopes[[0, -1]]]
+    fields, colours = fields_of(space), space.wavelengths_um
     pupil = seidel.pupil_mm(float(colours[0] + colours[-1]) / 2)
     near = vergence(space.depths_mm[[0, -1]])
-    ends = np.array([near / (1 + pupil * near), *fields, colours[[0, -1]]])
+    ends = np.array([near / (1 + pupil * near), *fields.ends(space), colours[[0, -1]]])
     half = np.abs(np.diff(ends)[:, 0]) / 2
-    return Axes(ends.mean(1), np.where(half > 0, half, 1.0), tuple((half > 0).tolist()), pupil)
+    return Axes(fields, ends.mean(1), np.where(half > 0, half, 1.0), tuple((half > 0).tolist()), pupil)
 
 
-def powers(level: Level, source: Source) -> np.ndarray:
-    """Return h^(0 or 1)/λ for every number: odd in h where its polynomial asks for it, path turned into waves.
-
-    Without symmetry there are no powers of h.
-    """
-    if level.skew:
-        return np.append(np.full(level.unweighted_numbers, 1 / source.wavelength_um), np.ones(sum(level.counts[2]) + 2))
-    even_phase = [m % 2 for _, m in terms(level.wave_order)]
-    odd_map = [(m + 1) % 2 for _, m in terms(level.map_order, True)]
-    even_map = [(m + 1) % 2 for _, m in terms(level.map_order)]
-    even_amplitude = [m % 2 for _, m in terms(level.map_order)] if level.weighted else []
-    parity = np.array([*even_phase, *odd_map, *even_map, *even_amplitude, 1])
-    wavelength = np.full(parity.size, source.wavelength_um)
-    wavelength[-1 - len(even_amplitude) :] = 1.0
-    scale: np.ndarray = np.where(parity == 1, source.field_slope, 1.0) / wavelength
+def powers(level: Level, source: Source, fields: FieldAxes) -> np.ndarray:
+    """Return h^(0 or 1)/λ for every number: odd in h where its polynomial asks for it, path turned into waves."""
+    odd, colours = _powers_of(level, fields)
+    scale: np.ndarray = np.where(odd, fields.odd_factor(source), 1.0) / np.where(colours, source.wavelength_um, 1.0)
     return scale
+
+
+@lru_cache(maxsize=16)
+def _powers_of(level: Level, fields: FieldAxes) -> tuple[np.ndarray, np.ndarray]:
+    """Return which numbers are odd in h, and which are divided by the wavelength, where fields are along a line.
+
+    Under h → −h, η → −η the phase and the amplitude stay, and fx and fy change their sign.
+    """
+    basis, amplitude = level.basis, level.basis.fy.indices[1] if level.weighted else np.empty(0)
+    same, other = (basis.phase.indices[1],), (basis.fx.indices[1], basis.fy.indices[1])
+    chief = np.ones(fields.chief_numbers)
+    odd = np.concatenate([*same, *(m + 1 for m in other), amplitude, chief]) % 2 == 1
+    return odd, np.arange(odd.size) < level.unweighted_numbers
 
 
 def split(level: Level, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
     """Return phase, fx, fy, amplitude and the chief ray's height, its y, from the numbers of one source."""
-    ends = np.cumsum([sum(count) for count in level.counts])
-    phase, fx, fy, amplitude = np.split(numbers[: -2 if level.skew else -1], ends)
-    return phase, fx, fy, amplitude if level.weighted else UNIFORM, float(numbers[-1])
+    basis = level.basis
+    ends = np.cumsum([basis.phase.count, basis.fx.count, basis.fy.count, basis.fy.count * level.weighted])
+    phase, fx, fy, amplitude, chief = np.split(numbers, ends)
+    return phase, fx, fy, amplitude if level.weighted else UNIFORM, float(chief[-1])
 
 
 def turned_fit(
     level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray, amplitude: np.ndarray, azimuth_deg: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return phase, fx, fy and amplitude of a fit without symmetry, in the sensor's axes, in those of an azimuth.
+    """Return phase, fx, fy and amplitude of a fit in the sensor's axes in those of an azimuth.
 
-    Seen from there an angle about the pupil is θ − α, which mixes every cos mθ with its sin mθ, and (fx, fy) turns as
-    a vector does.
+    Seen from there an angle about the pupil is θ − α, and (fx, fy) turns as a vector does.
     """
-    turn, odd = np.deg2rad(azimuth_deg), level.counts[1][0]
-    x = _turned(np.append(fx[odd:], fx[:odd]), level.map_order, turn)  # of fx the odd terms come first
-    y = _turned(fy, level.map_order, turn)
-    x, y = x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
-    phase, amplitude = _turned(phase, level.wave_order, turn), _turned(amplitude, level.map_order, turn)
-    return phase, np.append(x[-odd:], x[:-odd]), y, amplitude
-
-
-def _turned(form: np.ndarray, order: int, turn: float) -> np.ndarray:
-    """Return the coefficients of the even terms up to an order and of the odd ones behind them, seen from ``turn``."""
-    harmonic = np.array([m for _, m in terms(order)])
-    paired = harmonic > 0  # the odd terms are the even ones without m = 0, in the same order
-    even, odd = form[: harmonic.size], form[harmonic.size :]
-    sine, cosine = np.sin(harmonic * turn), np.cos(harmonic * turn)
-    new_even, new_odd = even * cosine, odd * cosine[paired] - even[paired] * sine[paired]
-    new_even[paired] += odd * sine[paired]
-    return np.append(new_even, new_odd)
+    basis, turn = level.basis, np.deg2rad(azimuth_deg)
+    sine, cosine = np.sin(turn), np.cos(turn)
+    x, y = basis.fx.turned(fx, -turn), basis.fy.turned(fy, -turn)
+    across = x[0] * cosine - y[0] * sine, x[1] * cosine - y[1] * sine
+    along = x[0] * sine + y[0] * cosine, x[1] * sine + y[1] * cosine
+    of_phase, light = basis.phase.turned(phase, -turn), basis.fy.turned(amplitude, -turn)
+    return basis.phase.joined(of_phase), basis.fx.joined(across), basis.fy.joined(along), basis.fy.joined(light)
 
 
 def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> Steepness:
     """Return how steep looked-up polynomials are, at the points of the level's rays, as `ray_field.steepness` does."""
     xi, eta, _ = level_rays(level)
     rho, sine = np.hypot(xi, eta), np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
-    slopes, (_, odd, even) = _rows_at_rays(level)
-    across, along = (phase @ part[: phase.size] for part in slopes)
+    slopes, values = _terms_at_rays(level)
+    across, along = (phase @ part for part in slopes)
     return Steepness(
         radial=float(np.abs((xi * across + eta * along) / rho).max()),
         angular=float(np.abs(eta * across - xi * along).max()),
         across=COARSE * float((np.abs(across) * np.sqrt(np.maximum(1 - rho * rho, 0))).max()),
         along=COARSE * float(np.abs(across * (xi * eta / sine) - along * sine).max()),
-        spread=float(np.hypot(fx @ odd, fy @ even).max()),
+        spread=float(np.hypot(fx @ values.fx, fy @ values.fy).max()),
     )
 
 
 @lru_cache(maxsize=16)
-def _rows_at_rays(level: Level) -> tuple[Gradient, tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Return ∂/∂ξ and ∂/∂η of the terms of the phase, and the terms of phase, fx and fy, at a level's rays."""
-    (xi, eta, _), (even, odd) = level_rays(level), level.orders
-    return phase_slopes(level), rows_of(level, basis(even, xi, eta), basis(odd, xi, eta, odd=True))
+def _terms_at_rays(level: Level) -> tuple[Gradient, PupilValues]:
+    """Return ∂/∂ξ and ∂/∂η of the terms of the phase, and all terms, at a level's rays."""
+    xi, eta, _ = level_rays(level)
+    return phase_slopes(level), level.basis.values(xi, eta)

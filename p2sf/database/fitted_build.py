@@ -17,9 +17,8 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.pupil.mask import CLEAR
-from p2sf.pupil.zernike import terms
-from p2sf.raytrace.fit import SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for, pencil_forms
-from p2sf.raytrace.pencil import Rays, all_reaching, on_sensor, pencil
+from p2sf.raytrace.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for, pencil_forms
+from p2sf.raytrace.pencil import Rays, all_reaching, on_sensor
 from p2sf.threads import one_blas_thread
 
 START = {3: (4, 4, 4), 4: (4, 5, 5, 4)}  # nodes along s, h² and wavelength, or s, h_y, h_x and wavelength
@@ -76,17 +75,13 @@ def _level_for(lens: Lens, axes: Axes, stop: Stop, numbers: int | None) -> tuple
     corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
     level = max((fit(lens, corner, numbers, stop=stop).level for corner in corners), key=lambda level: level.numbers)
     left = max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
-    return SKEW[levels_for(lens).index(level)] if len(axes.spread) == 4 else level, left
+    return levels(lens.aim, axes.fields.domain)[levels_for(lens).index(level)], left
 
 
 def traced_series(lens: Lens, axes: Axes, level: Level, counts: Sequence[int], stop: Stop) -> np.ndarray:
     """Return the Chebyshev series from fits at the tensor of Chebyshev nodes, (*counts, numbers + 1)."""
     nodes = [np.cos(np.pi * (np.arange(count) + 0.5) / count) for count in counts]
-    if level.skew:
-        series = _skew_rows(lens, axes, level, nodes, stop)
-    else:
-        series = np.array([_row(lens, axes.source(place), level, stop) for place in product(*nodes)])
-    series = series.reshape(*counts, -1)
+    series = _rows_at(lens, axes, level, nodes, stop).reshape(*counts, -1)
     for axis, (points, count) in enumerate(zip(nodes, counts, strict=True)):
         kernel = np.cos(np.outer(np.arange(count), np.arccos(points))) * (2 / count)
         kernel[0] /= 2
@@ -94,31 +89,24 @@ def traced_series(lens: Lens, axes: Axes, level: Level, counts: Sequence[int], s
     return series
 
 
-def _row(lens: Lens, source: Source, level: Level, stop: Stop) -> np.ndarray:
-    """Return the numbers of one source, divided by `powers`."""
-    found = fit(lens, source, level.numbers, stop=stop)
-    chief = pencil(lens, source, np.zeros(1), np.zeros(1), stop=stop).chief_y
-    amplitude = found.amplitude[: found.amplitude.size * level.weighted]
-    numbers = np.concatenate([found.phase, found.fx, found.fy, amplitude, np.ravel(chief)])
-    scale = powers(level, source)
-    row: np.ndarray = np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
-    return row
-
-
-def _skew_rows(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray], stop: Stop) -> np.ndarray:
-    """Return the numbers of all sources at the nodes, divided by `powers`: (depths, fields y, fields x, waves, …).
+def _rows_at(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray], stop: Stop) -> np.ndarray:
+    """Return the numbers of all sources at the nodes, divided by `powers`: (depths, fields, waves, numbers).
 
     The depths and wavelengths of one field are traced together, since they see the lens from the same side.
     """
-    depths, fields_y, fields_x, waves = nodes
+    depths, *fields, waves = nodes
     found = []
-    for place in product(fields_y, fields_x):
+    for place in product(*fields):
         sources = [axes.source((depth, *place, wave)) for depth, wave in product(depths, waves)]
         rays, chief = rays_on_sensor(lens, sources, level, stop)
         forms = pencil_forms(rays, level)
-        numbers = np.concatenate([forms.phase, forms.fx, forms.fy, forms.amplitude, chief], axis=1)
-        numbers /= np.stack([powers(level, source) for source in sources])
-        found.append(numbers.reshape(len(depths), len(waves), -1))
+        amplitude = [forms.amplitude] * level.weighted
+        numbers = np.concatenate(
+            [forms.phase, forms.fx, forms.fy, *amplitude, chief[:, -axes.fields.chief_numbers :]], axis=1
+        )
+        scale = np.stack([powers(level, source, axes.fields) for source in sources])
+        rows = np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
+        found.append(rows.reshape(len(depths), len(waves), -1))
     return np.moveaxis(np.array(found), 0, 1)
 
 
@@ -138,16 +126,11 @@ def held_out(
     lens: Lens, space: Space, level: Level, stop: Stop
 ) -> Iterator[tuple[Source, FittedPencil, np.ndarray, np.ndarray]]:
     """Yield (source, fit, landing x, landing y in µm) at points between the nodes."""
-    xi, eta, _ = level_rays(level)
     for point in zip(*(x.tolist() for x in scattered(space, HELD_OUT[len(space.nodes)])), strict=True):
         source = space.source(*point)
-        if level.skew:
-            several, _ = rays_on_sensor(lens, [source], level, stop)
-            rays = several.of_source(0)
-            yield source, fit_rays(rays, level, level.rays), rays.x_um, rays.y_um
-        else:
-            rays = pencil(lens, source, xi, eta, stop=stop)
-            yield source, fit(lens, source, level.numbers, stop=stop), rays.x_um, rays.y_um
+        several, _ = rays_on_sensor(lens, [source], level, stop)
+        rays = several.of_source(0)
+        yield source, fit_rays(rays, level, level.rays), rays.x_um, rays.y_um
 
 
 def ray_error(
@@ -163,6 +146,6 @@ def ray_error(
 
 def _least_settled(series: np.ndarray, level: Level) -> int:
     """Return the axis whose highest Chebyshev terms of the phase are the largest."""
-    phase = np.abs(series[..., : len(terms(level.wave_order))])
+    phase = np.abs(series[..., : level.basis.phase.count])
     tails = [phase.take([-1], axis).max() if phase.shape[axis] > 1 else 0.0 for axis in range(phase.ndim - 1)]
     return int(np.argmax(tails))

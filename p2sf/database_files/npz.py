@@ -10,7 +10,7 @@ import numpy as np
 
 from p2sf.database import ExactDatabase, GridDatabase, Space
 from p2sf.database.exact import NUMBERS
-from p2sf.database.fitted import FittedDatabase
+from p2sf.database.fitted import FittedDatabase, fields_of
 from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
 from p2sf.database.render import Database
 from p2sf.database_files.provenance import MAPS, Stored, provenance
@@ -18,13 +18,13 @@ from p2sf.database_files.sealed import opened, read_sealed, sealed, write_sealed
 from p2sf.errors import DatabaseError, RequestError
 from p2sf.lens.lens import AIMS, Lens
 from p2sf.paraxial.pupils import Stop
+from p2sf.pupil.basis import PupilBasis
 from p2sf.pupil.mask import CLEAR, PupilMap, PupilMask
 from p2sf.raytrace.fit import Level
 
 # The newest schema, and those of files that say nothing which came with a later one.
 SCHEMA, WITH_MASK, WITHOUT_MASK = 3, 2, 1
 MARK = "p2sf_database"
-LEVEL = ("wave_order", "map_order", "radii", "directions")
 
 Arrays = dict[str, np.ndarray]
 Meta = dict[str, Any]
@@ -144,21 +144,25 @@ def _unpack_grid(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> G
 
 def _pack_fitted(database: FittedDatabase) -> tuple[Arrays, Meta]:
     arrays, numbers = _pack_exact(database.seidel)
-    level = [getattr(database.level, name) for name in LEVEL] + [1] * database.level.weighted
-    level += database.level.skew or ()
-    numbers = {**numbers, "level": level, "seidel_errors_waves": database.seidel.errors}
+    numbers = {**numbers, "level": _level_numbers(database.level), "seidel_errors_waves": database.seidel.errors}
     return {**arrays, "fits": database.series}, {**numbers, "residual_waves": database.residual_waves}
+
+
+def _level_numbers(level: Level) -> list[int]:
+    """Return orders and rays, 1 where these have weights, and behind it the orders of terms that symmetry forbids."""
+    orders = [level.basis.wave_order, level.basis.map_order]
+    forbidden = [order for _ in level.basis.phase.parities[1:] for order in orders]
+    return [*orders, level.radii, level.directions, *[1] * level.weighted, *forbidden]
 
 
 def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> FittedDatabase:
     numbers = meta["numbers"]
     wave_order, map_order, radii, directions, *others = (int(count) for count in numbers["level"])
-    weighted, skew = bool(others and others[0]), tuple(others[1:])
-    if bool(skew) != (space.field_x_slopes is not None) or skew not in ((), (wave_order, map_order)):
+    fields = fields_of(space)
+    level = Level(PupilBasis(wave_order, map_order, fields.domain), radii, directions, weighted=bool(others))
+    if _level_numbers(level) != [int(count) for count in numbers["level"]]:
         raise KeyError("a level that fits its fields")
-    level = Level(wave_order, map_order, radii, directions, weighted, skew or None)
-    chief = 2 if skew else 1  # coordinates of the chief ray on the sensor
-    fits = _shaped(arrays["fits"], (*(None for _ in space.nodes), level.numbers + chief))
+    fits = _shaped(arrays["fits"], (*(None for _ in space.nodes), level.numbers + fields.chief_numbers))
     seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]}, mask)
     return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
 

@@ -22,6 +22,7 @@ from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, Sa
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
 from p2sf.notebook import html_table
+from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 if TYPE_CHECKING:
@@ -325,6 +326,11 @@ class Lens:
             return True
         placements = *(p for s in self.surfaces for p in (*s.before, *s.after)), *self.sensor_before
         return not all(placement.idle for placement in placements)
+
+    @cached_property
+    def pupil_domain(self) -> PupilDomain:
+        """Return which part of the pupil tells everything: half of it, or all where the lens is misaligned."""
+        return PupilDomain(symmetric=not self.misaligned)
 
     @cached_property
     def absorbs(self) -> tuple[bool, ...]:

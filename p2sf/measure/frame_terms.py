@@ -21,7 +21,6 @@ from p2sf.paraxial.pupils import with_fixed_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
 from p2sf.pupil.mask import CLEAR
-from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.tolerance.errors_of_build import UNITS, Tolerance
@@ -224,7 +223,7 @@ class FrameModel:
 
         def waves(ratio: float) -> np.ndarray:
             wide = replace(nodes, **{name: ratio * getattr(nodes, name) for name in ("xi", "eta", "fx", "fy")})
-            phase, focus = -(np.stack([found.phase, moved]) @ basis(found.level.wave_order, wide.xi, wide.eta))
+            phase, focus = -(np.stack([found.phase, moved]) @ found.level.basis.phase.values(wide.xi, wide.eta))
             phase = phase - shift * (np.sin(azimuth) * wide.fx + np.cos(azimuth) * wide.fy)
             if not errors:
                 return self._with_terms(colour, nodes, (phase, focus), place, (nodes.xi, nodes.eta))

@@ -15,7 +15,6 @@ from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.frame_terms import chief_rays
 from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.pupil_nodes import counts_for, lens_nodes
-from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, fit
 
 RESIDUAL_WAVES = 2e-4  # of the fit to rays
@@ -111,7 +110,7 @@ def lens_light(
     optics = PictureOptics(spread, 1.0, pixel_um)
     counts = counts_for(found.steepness.radial, spread, 1.1 * half * pixel_um)
     nodes = lens_nodes(found, float(np.arctan2(*place)), counts)
-    waves = found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
+    waves = found.phase @ found.level.basis.phase.values(nodes.xi, nodes.eta)
     x, y = ((a - b) * UM_PER_MM for a, b in zip(place, centre, strict=True))
     phase = nodes.waves - waves - nodes.fx * x - nodes.fy * y
     return PixelSum(nodes, (2 * half + 1,) * 2, optics, optics.parts + FINER).light(phase)

@@ -380,7 +380,7 @@ def turned(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple[np.ndarray,
 
 def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
     """Return the pupil that a fit describes, axes as `pupil_of_rays`. Raises GeometryError where its map folds."""
-    even = not (found.level.skew or turn_deg)
+    even = found.level.basis.domain.symmetric and not turn_deg
 
     def evaluated(sampling: RayCounts) -> PupilSamples:
         columns, rim = _over_disc(sampling.counts, even)

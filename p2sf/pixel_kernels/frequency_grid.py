@@ -16,23 +16,14 @@ from p2sf.lens.lens import Lens, Surface, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, with_reach
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
+from p2sf.pupil.basis import HALF, Gradient, Kinds, PupilDomain, PupilValues, Terms, determinant
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import disc_nodes, whole_disc
-from p2sf.pupil.zernike import basis, basis_by_powers
+from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.zernike import basis_by_powers
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.clear_pieces import CLIPPED
-from p2sf.raytrace.fit import (
-    Gradient,
-    Level,
-    PencilForms,
-    determinant,
-    fit,
-    level_rays,
-    map_slopes,
-    pencil_forms,
-    rows_of,
-)
+from p2sf.raytrace.fit import Level, PencilForms, fit, level_rays, pencil_forms
 from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.trace import lens_rims, run
@@ -56,12 +47,22 @@ def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = Non
     """
     mask, turned = mask_seen(lens, source), seen_from(lens, source.azimuth_deg)
     source = replace(source, azimuth_deg=0.0)
-    if method == "seidel":
-        return replace(seidel_pupils(turned, [source], clip).one(0), mask=mask)
-    found = fit(turned, source, numbers)
+    return replace(PUPILS[method](turned, source, numbers, clip).one(0), mask=mask)
+
+
+def _by_six(lens: Lens, source: Source, numbers: int | None, clip: bool) -> PupilStack:
+    return seidel_pupils(lens, [source], clip)
+
+
+def _by_fit(lens: Lens, source: Source, numbers: int | None, clip: bool) -> PupilStack:
+    found = fit(lens, source, numbers)
     columns = (found.phase, found.fx, found.fy, found.amplitude, found.residual_waves)
     forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.amplitude_residual)))
-    return replace(pupils_of(turned, [source], forms, found.level, clip).one(0), mask=mask)
+    return pupils_of(lens, [source], forms, found.level, clip)
+
+
+PUPILS = {"seidel": _by_six, "fitted": _by_fit}
+"""By method, of one source."""
 
 
 def of_azimuths(sources: Sequence[Source]) -> list[list[int]]:
@@ -94,7 +95,7 @@ def pupils_of(
 
     Raises GeometryError where rims clip all rays of a source.
     """
-    rims, behind = _rims(lens, sources, clip, bool(level.skew)), _mask_of(lens, sources)
+    rims, behind = _rims(lens, sources, clip, level.basis.domain), _mask_of(lens, sources)
     while True:
         found, excess = _of_order(order, fits, level, rims)
         if excess < 1 or order == ORDERS[-1]:
@@ -108,31 +109,25 @@ def _mask_of(lens: Lens, sources: Sequence[Source]) -> PupilMask:
     return mask_seen(lens, Source(wavelength_um=sources[0].wavelength_um))
 
 
-def _nodes_of(where: tuple[int, int], skew: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return nodes ξ, η and their weights over half the disc, or over all of it for a pupil without symmetry."""
-    half = disc_nodes(*where)
-    return whole_disc(*where) if skew else (half.xi, half.eta, half.weight)
-
-
-def _rims(lens: Lens, sources: Sequence[Source], clip: bool, skew: bool = False) -> np.ndarray:
+def _rims(lens: Lens, sources: Sequence[Source], clip: bool, domain: PupilDomain) -> np.ndarray:
     """Return 1 − (height/rim)² where rays of the pupil's nodes meet each surface that has a rim.
 
     Of a hole or a shadow, (height/radius)² − 1. (Sources, rims, nodes); no rims unless ``clip``. Raises
     GeometryError where these clip all rays of a source.
     """
-    xi, eta, _ = _nodes_of(NODES, skew)
+    nodes = domain.nodes(NODES)
     if not clip:
-        return np.empty((len(sources), 0, xi.size))
+        return np.empty((len(sources), 0, nodes.xi.size))
     groups = of_azimuths(sources)
-    rims = np.concatenate([_rims_of([sources[k] for k in group], lens, xi, eta) for group in groups])
+    rims = np.concatenate([_rims_of([sources[k] for k in group], lens, nodes) for group in groups])
     if np.any(np.max(np.min(rims, axis=1), axis=1) <= 0):
         raise GeometryError(CLIPPED, parameter="clip")
     return rims[np.argsort(np.concatenate(groups))]
 
 
-def _rims_of(sources: Sequence[Source], lens: Lens, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return the rims of sources of one azimuth at pupil points in the axes of the sensor."""
-    lens, points = in_azimuth(lens, sources[0].azimuth_deg, xi, eta)
+def _rims_of(sources: Sequence[Source], lens: Lens, nodes: ClearNodes) -> np.ndarray:
+    """Return the rims of sources of one azimuth at pupil nodes in the axes of the sensor."""
+    lens, points = in_azimuth(lens, sources[0].azimuth_deg, nodes.xi, nodes.eta)
     limits = lens_rims(lens, keep_stop=False)
     rays, found = pupil_rays(lens, Sources.of(sources), *points), []
     beam = start(rays)
@@ -164,23 +159,23 @@ def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> P
 
     Raises GeometryError where an image lies at infinity, or rims clip all rays.
     """
-    rims, sources = _rims(lens, points, clip), Sources.of(points)
+    rims, sources = _rims(lens, points, clip, HALF), Sources.of(points)
     six = coefficients(lens, sources.depth_mm, sources.field_slope, sources.wavelength_um)
     scale = -np.asarray(six.reduced_slope) / sources.wavelength_um
     if not scale.all():
         raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
-    nodes, sign = disc_nodes(*NODES), np.sign(scale)[:, None]
-    order = ORDERS[0] if rims.shape[1] else 4
-    even, odd = _terms_over(order, sign * nodes.xi, sign * nodes.eta)
+    nodes, sign = HALF.nodes(NODES), np.sign(scale)[:, None]
+    basis = frequency_basis(ORDERS[0] if rims.shape[1] else 4, HALF)
+    kinds = _kinds_over(basis.wave_order, sign * nodes.xi, sign * nodes.eta)
     phase = wavefront(six, nodes.xi, nodes.eta)
     eta, across = (np.broadcast_to(v, phase.shape) for v in (nodes.eta, nodes.xi))
-    found = _solve(even, np.concatenate([np.stack([phase, eta], axis=1), rims], axis=1))
-    xi = _solve(odd, across[:, None])[:, 0]
+    found = _solve(basis.phase.of(kinds), np.concatenate([np.stack([phase, eta], axis=1), rims], axis=1))
+    xi = _solve(basis.fx.of(kinds), across[:, None])[:, 0]
     energy = np.pi * np.where((rims > 0).all(1), nodes.weight, 0.0).sum(1) / scale**2
     none, unknown = np.empty((len(scale), 0)), np.full(len(scale), np.nan)
     forms = found[:, 0], found[:, 1], xi, none, found[:, 2:]
     sizes = energy, unknown, 0 * scale, -np.asarray(sources.wavelength_um, float) + 0 * scale
-    return with_reach(PupilStack(order, np.abs(scale), *forms, *sizes, "seidel", 6, _mask_of(lens, points)))
+    return with_reach(PupilStack(basis, np.abs(scale), *forms, *sizes, "seidel", 6, _mask_of(lens, points)))
 
 
 def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> tuple[PupilStack, float]:
@@ -190,46 +185,49 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     """
     where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
     at = _at_nodes(where, level)
-    phase, fy = fits.phase @ at.phase, fits.fy @ at.fy
-    amplitude = fits.amplitude @ at.fy[: fits.amplitude.shape[-1]]
-    fx, eta = fits.fx @ at.fx, np.broadcast_to(at.eta, phase.shape)
+    phase, fy = fits.phase @ at.values.phase, fits.fy @ at.values.fy
+    amplitude = fits.amplitude @ at.values.fy[: fits.amplitude.shape[-1]]
+    fx, eta = fits.fx @ at.values.fx, np.broadcast_to(at.nodes.eta, phase.shape)
     clear = np.asarray((rims > NEARLY_CLEAR).all(1)) if rims.shape[1] else np.ones(phase.shape, bool)
-    fy = fy - _middle(fy, clear)
-    fx = fx - _middle(fx, clear) if level.skew else fx
+    fx, fy = _centred(fx, clear, level.basis.fx), _centred(fy, clear, level.basis.fy)
     radius = 1.02 * np.where(clear, np.hypot(fx, fy), 0.0).max(1)
     u, v = fx / radius[:, None], fy / radius[:, None]
     share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))[:, None]
     columns = np.stack([phase, eta, *([amplitude] if level.weighted else [])], axis=1)
     if rims.shape[1]:
         columns = np.concatenate([columns, rims], axis=1)
-    even, odd = _terms_over(order, u, v)
-    if level.skew:
-        even = odd = np.concatenate([even, odd], axis=1)
-    found = _solve(even * share, columns * share)
-    xi = _solve(odd * share, share * at.xi)[:, 0]
-    waves, miss = ((found[:, k, None] @ even)[:, 0] - true for k, true in enumerate((phase, eta)))
-    area = np.where(clear, at.weight, 0.0)
+    basis, kinds = frequency_basis(order, level.basis.domain), _kinds_over(order, u, v)
+    rows = basis.phase.of(kinds)
+    found = _solve(rows * share, columns * share)
+    xi = _solve(basis.fx.of(kinds) * share, share * at.nodes.xi)[:, 0]
+    waves, miss = ((found[:, k, None] @ rows)[:, 0] - true for k, true in enumerate((phase, eta)))
+    area = np.where(clear, at.nodes.weight, 0.0)
     residual = np.sqrt((area * waves**2).sum(1) / area.sum(1))
     excess = max(float(residual.max()) / PHASE_RESIDUAL, float(np.abs(miss * clear).max()) / POINT_RESIDUAL)
     first = 2 + level.weighted  # of the rims
     amplitude_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
     # By Parseval ∫|field|²dx = ∫amplitude²/|∂f/∂(ξ, η)| dξ dη.
     light = amplitude**2 / np.abs(determinant(fits.fx, fits.fy, *at.slopes))
-    energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ at.weight
+    energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ at.nodes.weight
     forms = found[:, 0], found[:, 1], xi, amplitude_of, found[:, first:]
     unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
     sizes = energy, unknown, left, unknown
-    return PupilStack(order, radius, *forms, *sizes, "fitted", level.numbers), excess
+    return PupilStack(basis, radius, *forms, *sizes, "fitted", level.numbers), excess
 
 
-def _middle(frequency: np.ndarray, clear: np.ndarray) -> np.ndarray:
-    """Return the middle between the least and the greatest frequency of each pupil, (pupils, 1)."""
+def _centred(frequency: np.ndarray, clear: np.ndarray, terms: Terms) -> np.ndarray:
+    """Return the frequencies of each pupil, (pupils, points), less the middle of the least and the greatest.
+
+    Where the constant is none of their ``terms``, they are about 0 as they are.
+    """
+    if not terms.constant:
+        return frequency
     ends = np.where(clear, frequency, -np.inf).max(1) + np.where(clear, frequency, np.inf).min(1)
-    middle: np.ndarray = ends[:, None] / 2
-    return middle
+    centred: np.ndarray = frequency - ends[:, None] / 2
+    return centred
 
 
-def _terms_over(order: int, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _kinds_over(order: int, u: np.ndarray, v: np.ndarray) -> Kinds:
     """Return even and odd terms at points (n, points), each (n, terms, points)."""
     even, odd = (rows.reshape(-1, *u.shape).swapaxes(0, 1) for rows in basis_by_powers(order, u.ravel(), v.ravel()))
     return even, odd
@@ -237,25 +235,18 @@ def _terms_over(order: int, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, n
 
 @dataclass(frozen=True, eq=False)
 class _FitTerms:
-    """Fixed nodes, the terms of a fit's phase, fx and fy at them, (terms, nodes), and the gradients of its maps'.
+    """Fixed nodes, the terms of a fit at them, and the gradients of those of its maps."""
 
-    The nodes are those of half the disc, or of all of it for a fit without symmetry.
-    """
-
-    xi: np.ndarray
-    eta: np.ndarray
-    weight: np.ndarray
-    phase: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
+    nodes: ClearNodes
+    values: PupilValues
     slopes: tuple[Gradient, Gradient]
 
 
 @lru_cache(maxsize=16)
 def _at_nodes(where: tuple[int, int], level: Level) -> _FitTerms:
-    xi, eta, weight = _nodes_of(where, bool(level.skew))
-    even, odd = (basis(order, xi, eta, flag) for order, flag in zip(level.orders, (False, True), strict=True))
-    return _FitTerms(xi, eta, weight, *rows_of(level, even, odd), map_slopes(level, xi, eta))
+    nodes = level.basis.domain.nodes(where)
+    points = nodes.xi, nodes.eta
+    return _FitTerms(nodes, level.basis.values(*points), level.basis.map_slopes(*points))
 
 
 def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:

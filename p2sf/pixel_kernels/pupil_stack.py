@@ -11,34 +11,32 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.pupil.basis import Gradient, PupilBasis, PupilDomain, Terms
 from p2sf.pupil.mask import CLEAR, PupilMask, mask_slopes
-from p2sf.pupil.quadrature import disc_nodes, whole_disc
-from p2sf.pupil.zernike import basis, gradient, powers, terms
-from p2sf.raytrace.fit import Gradient
+from p2sf.pupil.zernike import powers
 
 REACH_NODES = 24, 48
 FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold
 STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
 FORMS = "phase", "eta", "xi", "weight", "rims"
-SHARED = "order", "method", "numbers", "mask"
+SHARED = "basis", "method", "numbers", "mask"
 SIZES = "radius", "energy", "reach_um", "residual_waves", "wavelength_um"
 
 
 @dataclass(frozen=True, eq=False)
 class PixelPupil:
-    """Zernike coefficients over u = (f − centre)/``radius``: phase and η even in u_x, ξ odd.
+    """Zernike coefficients over u = (f − centre)/``radius``, in the terms of ``basis``: phase and η even in u_x, ξ odd.
 
     ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
-    ``weight``: of the light by entrance pupil area, even; none for the even light of a paraxial pupil. ``rims``,
-    (surfaces, even terms): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
+    ``weight``: of the light by entrance pupil area, as η; none for the even light of a paraxial pupil. ``rims``,
+    (surfaces, terms of η): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
     ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
     ``mask``: what stands in the pupil besides, as the source sees it; its path makes waves by ``wavelength_um``, which
-    is negative where the phase counts as W does. Of a lens without symmetry all forms have all even terms, and behind
-    them all odd ones.
+    is negative where the phase counts as W does.
     """
 
-    order: int
+    basis: PupilBasis
     radius: float
     phase: np.ndarray
     eta: np.ndarray
@@ -58,7 +56,7 @@ class PixelPupil:
 class PupilStack:
     """Several pupils of one order: every array of `PixelPupil` with an axis of pupils first, numbers (pupils,)."""
 
-    order: int
+    basis: PupilBasis
     radius: np.ndarray
     phase: np.ndarray
     eta: np.ndarray
@@ -89,31 +87,28 @@ class PupilStack:
         return replace(self, **values)
 
     @property
-    def symmetric(self) -> bool:
-        """Return whether the forms have only the terms of their symmetry about the plane of the field."""
-        return int(self.phase.shape[-1]) == len(terms(self.order))
+    def order(self) -> int:
+        """Return the order of all terms."""
+        return self.basis.wave_order
 
     def of_order(self, order: int) -> "PupilStack":
         """Return the same pupils with zeros for the terms up to a higher order, which come last among their kind."""
         if order == self.order:
             return self
-        wider: dict[str, Any] = {name: _widened(getattr(self, name), order, self.order) for name in FORMS}
-        return replace(self, order=order, **wider)
+        own = {name: (terms_of(self.basis, name), getattr(self, name)) for name in FORMS}
+        wider: dict[str, Any] = {name: of.widened(form, order) for name, (of, form) in own.items() if form.shape[-1]}
+        return replace(self, basis=frequency_basis(order, self.basis.domain), **wider)
 
 
-def _halves(form: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the coefficients of a form's even and of its odd terms; none of those that its symmetry forbids."""
-    even = len(terms(order)) if form.shape[-1] != len(terms(order, True)) else 0
-    return form[..., :even], form[..., even:]
+@lru_cache(maxsize=16)
+def frequency_basis(order: int, domain: PupilDomain) -> PupilBasis:
+    """Return the terms of a pupil over its frequencies, all up to one order: those of ξ are the basis's of fx."""
+    return PupilBasis(order, order, domain)
 
 
-def _widened(form: np.ndarray, order: int, narrower: int) -> np.ndarray:
-    """Return a form of a narrower order with zeros for the terms up to another."""
-    wider: list[np.ndarray] = []
-    for half, odd in zip(_halves(form, narrower), (False, True), strict=True):
-        lacking = len(terms(order, odd)) - len(terms(narrower, odd)) if half.shape[-1] else 0
-        wider.append(np.pad(half, [(0, 0)] * (half.ndim - 1) + [(0, lacking)]))
-    return np.concatenate(wider, axis=-1)
+def terms_of(basis: PupilBasis, form: str) -> Terms:
+    """Return the terms of one of FORMS."""
+    return basis.fx if form == "xi" else basis.phase
 
 
 def stacked(pupils: Sequence[PixelPupil | PupilStack]) -> PupilStack:
@@ -144,16 +139,20 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
     they come back there, and would let light through that does not exist.
     """
-    at = _terms_at(pupils.order, pupils.symmetric)
+    at = _terms_at(pupils.basis)
     (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
         (form @ across, form @ along)
-        for form, (across, along) in zip((pupils.phase, pupils.eta, pupils.xi), at.slopes, strict=True)
+        for form, (across, along) in (
+            (pupils.phase, at.slopes[1]),
+            (pupils.eta, at.slopes[1]),
+            (pupils.xi, at.slopes[0]),
+        )
     )
     area = np.abs(xi_u * eta_v - xi_v * eta_u)
-    inside = (pupils.eta @ at.even) ** 2 + (pupils.xi @ at.odd) ** 2 <= 1
-    light = np.where(inside & (pupils.rims @ at.even > 0).all(1), at.weight * area**2, 0.0)
+    inside = (pupils.eta @ at.eta) ** 2 + (pupils.xi @ at.xi) ** 2 <= 1
+    light = np.where(inside & (pupils.rims @ at.eta > 0).all(1), at.weight * area**2, 0.0)
     if pupils.weight.size:
-        light *= (pupils.weight @ at.even) ** 2
+        light *= (pupils.weight @ at.eta) ** 2
     share = np.pi * light.sum(1) / pupils.radius**2 / pupils.energy
     worst = float(share[np.abs(share - 1).argmax()])
     if abs(worst - 1) > FOLDED:
@@ -165,7 +164,7 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]
     mask, stray = pupils.mask, STRAY
     if not mask.clear:
-        xi, eta = pupils.xi @ at.odd, pupils.eta @ at.even
+        xi, eta = pupils.xi @ at.xi, pupils.eta @ at.eta
         round_part = mask.round_part
         light = np.where(round_part.opens(xi, eta), light * round_part.amplitude(xi * inside, eta * inside) ** 2, 0.0)
         stray *= mask.round  # what is dark in some directions only may be where most of the light is
@@ -186,36 +185,28 @@ def cutting_rims(pupils: PupilStack) -> np.ndarray:
     """Return which surfaces' rims clip any part of any of the pupils, (surfaces,)."""
     if not pupils.rims.size:
         return np.zeros(pupils.rims.shape[1], bool)
-    at = _terms_at(pupils.order, pupils.symmetric)
-    inside = (pupils.eta @ at.even) ** 2 + (pupils.xi @ at.odd) ** 2 <= 1
-    nearest = np.where(inside[:, None], pupils.rims @ at.even, np.inf).min(2)
+    at = _terms_at(pupils.basis)
+    inside = (pupils.eta @ at.eta) ** 2 + (pupils.xi @ at.xi) ** 2 <= 1
+    nearest = np.where(inside[:, None], pupils.rims @ at.eta, np.inf).min(2)
     cutting: np.ndarray = (nearest < SURELY_CLEAR).any(0)
     return cutting
 
 
 @dataclass(frozen=True, eq=False)
 class _TermsAt:
-    """Even and odd terms at REACH_NODES over u, the nodes' weights, and gradients as phase, η and ξ take them.
+    """The terms of η and of ξ at REACH_NODES over u, the nodes' weights, and gradients of the terms of ξ and of η."""
 
-    Without symmetry both are all terms, at nodes of the whole disc.
-    """
-
-    even: np.ndarray
-    odd: np.ndarray
+    eta: np.ndarray
+    xi: np.ndarray
     weight: np.ndarray
-    slopes: tuple[Gradient, Gradient, Gradient]
+    slopes: tuple[Gradient, Gradient]
 
 
 @lru_cache(maxsize=16)
-def _terms_at(order: int, symmetric: bool) -> _TermsAt:
-    half = disc_nodes(*REACH_NODES)
-    xi, eta, weight = (half.xi, half.eta, half.weight) if symmetric else whole_disc(*REACH_NODES)
-    even, odd = (basis(order, xi, eta, odd=flag) for flag in (False, True))
-    of_even, of_odd = (gradient(order, xi, eta, odd=flag) for flag in (False, True))
-    if symmetric:
-        return _TermsAt(even, odd, weight, (of_even, of_even, of_odd))
-    every, across, along = (np.concatenate(pair) for pair in ((even, odd), *zip(of_even, of_odd, strict=True)))
-    return _TermsAt(every, every, weight, ((across, along),) * 3)
+def _terms_at(basis: PupilBasis) -> _TermsAt:
+    nodes = basis.domain.nodes(REACH_NODES)
+    values = basis.values(nodes.xi, nodes.eta)
+    return _TermsAt(values.fy, values.fx, nodes.weight, basis.map_slopes(nodes.xi, nodes.eta))
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,40 +233,22 @@ def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
 
     Rotation needs no interpolation: it turns cosine terms into sine terms of the same order, and the other way round.
     """
-    phase, eta, xi = (_rotated(pupils.order, form, angles) for form in (pupils.phase, pupils.eta, pupils.xi))
-    weight = _rotated(pupils.order, pupils.weight, angles) if pupils.weight.size else None
+    basis, forms = pupils.basis, (pupils.phase, pupils.eta, pupils.xi)
+    phase, eta, xi = (
+        _plain(of, form, angles) for of, form in zip((basis.phase, basis.fy, basis.fx), forms, strict=True)
+    )
+    weight = _plain(basis.fy, pupils.weight, angles) if pupils.weight.size else None
     cutting = pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1)
-    rims = np.array([_rotated(pupils.order, form, angles) for form in cutting])
+    rims = np.array([_plain(basis.fy, form, angles) for form in cutting])
     return Turned(pupils.radius, phase, eta, xi, weight, rims, pupils.mask, pupils.wavelength_um, angles)
 
 
-def _rotated(order: int, form: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """Return a form, (pupils, terms), rotated by angles, as coefficients c[i, j] of uⁱvʲ, (pupils, i, j)."""
-    harmonic = _harmonics(order)
-    paired = harmonic > 0  # the odd terms are the even ones without m = 0, in the same order
-    phases = np.multiply.outer(angles, harmonic)
-    (cosine, sine), (even, odd) = (np.cos(phases), np.sin(phases)), _halves(form, order)
-    new_even, new_odd = np.zeros_like(cosine), np.zeros((len(angles), np.count_nonzero(paired)))
-    if even.size:
-        new_even += even * cosine
-        new_odd += even[:, paired] * sine[:, paired]
-    if odd.size:
-        new_even[:, paired] -= odd * sine[:, paired]
-        new_odd += odd * cosine[:, paired]
-    return _plain(order, new_even, new_odd)
-
-
-def _plain(order: int, even: np.ndarray, odd: np.ndarray) -> np.ndarray:
-    """Return coefficients c[i, j] of uⁱvʲ, (pupils, order + 1, order + 1)."""
-    forms = _all_powers(order)
+def _plain(terms: Terms, form: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """Return a form, (pupils, terms), turned by angles, as coefficients c[i, j] of uⁱvʲ, (pupils, i, j)."""
+    forms, order = _all_powers(terms.order), terms.order
+    even, odd = terms.turned(form, angles)
     plain: np.ndarray = (even @ forms[0] + odd @ forms[1]).reshape(-1, order + 1, order + 1)
     return plain
-
-
-@lru_cache(maxsize=16)
-def _harmonics(order: int) -> np.ndarray:
-    """Return m of every even term."""
-    return np.array([m for _, m in terms(order)])
 
 
 @lru_cache(maxsize=16)

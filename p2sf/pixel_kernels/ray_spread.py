@@ -63,7 +63,7 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
 
     A cell's light is that of the sum of waves, amplitude²·|∂(ξ, η)/∂f|·dξ dη (Parseval).
     """
-    sides, mask = ((1,) if lens.misaligned else (1, -1)), mask_seen(lens, source)
+    sides, mask = lens.pupil_domain.images, mask_seen(lens, source)
     grid = _grid(len(sides))
     if mask.phased:
         check_unmasked(lens, Message("a blur by rays"))

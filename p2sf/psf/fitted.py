@@ -14,11 +14,11 @@ from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
 from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
+from p2sf.pupil.basis import PupilBasis, PupilValues
 from p2sf.pupil.interpolation import on_disc
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
-from p2sf.pupil.zernike import basis
+from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.vignetting import masked_blur
 from p2sf.threads import one_blas_thread
@@ -88,20 +88,14 @@ def waves_reaching(found: FittedPencil, reach_um: float) -> Waves | None:
     return fitted_waves(found, counts, reach_um) if counts[0] * counts[1] <= MOST_FOR_PEAK else None
 
 
-def open_nodes(mask: PupilMask, counts: Counts, skew: bool) -> ClearNodes:
-    """Return nodes over what a mask leaves open; for a ``skew`` fit, one without symmetry, over both halves."""
-    nodes = mask_nodes(mask, *counts)
-    return nodes.unfolded() if skew else nodes
-
-
 def fitted_waves(
     found: FittedPencil, counts: Counts, reach_um: float = np.inf, passed: np.ndarray | None = None
 ) -> Waves:
     """Return the plane waves of a fit over what its mask leaves open, their amplitudes of unit sum.
 
-    ``passed``: which of `open_nodes` let light pass, (nodes,); all by default.
+    ``passed``: which of these nodes let light pass, (nodes,); all by default.
     """
-    nodes = open_nodes(found.mask, counts, bool(found.level.skew))
+    nodes = found.level.basis.domain.over(mask_nodes(found.mask, *counts))
     if found.mask.clear:
         phase, fx, fy, amplitude = _on_rings(found, counts)
     else:
@@ -121,14 +115,12 @@ def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:
 
     Polynomials are known from as many nodes as they have orders, from which `on_disc` takes them to all others.
     """
-    order = max(found.level.wave_order, found.level.map_order, *(found.level.skew or (0, 0)))
+    basis = found.level.basis
+    order = max(basis.orders)
     coarse = order // 2 + 2, 2 * order + 4
-    skew = bool(found.level.skew)
-    half = disc_nodes(*coarse)
-    xi, eta = (np.append(half.xi, -half.xi), np.tile(half.eta, 2)) if skew else (half.xi, half.eta)
-    even, odd = (_kept_basis(found.level.orders[flag], *coarse, flag, CLEAR, skew) for flag in (False, True))
-    values = np.stack([*found.on(even, odd), found.amplitude_at(xi, eta)])
-    return on_disc(values.reshape(4, 2 if skew else 1, -1), coarse, counts)
+    nodes = basis.domain.nodes(coarse)
+    values = np.stack([*found.on(_kept_values(basis, CLEAR, coarse)), found.amplitude_at(nodes.xi, nodes.eta)])
+    return on_disc(basis.domain, values, coarse, counts)
 
 
 def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
@@ -148,19 +140,18 @@ def fitted_intensity(
 
 def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts) -> Values:
     """Return phase, fx and fy of a fit at its nodes, by blocks: of millions of nodes a basis takes gigabytes."""
-    orders, skew = found.level.orders, bool(found.level.skew)
+    basis = found.level.basis
     if nodes.xi.size <= MOST_KEPT // 2:
-        even, odd = (_kept_basis(orders[flag], *counts, flag, found.mask, skew) for flag in (False, True))
-        return found.on(even, odd)
+        return found.on(_kept_values(basis, found.mask, counts))
     blocks = []
     for begin in range(0, nodes.xi.size, MOST_KEPT):
-        at = nodes.xi[begin : begin + MOST_KEPT], nodes.eta[begin : begin + MOST_KEPT]
-        blocks.append(found.on(basis(orders[0], *at, False), basis(orders[1], *at, True)))
+        blocks.append(found.at(nodes.xi[begin : begin + MOST_KEPT], nodes.eta[begin : begin + MOST_KEPT]))
     phase, fx, fy = (np.concatenate(column) for column in zip(*blocks, strict=True))
     return phase, fx, fy
 
 
 @lru_cache(maxsize=16)
-def _kept_basis(order: int, radial: int, angular: int, odd: bool, mask: PupilMask, skew: bool) -> np.ndarray:
-    nodes = open_nodes(mask, (radial, angular), skew)
-    return basis(order, nodes.xi, nodes.eta, odd)
+def _kept_values(basis: PupilBasis, mask: PupilMask, counts: Counts) -> PupilValues:
+    """Return the terms at the nodes over what a mask leaves open."""
+    nodes = basis.domain.over(mask_nodes(mask, *counts))
+    return basis.values(nodes.xi, nodes.eta)

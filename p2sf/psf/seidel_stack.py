@@ -26,6 +26,7 @@ from p2sf.psf._seidel_sum import (
     wave_number,
 )
 from p2sf.psf.fitted import summed
+from p2sf.pupil.basis import PupilBasis
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.quadrature import (
     RowNodes,
@@ -35,7 +36,6 @@ from p2sf.pupil.quadrature import (
     even_count,
     grid_rows,
 )
-from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import FittedPencil, Level
 from p2sf.raytrace.ray_field import Steepness
 from p2sf.raytrace.seen_mask import with_slopes
@@ -47,7 +47,7 @@ SORTED_AT_ONCE = 512  # PSFs whose slopes are found together, which takes some m
 NODES_TOGETHER = 2**18  # nodes of quarter pupils that a thread sums at a time: some 5 ms of work
 MOST_IN_ROWS = 2**24  # nodes of a quarter pupil times pixels of a side: beyond, rows are the slower sum
 MOST_ONE_BY_ONE = 2**23  # of the whole disc: beyond, only rows do
-SEIDEL_LEVEL = Level(4, 1, 0, 0)  # of a fit that says what six coefficients do
+SEIDEL_LEVEL = Level(PupilBasis(4, 1), 0, 0)  # of a fit that says what six coefficients do
 
 Part = tuple[slice | np.ndarray, RowNodes]
 """Indices of PSFs that are summed together, and their nodes."""
@@ -169,10 +169,10 @@ def as_fit(coefficients: Coefficients, mask: PupilMask) -> FittedPencil:
 @lru_cache(maxsize=1)
 def _as_polynomials() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the coefficients of the shapes, (terms, 4), and of ξ and η, in orthonormal polynomials."""
-    nodes, (wave, maps) = disc_nodes(6, 12), (SEIDEL_LEVEL.wave_order, SEIDEL_LEVEL.map_order)
-    phase = (basis(wave, nodes.xi, nodes.eta) * nodes.weight) @ shapes(nodes.xi, nodes.eta).T
-    fx = (basis(maps, nodes.xi, nodes.eta, odd=True) * nodes.weight) @ nodes.xi
-    fy = (basis(maps, nodes.xi, nodes.eta) * nodes.weight) @ nodes.eta
+    nodes = disc_nodes(6, 12)
+    values = SEIDEL_LEVEL.basis.values(nodes.xi, nodes.eta)
+    phase = (values.phase * nodes.weight) @ shapes(nodes.xi, nodes.eta).T
+    fx, fy = (values.fx * nodes.weight) @ nodes.xi, (values.fy * nodes.weight) @ nodes.eta
     return protected(phase), protected(fx), protected(fy)
 
 

@@ -12,11 +12,11 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.plane_waves import Counts, Waves, pupil_amplitude
+from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.interpolation import interpolate_pupil, on_disc
 from p2sf.pupil.quadrature import disc_axes, disc_nodes
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.vignetting import whole_nodes
 
 PROBE = 12, 36
 COARSE = PROBE, (20, 64)  # radii and directions of the pencils that others are interpolated from
@@ -35,14 +35,10 @@ class RayWaves:
 
 
 @lru_cache(maxsize=4)
-def coarse_points(both: bool, counts: Counts = PROBE) -> tuple[np.ndarray, np.ndarray]:
-    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest.
-
-    ``both`` halves of the disc, or the half ξ > 0.
-    """
+def coarse_points(domain: PupilDomain, counts: Counts = PROBE) -> tuple[np.ndarray, np.ndarray]:
+    """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest."""
     nodes, angle = disc_nodes(*counts), rim_angles(counts)
-    xi, eta = np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle))
-    return (np.append(xi, -xi), np.tile(eta, 2)) if both else (xi, eta)
+    return domain.points(np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle)))
 
 
 def rim_angles(counts: Counts) -> np.ndarray:
@@ -59,7 +55,7 @@ def all_reach(lens: Lens, source: Source) -> bool:
 @lru_cache(maxsize=4)
 def coarse_pencil(lens: Lens, source: Source, counts: Counts = PROBE) -> Rays:
     """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
-    return pencil(lens, source, *coarse_points(lens.misaligned, counts))
+    return pencil(lens, source, *coarse_points(lens.pupil_domain, counts))
 
 
 def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: float) -> RayWaves | None:
@@ -70,12 +66,12 @@ def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: flo
     found = _smooth(lens, source, reach_um)
     if found is None:
         return None
-    coarse, sides = found
-    phase, fx, fy, field = on_disc(sides, coarse, counts)
-    nodes = whole_nodes(counts).unfolded() if lens.misaligned else whole_nodes(counts)
+    coarse, values = found
+    phase, fx, fy, field = on_disc(lens.pupil_domain, values, coarse, counts)
+    nodes = lens.pupil_domain.nodes(counts)
     amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
-    far = _farthest_um(coarse_pencil(lens, source, coarse))
-    return RayWaves(Waves(amplitude, fx, fy, nodes.even, far, reach_um), counts, 0, sides[0].size)
+    rays = coarse_pencil(lens, source, coarse)
+    return RayWaves(Waves(amplitude, fx, fy, nodes.even, _farthest_um(rays), reach_um), counts, 0, rays.phase.size)
 
 
 def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
@@ -86,38 +82,34 @@ def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
     found = _smooth(lens, source, 0.0)
     if found is None:
         return None
-    coarse, sides = found
+    coarse, values = found
     radius, theta = disc_axes(*coarse)
-    at = partial(interpolate_pupil, sides, coarse)
+    at = partial(interpolate_pupil, lens.pupil_domain, values, coarse)
     by_radius = at(radius + STEP, theta) - at(radius - STEP, theta)
     by_angle = at(radius, theta + STEP) - at(radius, theta - STEP)
     turn = by_radius[1] * by_angle[2] - by_radius[2] * by_angle[1]
-    area = np.abs(turn) / (4 * STEP**2 * np.tile(np.repeat(radius, theta.size), sides.shape[1]))
-    nodes = whole_nodes(coarse).unfolded() if lens.misaligned else whole_nodes(coarse)
+    nodes = lens.pupil_domain.nodes(coarse)
+    area = np.abs(turn) / (4 * STEP**2 * np.hypot(nodes.xi, nodes.eta))
     field = at(radius, theta)[3]
     return float(nodes.weight @ (field**2 / area) / (np.pi * (nodes.weight @ field) ** 2))
 
 
 def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.ndarray] | None:
-    """Return the counts of the first pencil that tells enough; its phase, fx, fy and amplitude, (4, sides, rays)."""
+    """Return the counts of the first pencil that tells enough; phase, fx, fy and amplitude at its nodes, (4, nodes)."""
     if not mask_seen(lens, source).clear:
         return None
+    domain = lens.pupil_domain
     for coarse in COARSE:
         rays = coarse_pencil(lens, source, coarse)
         if not rays.passed.all():
             return None
-        sides = np.stack([rays.phase, rays.fx, rays.fy, rays.amplitude]).reshape(4, 2 if lens.misaligned else 1, -1)
-        if _rim_error(sides, coarse, max(_farthest_um(rays), reach_um)) <= CLOSE:
-            return coarse, sides
+        halves = np.stack([rays.phase, rays.fx, rays.fy, rays.amplitude]).reshape(4, len(domain.halves), -1)
+        inside, rim = (part.reshape(4, -1) for part in np.split(halves, [coarse[0] * coarse[1] // 2], axis=-1))
+        missed = np.abs(interpolate_pupil(domain, inside, coarse, np.ones(1), rim_angles(coarse)) - rim).max(1)
+        if missed[0] + (missed[1] + missed[2]) * max(_farthest_um(rays), reach_um) <= CLOSE:
+            return coarse, inside
     return None
 
 
 def _farthest_um(rays: Rays) -> float:
     return float(np.hypot(rays.x_um, rays.y_um).max())
-
-
-def _rim_error(sides: np.ndarray, coarse: Counts, reach_um: float) -> float:
-    """Return by how many waves rays on the rim, where an interpolation errs most, are missed at a distance."""
-    exact = sides[..., coarse[0] * coarse[1] // 2 :].reshape(4, -1)
-    phase, fx, fy, _ = np.abs(interpolate_pupil(sides, coarse, np.ones(1), rim_angles(coarse)) - exact).max(1)
-    return float(phase + (fx + fy) * reach_um)

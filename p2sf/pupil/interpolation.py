@@ -11,7 +11,10 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from p2sf.conventions import protected
+from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.quadrature import disc_axes, gauss_legendre
+
+ODD = (False, True, False, False)  # phase, fx, fy and amplitude in ξ, by symmetry
 
 
 def interpolate(
@@ -35,22 +38,26 @@ def interpolate(
     return found.reshape(*values.shape[:-1], -1)
 
 
-def interpolate_pupil(sides: np.ndarray, coarse: tuple[int, int], radius: np.ndarray, theta: np.ndarray) -> np.ndarray:
-    """Return phase, fx, fy and amplitude, (4, points), at radii × angles from those at coarse nodes, (4, sides, nodes).
+def interpolate_pupil(
+    domain: PupilDomain, values: np.ndarray, coarse: tuple[int, int], radius: np.ndarray, theta: np.ndarray
+) -> np.ndarray:
+    """Return phase, fx, fy and amplitude, (4, points), at radii × angles from those at coarse nodes, (4, nodes).
 
-    All but fx are even in ξ if there is one side; two are the halves ξ > 0 and, mirrored, ξ < 0.
+    The nodes are those of a domain, half after half; the points are on the half ξ > 0, and mirrored on each other one.
     """
-    inside = sides[..., : coarse[0] * coarse[1] // 2]
-    if sides.shape[1] == 1:
-        return np.stack([interpolate(x, coarse, radius, theta, odd=k == 1) for k, x in enumerate(inside[:, 0])])
-    even = interpolate((inside[:, 0] + inside[:, 1]) / 2, coarse, radius, theta)
-    odd = interpolate((inside[:, 0] - inside[:, 1]) / 2, coarse, radius, theta, odd=True)
-    return np.concatenate([even + odd, even - odd], axis=1)
+    sides = values.reshape(4, len(domain.halves), -1)
+    found = np.zeros((4, len(domain.halves), radius.size * theta.size))
+    for odd in (False, True):
+        some = [number for number, own in enumerate(ODD) if odd in domain.parities(own)]
+        signs = np.array(domain.halves)[:, None] if odd else 1
+        part = (signs * sides[some]).sum(1) / len(domain.halves)
+        found[some] += signs * interpolate(part, coarse, radius, theta, odd)[:, None]
+    return found.reshape(4, -1)
 
 
-def on_disc(sides: np.ndarray, coarse: tuple[int, int], counts: tuple[int, int]) -> np.ndarray:
-    """Return `interpolate_pupil` at the nodes of `disc_nodes(*counts)`, with two sides at those of both halves."""
-    return interpolate_pupil(sides, coarse, *disc_axes(*counts))
+def on_disc(domain: PupilDomain, values: np.ndarray, coarse: tuple[int, int], counts: tuple[int, int]) -> np.ndarray:
+    """Return `interpolate_pupil` at the nodes of ``counts``, (4, nodes)."""
+    return interpolate_pupil(domain, values, coarse, *disc_axes(*counts))
 
 
 @lru_cache(maxsize=8)

@@ -16,13 +16,14 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_aligned, seen_from
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.pupil.basis import Gradient, PupilBasis, determinant
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, changes_of, check_without_holes, holes_of, piece_nodes
 from p2sf.raytrace.clear_radius import Clearance, clear_radius
-from p2sf.raytrace.fit import FittedPencil, Gradient, Level, determinant, fit, map_slopes
+from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.surface import BESIDE, Status, ended_at, rooms
@@ -78,8 +79,7 @@ def pupil_nodes(
     """
     mask = mask_seen(lens, source)
     if whole and not clip:
-        nodes = whole_nodes(counts) if mask.clear else mask_nodes(mask, *counts)
-        return nodes.unfolded() if lens.misaligned else nodes
+        return lens.pupil_domain.over(whole_nodes(counts) if mask.clear else mask_nodes(mask, *counts))
     if mask.clear and not (clip and holes_of(lens)):
         return clear_nodes(lens, source, counts, clip)
     return piece_nodes(lens, source, counts, clip, mask)
@@ -277,16 +277,15 @@ def masked_blur(found: FittedPencil) -> float:
     """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
     if found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
         return found.blur_um2
-    nodes, slopes = _kept_slopes(found.level, found.mask)
+    nodes, slopes = _kept_slopes(found.level.basis, found.mask)
     return _blur(found, nodes, np.abs(determinant(found.fx, found.fy, *slopes)))
 
 
 @lru_cache(maxsize=16)
-def _kept_slopes(level: Level, mask: PupilMask) -> tuple[ClearNodes, tuple[Gradient, Gradient]]:
+def _kept_slopes(basis: PupilBasis, mask: PupilMask) -> tuple[ClearNodes, tuple[Gradient, Gradient]]:
     """Return BLUR_NODES over the open part, and the slopes of the terms of fx and fy there."""
-    nodes = mask_nodes(mask, *BLUR_NODES)
-    nodes = nodes.unfolded() if level.skew else nodes
-    return nodes, map_slopes(level, nodes.xi, nodes.eta)
+    nodes = basis.domain.over(mask_nodes(mask, *BLUR_NODES))
+    return nodes, basis.map_slopes(nodes.xi, nodes.eta)
 
 
 def _blur(found: FittedPencil, nodes: ClearNodes, area: np.ndarray, radiometrically: bool = False) -> float:

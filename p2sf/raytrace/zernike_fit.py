@@ -67,11 +67,12 @@ def pupil_opd(
 ) -> tuple[ClearNodes, np.ndarray]:
     """Return nodes over the clear part of the pupil and the displayed OPD there, waves, (nodes,).
 
-    Those of the half disc ξ > 0, of a misaligned lens of the whole.
+    The nodes are those of `Lens.pupil_domain`.
     """
     nodes = open_nodes(lens, source, counts)
-    turn = np.linspace(0, 2 * np.pi, 2 * RIM_RAYS) if lens.misaligned else np.linspace(0, np.pi, RIM_RAYS)
-    tried = np.append(nodes.xi, np.sin(turn)), np.append(nodes.eta, np.cos(turn))
+    turn = np.linspace(0, np.pi, RIM_RAYS)
+    rim = lens.pupil_domain.points(np.sin(turn), np.cos(turn))
+    tried = np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1])
     if not pencil(lens, source, *tried, clip).passed.all():
         if not lens.mask.clear:
             raise GeometryError(

@@ -75,7 +75,7 @@ def importance(space: LensSpace, database: FittedDatabase) -> np.ndarray:
     """
     level = database.level
     source = Source(space.near_mm, space.slopes[1], space.wavelengths_um[0])
-    phase, fx, fy, weight, _ = split(level, powers(level, source))
+    phase, fx, fy, weight, _ = split(level, powers(level, source, database.axes.fields))
     reach = _reach_um(space)
     scale = [phase, fx * reach, fy * reach, weight / (2 * np.pi) if level.weighted else weight[:0], [0.0]]
     scale[0][0] = scale[2][0] = 0.0

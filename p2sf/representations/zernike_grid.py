@@ -15,6 +15,7 @@ import numpy as np
 from p2sf.database.fitted import steepness
 from p2sf.lens.source import Source
 from p2sf.psf.fitted import summed
+from p2sf.pupil.basis import PupilBasis
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, terms
 from p2sf.raytrace.fit import FittedPencil, Level
@@ -76,7 +77,7 @@ def pencil_of(numbers: np.ndarray, order: int, wavelength_um: float) -> FittedPe
     phase, (across, middle, along) = scaled[:-MAP], scaled[-MAP:]
     # The polynomials of degree 1 are 2ξ and 2η, to have unit mean square.
     fx, fy = np.array([across / 2]), np.array([middle, along / 2])
-    level = Level(order, 1, *RAYS)
+    level = Level(PupilBasis(order, 1), *RAYS)
     return FittedPencil(level, phase, fx, fy, 0.0, steepness(level, phase, fx, fy), np.nan, 0)
 
 

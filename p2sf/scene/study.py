@@ -19,7 +19,6 @@ from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, s
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stacked
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pupil.mask_nodes import throughput
-from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import Level, PencilForms, levels_for
 from p2sf.scene.field_area import FieldArea, Point, field_area
 from p2sf.scene.field_points import scene_maps
@@ -113,7 +112,7 @@ class Study:
         points = [self.area.outwards(part) for part in SEEN_AT]
         pupils = [PupilAt(*point, v, wave) for wave in self.waves_um for point in points for v in nodes]
         phase = fitted_forms(self.lens, self._sources(pupils), self.level)[0].phase
-        degree = np.array([n for odd in (False, True) for n, _ in terms(self.level.wave_order, odd)])[: phase.shape[-1]]
+        degree, _ = self.level.basis.phase.indices
         between = np.array([lagrange(nodes, v) for v in scan.tolist()])
         phases = between @ phase[:, degree > 1].reshape(len(self.waves_um), len(points), len(nodes), -1)
         least = np.square(phases).sum(-1).argmin(-1)
@@ -176,7 +175,7 @@ class Study:
             sources = self._sources(missing)
             known = missing == self.corners
             fits, landed = self._corner_fits(self.level) if known else fitted_forms(self.lens, sources, self.level)
-            order = max((pupil.order for pupil, _ in self._fits.values()), default=ORDERS[0])
+            order = max((pupil.basis.wave_order for pupil, _ in self._fits.values()), default=ORDERS[0])
             made = pupils_of(self.lens, sources, fits, self.level, self.scene.clip, order)
             for k, at in enumerate(missing):
                 self._fits[at] = made.one(k), landed[k] - at[:2]

@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.database import Space, depth_nodes
 from p2sf.database.departure import departures
-from p2sf.database.fitted import powers, split
+from p2sf.database.fitted import FieldLine, powers, split
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted, held_out, ray_error
 from p2sf.database.render import Sampling, database_psf, rendered
 from p2sf.database_files import load_database, save_database
@@ -70,7 +70,7 @@ def test_the_chief_rays_height_is_the_traced_one(lens, database):
 def test_numbers_are_even_or_odd_in_the_field_as_their_polynomials_are(lens):
     """The parity that the database is built on: a fit at −h has the same numbers, the odd ones negated."""
     above, below = (fit(lens, Source(5000.0, slope, 0.55), LEVELS[1].numbers) for slope in (0.15, -0.15))
-    signs = np.sign(powers(above.level, Source(5000.0, -0.15, 0.55)))
+    signs = np.sign(powers(above.level, Source(5000.0, -0.15, 0.55), FieldLine()))
     for name, part in zip(("phase", "fx", "fy"), split(above.level, signs)[:3], strict=True):
         one, other = getattr(above, name), getattr(below, name) * part
         np.testing.assert_allclose(one, other, atol=1e-7 * np.abs(one).max())

@@ -29,7 +29,7 @@ from p2sf.psf.methods import choose, render
 from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.traced import traced_psf
-from p2sf.raytrace.fit import SKEW
+from p2sf.raytrace.fit import NOT_SYMMETRIC
 from tests.long.method_choice import STEEPEST, TOLERANCES, random_point
 
 DECENTRE_MM, TILT_DEG = 0.2, 0.5
@@ -90,7 +90,7 @@ def outcome(number: int, seed: int) -> Outcome:
     chosen = render(bad, source, choice.method, PIXELS, pixel, tolerance=tolerance)
     traced = traced_psf(bad, source, PIXELS, pixel)
     try:
-        fits = [fitted_psf(bad, source, PIXELS, pixel, level.numbers) for level in SKEW[:2]]
+        fits = [fitted_psf(bad, source, PIXELS, pixel, level.numbers) for level in NOT_SYMMETRIC[:2]]
         fit = min(fits, key=lambda psf: psf.predicted_error)
         fitted, predicted = r_squared(fit.values, reference.values), float(fit.predicted_error)
     except P2SFError:  # rays are lost

@@ -32,7 +32,6 @@ from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.psf.fitted import fitted_intensity
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import fit
 from tests.support.reference import DATA
 from tests.support.tiers import in_tiers
@@ -62,7 +61,7 @@ def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimut
     source, shift = Source(field_deg=14.0), (0.7, -0.4)
     found = fit(triplet, source)
     nodes = lens_nodes(found, azimuth, (40, 160))
-    waves = -found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
+    waves = -found.phase @ found.level.basis.phase.values(nodes.xi, nodes.eta)
     optics = lens_optics(triplet, np.inf, source.wavelength_um, PITCH)
     light = PixelSum(nodes, (25, 25), optics).light(waves - nodes.fx * shift[0] - nodes.fy * shift[1])
     pupil = pupil_map(triplet, source, "fitted", None)

@@ -18,7 +18,6 @@ from p2sf.measure.pupil_model import pupil_model
 from p2sf.measure.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, paraxial_nodes
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.zernike import basis
 from p2sf.raytrace.fit import fit
 from tests.support.masked_sum import masked_sum
 
@@ -95,7 +94,7 @@ def test_light_of_a_pupil_map_behind_a_mask_is_that_of_a_plain_sum(mask):
 
 def light_along_the_field(nodes, found, azimuth):
     """Return the intensity at points of a lens's nodes, unit sum, with the field turned back to +y."""
-    waves = nodes.waves - found.phase @ basis(found.level.wave_order, nodes.xi, nodes.eta)[: found.phase.size]
+    waves = nodes.waves - found.phase @ found.level.basis.phase.values(nodes.xi, nodes.eta)
     fx = nodes.fx * np.cos(azimuth) - nodes.fy * np.sin(azimuth)
     fy = nodes.fx * np.sin(azimuth) + nodes.fy * np.cos(azimuth)
     axis = centred_axis(11, PIXEL)

@@ -18,7 +18,7 @@ from p2sf.psf.methods import render
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.zernike import basis
 from p2sf.raytrace.aiming import pupil_rays
-from p2sf.raytrace.fit import SKEW, SLOPE_WEIGHT, fit, fit_rays, level_rays
+from p2sf.raytrace.fit import NOT_SYMMETRIC, SLOPE_WEIGHT, fit, fit_rays, level_rays
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.vignetting import clear_nodes
 from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
@@ -132,18 +132,18 @@ def test_a_fit_without_symmetry_is_that_of_symmetry_where_there_is_one(gauss, ba
         gauss, 1, 1, Placement(tilt_x_deg=2.0, tilt_y_deg=1.0, pivot=(0.0, 0.0, gauss.surfaces[0].radius))
     )
     assert turned.misaligned
-    found, level = fit(turned, Source(field_deg=10), SKEW[1].numbers), SKEW[1]
-    (phase, _), (fx, _), (fy, _) = level.counts
+    found, level = fit(turned, Source(field_deg=10), NOT_SYMMETRIC[1].numbers), NOT_SYMMETRIC[1]
+    phase, fx, fy = (some.counts[0] for some in (level.basis.phase, level.basis.fx, level.basis.fy))
     largest = np.abs(found.phase).max()
     assert np.abs(found.phase[phase:]).max() < 1e-4 * largest
     assert np.abs(found.fx[fx:]).max() + np.abs(found.fy[fy:]).max() < 1e-5 * np.abs(found.fx).max()
-    real = fit(bad, Source(field_deg=10), SKEW[1].numbers)
+    real = fit(bad, Source(field_deg=10), NOT_SYMMETRIC[1].numbers)
     assert np.abs(real.phase[phase:]).max() > 1e-2 * largest
 
 
 def test_the_area_over_frequencies_of_a_fit_without_symmetry(bad):
     """∂(fx, fy)/∂(ξ, η) by central differences of the fit itself: a second-order error of 1e-4²."""
-    found = fit(bad, Source(field_deg=10), SKEW[1].numbers)
+    found = fit(bad, Source(field_deg=10), NOT_SYMMETRIC[1].numbers)
     xi, eta, step = np.array([0.3, -0.5, 0.1]), np.array([0.2, 0.6, -0.7]), 1e-4
     _, *across = (a - b for a, b in zip(found.at(xi + step, eta), found.at(xi - step, eta), strict=True))
     _, *along = (a - b for a, b in zip(found.at(xi, eta + step), found.at(xi, eta - step), strict=True))
@@ -160,12 +160,10 @@ def test_traced_by_a_few_rays_is_the_reference(bad):
 
 def test_the_rays_of_every_fit_without_symmetry_tell_all_its_terms_apart():
     """With as many rays on every ring the least singular value was rounding, 1e-16 of the largest."""
-    for level in SKEW:
-        (xi, eta, weight), (even, odd) = level_rays(level), level.counts[0]
+    for level in NOT_SYMMETRIC:
+        xi, eta, weight = level_rays(level)
         used = slice(0, weight.size)
-        rows = [
-            basis(level.wave_order, xi[used], eta[used], flag)[:count] for flag, count in ((False, even), (True, odd))
-        ]
+        rows = [basis(level.basis.wave_order, xi[used], eta[used], flag) for flag in (False, True)]
         stacked = np.concatenate(rows)
         if level.by_slopes:  # by central differences, weighted as in the fit; they grow with the degree
             stacked = np.concatenate([stacked, *(SLOPE_WEIGHT * part for part in slopes_of_all_terms(level))], axis=1)
@@ -181,14 +179,14 @@ def slopes_of_all_terms(level, step=1e-5):
     at = np.stack([xi, eta])[:, : weight.size]
 
     def terms(points):
-        return np.concatenate([basis(level.wave_order, *points, odd) for odd in (False, True)])
+        return np.concatenate([basis(level.basis.wave_order, *points, odd) for odd in (False, True)])
 
     return [(terms(at + move) - terms(at - move)) / (2 * step) for move in step * np.eye(2)[..., None]]
 
 
 def test_64_rays_tell_a_phase_of_order_ten_by_where_they_land():
     """Rays of a made-up pupil, phase and map polynomials in plain powers: dw = −x·df gives the places."""
-    level, rng = SKEW[1], np.random.default_rng(4)
+    level, rng = NOT_SYMMETRIC[1], np.random.default_rng(4)
     powers = [(a, b) for a in range(11) for b in range(11 - a)]
     share = rng.normal(size=len(powers)) / [1 + a + b for a, b in powers]
 
@@ -211,7 +209,7 @@ def test_64_rays_describe_a_wide_field_of_a_misaligned_lens():
     """With as many rays on every ring, and order 5 of the terms that symmetry forbids, R² was 0.982."""
     lens = displaced(find_lens("double_gauss_28"), 3, 5, Placement(0.2, -0.15, 0, 0.4, 0.5))
     source = Source(field_deg=(6.0, 11.0))
-    found = fitted_psf(lens, source, 48, 2.0, SKEW[1].numbers)
+    found = fitted_psf(lens, source, 48, 2.0, NOT_SYMMETRIC[1].numbers)
     reference = huygens_psf(lens, source, 48, 2.0, 1e-3)
     assert found.rays == 64
     spread = np.square(reference.values - reference.values.mean()).sum()

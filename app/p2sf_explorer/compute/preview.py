@@ -10,19 +10,19 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.psf.fitted import counts_of, fitted_waves, open_nodes, psf_of_fit
+from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
 from p2sf.psf.picture import Origin, psf_of_waves
 from p2sf.psf.plane_waves import disc_words, window_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.raytrace.fit import LEVELS, SKEW, FittedPencil, Level, fit, fit_rays, level_rays, levels_for
+from p2sf.pupil.mask_nodes import mask_nodes
+from p2sf.raytrace.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.vignetting import CLIPPED
 from p2sf_explorer.compute.pupil import WavefrontMap, map_behind, pupil_terms
 from p2sf_explorer.compute.setup import ParaxialSetup
 
-LEVEL = LEVELS[0]  # 26 numbers
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
 TRIED = 2  # levels of fits to the first rays
 EDGE = 9  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
@@ -46,14 +46,14 @@ def preview(setup: ParaxialSetup, clip: bool = False) -> Preview | None:
 
 def first_level(lens: Lens) -> Level:
     """Return the size of the first fit to a lens, of which its rays are: 26 numbers where there is symmetry."""
-    return SKEW[0] if lens.misaligned else LEVEL
+    return levels("paraxial", lens.pupil_domain)[0]
 
 
 @lru_cache(maxsize=2)
 def points(level: Level) -> tuple[np.ndarray, np.ndarray]:
     """Return ξ and η of the level's rays, then of those at the edge."""
     xi, eta, _ = level_rays(level)
-    edge = edge_points(level.skew is not None)
+    edge = edge_points(not level.basis.domain.symmetric)
     return np.append(xi, edge[0]), np.append(eta, edge[1])
 
 
@@ -127,7 +127,7 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
     """
     fitted, setup, reach = best_fit(traced), traced.setup, window_reach_um(pixels, pixel_um)
     counts = counts_of(fitted, reach, "preview")
-    nodes = open_nodes(fitted.mask, counts, bool(fitted.level.skew))
+    nodes = fitted.level.basis.domain.over(mask_nodes(fitted.mask, *counts))
     passed = pencil(setup.lens, setup.source, nodes.xi, nodes.eta, clip=True).passed
     if not passed.any():
         raise GeometryError(CLIPPED)
@@ -154,4 +154,4 @@ def preview_pupil(traced: Preview) -> WavefrontMap:
 @lru_cache(maxsize=2)
 def _projection(level: Level) -> np.ndarray:
     """Return the least-squares inverse from the rays' waves to the terms of the pupil map, (terms, rays)."""
-    return np.linalg.pinv(pupil_terms("preview", level.skew is not None, *points(level)).T)
+    return np.linalg.pinv(pupil_terms("preview", not level.basis.domain.symmetric, *points(level)).T)

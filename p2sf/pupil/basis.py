@@ -1,0 +1,261 @@
+"""Which polynomials describe a pupil, and over which part of the disc they have to be known (handbook 5.3).
+
+A field along η leaves phase, fy and amplitude even in ξ, and fx odd, so that half the disc tells everything. Without
+that symmetry each of them has the terms of the other kind as well, behind its own, and the whole disc is needed.
+Whoever uses a basis need not ask which it is: a symmetric one has fewer terms and fewer nodes.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.conventions import protected
+from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.quadrature import MOST_KEPT, disc_nodes, gauss_legendre
+from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
+
+Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
+Kinds: TypeAlias = tuple[np.ndarray, np.ndarray]  # what belongs to the terms even in ξ, and to the odd ones
+
+# Rays held out of a fit to test it, on the rim, where a polynomial deviates first: (ξ, η), and angles from +η to +ξ.
+HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
+HELD_OUT_AROUND_DEG = np.array([0.0, 80.0, 170.0, 260.0])
+RING_POWER = 1.3  # of a ring's radius: with 60 rays the terms of degree 8 have a condition number of 3
+
+
+@dataclass(frozen=True)
+class PupilDomain:
+    """The part of the disc that tells everything of a pupil: the half ξ > 0 where it is symmetric about η, or all."""
+
+    symmetric: bool = True
+
+    @cached_property
+    def halves(self) -> tuple[int, ...]:
+        """Return the signs of ξ of the half discs that belong to it."""
+        return (1,) if self.symmetric else (1, -1)
+
+    @cached_property
+    def images(self) -> tuple[int, ...]:
+        """Return the signs of ξ for which a point of it stands: its own and, where symmetric, its mirror image's."""
+        return (1, -1)[: 2 // len(self.halves)]
+
+    def parities(self, odd: bool) -> tuple[bool, ...]:
+        """Return whether terms are odd in ξ: those of a function that is so by symmetry, then any that it forbids."""
+        return (odd, not odd)[: len(self.halves)]
+
+    def points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return points of the half disc ξ ≥ 0, and behind them their mirror images that belong to the domain too."""
+        return np.concatenate([half * xi for half in self.halves]), np.tile(eta, len(self.halves))
+
+    def over(self, nodes: ClearNodes) -> ClearNodes:
+        """Return nodes that are known over half the disc, or over all of it, over the domain."""
+        return nodes if self.symmetric else nodes.unfolded()
+
+    def nodes(self, counts: tuple[int, int]) -> ClearNodes:
+        """Return the nodes of (radial, angular) ``counts``."""
+        return (_kept_nodes if counts[0] * counts[1] <= MOST_KEPT else _kept_nodes.__wrapped__)(self, counts)
+
+    def sampling_rays(self, radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return ξ and η of radii × directions rays for a fit and of those held out, and the former's area weights."""
+        return (_half_rays if self.symmetric else _whole_rays)(radii, directions)
+
+
+HALF, WHOLE = PupilDomain(), PupilDomain(False)
+
+
+@lru_cache(maxsize=32)
+def _kept_nodes(domain: PupilDomain, counts: tuple[int, int]) -> ClearNodes:
+    half = disc_nodes(*counts)
+    nodes = domain.over(ClearNodes(half.xi, half.eta, half.weight, 1.0))
+    return replace(nodes, xi=protected(nodes.xi), eta=protected(nodes.eta), weight=protected(nodes.weight))
+
+
+def _half_rays(radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    nodes = disc_nodes(radii, 2 * directions)
+    return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
+
+
+def _whole_rays(radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return rays over the whole disc: on every ring as many as the harmonics need that are not small there.
+
+    A term ρⁿ·cos mθ has n ≥ m, so that near the middle few directions do, while on the rim a polynomial of degree n
+    takes 2n + 1. With as many on all rings, the same number of rays tells some terms apart by rounding alone.
+    """
+    square, weight = gauss_legendre(radii)
+    rho, held = np.sqrt((1 + square) / 2), np.deg2rad(HELD_OUT_AROUND_DEG)
+    counts = ring_counts(rho, radii * directions)
+    angle = np.concatenate([(np.arange(count) + 0.25) * (2 * np.pi / count) for count in counts])
+    radius, share = np.repeat(rho, counts), np.repeat(weight / 2 / counts, counts)
+    xi, eta = radius * np.sin(angle), radius * np.cos(angle)
+    return np.append(xi, np.sin(held)), np.append(eta, np.cos(held)), share
+
+
+def ring_counts(rho: np.ndarray, total: int) -> np.ndarray:
+    """Return how many of all rays are on each ring, in proportion to a power of its radius."""
+    part = rho**RING_POWER
+    counts: np.ndarray = np.maximum(1, np.rint(total * part / part.sum())).astype(int)
+    counts[-1] += total - int(counts.sum())
+    return counts
+
+
+@dataclass(frozen=True)
+class Terms:
+    """The polynomials of `zernike` up to an order that describe one function over the pupil.
+
+    ``parities``: whether they are odd in ξ, those of one parity behind those of the other.
+    """
+
+    order: int
+    parities: tuple[bool, ...]
+
+    @cached_property
+    def counts(self) -> tuple[int, ...]:
+        """Return how many terms there are of each parity."""
+        return tuple(len(terms(self.order, odd)) for odd in self.parities)
+
+    @cached_property
+    def count(self) -> int:
+        """Return how many terms there are."""
+        return sum(self.counts)
+
+    @property
+    def constant(self) -> bool:
+        """Return whether the constant is one of them."""
+        return False in self.parities
+
+    @cached_property
+    def indices(self) -> np.ndarray:
+        """Return n and m of every term, (2, terms)."""
+        return protected(np.array([index for odd in self.parities for index in terms(self.order, odd)]).T)
+
+    def kinds(self, coefficients: np.ndarray) -> tuple[tuple[bool, np.ndarray], ...]:
+        """Return coefficients, (…, terms), by parity."""
+        return tuple((odd, coefficients[..., part]) for odd, part in self._parts)
+
+    @cached_property
+    def _parts(self) -> tuple[tuple[bool, slice], ...]:
+        ends = np.cumsum(self.counts).tolist()
+        slices = (slice(end - count, end) for end, count in zip(ends, self.counts, strict=True))
+        return tuple(zip(self.parities, slices, strict=True))
+
+    def of(self, kinds: Kinds) -> np.ndarray:
+        """Return the values of the terms, (…, terms, points), among those of all even and of all odd ones."""
+        found = [kinds[odd][..., :count, :] for odd, count in zip(self.parities, self.counts, strict=True)]
+        return found[0] if len(found) == 1 else np.concatenate(found, axis=-2)
+
+    def values(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
+        """Return the terms at pupil points, (terms, points)."""
+        return np.concatenate([basis(self.order, xi, eta, odd) for odd in self.parities])
+
+    def gradient(self, xi: ArrayLike, eta: ArrayLike) -> Gradient:
+        """Return ∂/∂ξ and ∂/∂η of the terms at pupil points, each (terms, points)."""
+        across, along = zip(*(gradient(self.order, xi, eta, odd) for odd in self.parities), strict=True)
+        return np.concatenate(across), np.concatenate(along)
+
+    def evaluate(self, coefficients: np.ndarray, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return Σ coefficient·term at pupil points of any shape, by Horner's rule."""
+        square = xi * xi
+        parts = ((odd, evaluate(columns(own, self.order, odd), square, eta)) for odd, own in self.kinds(coefficients))
+        first, *others = (xi * value if odd else value for odd, value in parts)
+        for other in others:
+            first = first + other
+        return first
+
+    def widened(self, coefficients: np.ndarray, order: int) -> np.ndarray:
+        """Return coefficients, (…, terms), with zeros for the terms up to a higher order."""
+        parts = []
+        for (_, own), wide in zip(self.kinds(coefficients), Terms(order, self.parities).counts, strict=True):
+            parts.append(np.pad(own, [(0, 0)] * (own.ndim - 1) + [(0, wide - own.shape[-1])]))
+        return np.concatenate(parts, axis=-1)
+
+    def turned(self, coefficients: np.ndarray, angles: np.ndarray) -> Kinds:
+        """Return the even and the odd coefficients, (…, terms), of functions turned by ``angles``, (…), from +η to +ξ.
+
+        An angle about the pupil becomes θ − angle, which mixes every cos mθ with its sin mθ; there is no interpolation.
+        """
+        harmonic, paired = _harmonics(self.order)
+        phases = np.multiply.outer(angles, harmonic)
+        cosine, sine = np.cos(phases), np.sin(phases)
+        even, odd = np.zeros_like(cosine), np.zeros(cosine[..., paired].shape)
+        for is_odd, own in self.kinds(coefficients):
+            if is_odd:
+                even[..., paired] -= own * sine[..., paired]
+                odd += own * cosine[..., paired]
+            else:
+                even += own * cosine
+                odd += own[..., paired] * sine[..., paired]
+        return even, odd
+
+    def joined(self, kinds: Kinds) -> np.ndarray:
+        """Return even and odd coefficients, (…, terms), in the order of the terms."""
+        return np.concatenate([kinds[odd] for odd in self.parities], axis=-1)
+
+
+@lru_cache(maxsize=32)
+def _harmonics(order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return m of every even term, and the places of those with m > 0: the odd terms are these, in the same order."""
+    harmonic = np.array([m for _, m in terms(order)])
+    return protected(harmonic), protected(np.flatnonzero(harmonic))
+
+
+CONSTANT = Terms(0, (False,))
+
+
+class PupilValues(NamedTuple):
+    """The terms of phase, fx and fy, or one of their slopes, each (terms, points); the amplitude has those of fy."""
+
+    phase: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+
+
+@dataclass(frozen=True)
+class PupilBasis:
+    """The terms of a pupil's phase up to ``wave_order``, and of its map (fx, fy) and amplitude up to ``map_order``."""
+
+    wave_order: int
+    map_order: int
+    domain: PupilDomain = HALF
+
+    @cached_property
+    def phase(self) -> Terms:
+        """Return the terms of the phase."""
+        return Terms(self.wave_order, self.domain.parities(False))
+
+    @cached_property
+    def fx(self) -> Terms:
+        """Return the terms of the frequency along x."""
+        return Terms(self.map_order, self.domain.parities(True))
+
+    @cached_property
+    def fy(self) -> Terms:
+        """Return the terms of the frequency along y, and of the amplitude."""
+        return Terms(self.map_order, self.domain.parities(False))
+
+    @cached_property
+    def orders(self) -> tuple[int, int]:
+        """Return the orders of all terms that are even in ξ, and of all that are odd."""
+        every = self.phase, self.fx, self.fy
+        even, odd = (max(some.order for some in every if odd in some.parities) for odd in (False, True))
+        return even, odd
+
+    def values(self, xi: ArrayLike, eta: ArrayLike) -> PupilValues:
+        """Return the terms of phase, fx and fy at pupil points."""
+        even, odd = self.orders
+        kinds = basis(even, xi, eta), basis(odd, xi, eta, odd=True)
+        return PupilValues(self.phase.of(kinds), self.fx.of(kinds), self.fy.of(kinds))
+
+    def map_slopes(self, xi: ArrayLike, eta: ArrayLike) -> tuple[Gradient, Gradient]:
+        """Return (∂/∂ξ, ∂/∂η) of the terms of fx and of fy at pupil points."""
+        even, odd = (gradient(self.map_order, xi, eta, odd) for odd in (False, True))
+        across, along = zip(even, odd, strict=True)
+        return (self.fx.of(across), self.fx.of(along)), (self.fy.of(across), self.fy.of(along))
+
+
+def determinant(fx: np.ndarray, fy: np.ndarray, of_fx: Gradient, of_fy: Gradient) -> np.ndarray:
+    """Return ∂(fx, fy)/∂(ξ, η) from coefficients and the gradients of the terms of fx and of fy."""
+    determinant: np.ndarray = (fx @ of_fx[0]) * (fy @ of_fy[1]) - (fx @ of_fx[1]) * (fy @ of_fy[0])
+    return determinant
