@@ -175,8 +175,10 @@ def with_reach(pupils: PupilStack) -> PupilStack:
         )
         distance += np.hypot(slopes.path_radial_um, slopes.path_angular_um) * steepest
     order_of = distance.argsort(1)
-    near_first = np.take_along_axis(light, order_of, 1).cumsum(1)
-    within = near_first <= (1 - stray) * light.sum(1, keepdims=True)
+    light = np.take_along_axis(light, order_of, 1)
+    near_first = light.cumsum(1)
+    every = near_first[:, -1:]  # as summed, so that rounding does not tell which of the last rays are within
+    within = (near_first <= (1 - stray) * every) & ((light > 0) | (near_first < every))  # none behind the last light
     reach = np.where(within, np.take_along_axis(distance, order_of, 1), 0.0).max(1)
     return replace(pupils, reach_um=reach)
 
