@@ -43,7 +43,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from tests.long.method_choice import TOLERANCES, random_mask, random_point
 from tests.long.misaligned_methods import misaligned
-from tests.support.brute_force import AGREED, Description, NotConverged, brute_force, of_fit, of_rays, of_six
+from tests.support.brute_force import AGREED, Description, brute_force, of_fit, of_rays, of_six
 from tests.support.waves import r_squared
 
 PIXELS = 24
@@ -78,8 +78,8 @@ class State:
 class Verdict:
     """1 − R² against the description of the pupil (NaN: it has none) and against exact rays, or why there is no PSF.
 
-    ``limit``: what was allowed against exact rays. ``refused``: the template of a sentence; ``unjudged``: brute force
-    did not converge.
+    ``limit``: what was allowed against exact rays. ``refused``: the template of a sentence; ``unjudged``: it is outside
+    the limits, but brute force did not converge.
     """
 
     state: State
@@ -184,15 +184,15 @@ def verdict(state: State) -> Verdict:
         psf = rendered(state)
     except P2SFError as why:
         return Verdict(state, refused=template(why), said=str(why))
-    try:
-        mask = mask_seen(lens, source)
-        exact = brute_force(of_rays(lens, source, mask, state.clip), psf.values, state.pixel_um)
-        own = described(state, psf, mask)
-        sums = exact if own is None else brute_force(own, psf.values, state.pixel_um)
-    except NotConverged:
-        return Verdict(state, unjudged=True)
+    mask = mask_seen(lens, source)
+    exact, sure = brute_force(of_rays(lens, source, mask, state.clip), mask, psf.values, state.pixel_um)
+    own, sums = described(state, psf, mask), exact
+    if own is not None:
+        sums, known = brute_force(own, mask, psf.values, state.pixel_um)
+        sure &= known
     error = np.nan if psf.method == "gaussian" else 1 - r_squared(psf.values, sums)
-    return Verdict(state, error, 1 - r_squared(psf.values, exact), _limit(state, psf))
+    found = Verdict(state, error, 1 - r_squared(psf.values, exact), _limit(state, psf))
+    return found if found.good or sure else replace(found, unjudged=True)
 
 
 def rendered(state: State) -> Psf:
