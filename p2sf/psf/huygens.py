@@ -205,10 +205,10 @@ def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool) -> Steep
 
     Raises GeometryError where no ray of the coarse pencil passes.
     """
-    if not coarse_pencil(lens, source).passed.any():
+    if not coarse_pencil(lens, source, PROBE).passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
     if not clip and all_reach(lens, source):
-        return _in_window(coarse_pencil(lens, source), *coarse_points(lens.pupil_domain), reach_um)
+        return _in_window(coarse_pencil(lens, source, PROBE), *coarse_points(lens.pupil_domain), reach_um)
     nodes = _nodes_of(lens, source, PROBE, clip)
     rays = rays_through(lens, source, nodes)
     weight = np.where(rays.passed, nodes.weight, 0.0)

@@ -49,11 +49,11 @@ def rim_angles(counts: Counts) -> np.ndarray:
 @lru_cache(maxsize=16)
 def all_reach(lens: Lens, source: Source) -> bool:
     """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
-    return bool(coarse_pencil(lens, source).passed.all())
+    return bool(coarse_pencil(lens, source, PROBE).passed.all())
 
 
 @lru_cache(maxsize=4)
-def coarse_pencil(lens: Lens, source: Source, counts: Counts = PROBE) -> Rays:
+def coarse_pencil(lens: Lens, source: Source, counts: Counts) -> Rays:
     """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
     return pencil(lens, source, *coarse_points(lens.pupil_domain, counts))
 
@@ -90,7 +90,7 @@ def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
     turn = by_radius[1] * by_angle[2] - by_radius[2] * by_angle[1]
     nodes = lens.pupil_domain.nodes(coarse)
     area = np.abs(turn) / (4 * STEP**2 * np.hypot(nodes.xi, nodes.eta))
-    field = at(radius, theta)[3]
+    field = values[3]
     return float(nodes.weight @ (field**2 / area) / (np.pi * (nodes.weight @ field) ** 2))
 
 

@@ -24,17 +24,11 @@ def interpolate(
 
     ``values``: (…, nodes) over the half disc, even in ξ or ``odd``; ``rho``: (radii,); ``theta``: (angles,), from +η.
     """
-    radial, angular = counts
-    analysis, harmonics = _harmonics(angular, odd)
-    along = values.reshape(*values.shape[:-1], radial, angular // 2) @ analysis
-    across = np.moveaxis(along, -1, -2)  # (…, harmonics, radii)
-    at_odd = harmonics % 2 == 1
-    polynomial, (here, _) = _polynomials(radial, tuple(rho.tolist())), disc_axes(*counts)
-    by_harmonic = np.empty((*across.shape[:-1], rho.size))
-    by_harmonic[..., ~at_odd, :] = across[..., ~at_odd, :] @ polynomial
-    by_harmonic[..., at_odd, :] = (across[..., at_odd, :] / here) @ polynomial * rho
-    wave = np.sin if odd else np.cos
-    found: np.ndarray = np.moveaxis(by_harmonic, -1, -2) @ wave(np.outer(harmonics, theta))
+    up, across = _matrices(counts, rho.tobytes(), theta.tobytes(), odd)
+    grid = values.reshape(*values.shape[:-1], counts[0], counts[1] // 2)
+    # Of even harmonics and of odd ones apart, side by side in ``across`` and in ``up``.
+    even, odd_ones = np.split(grid @ across, 2, axis=-1)
+    found: np.ndarray = up @ np.concatenate([even, odd_ones], axis=-2)
     return found.reshape(*values.shape[:-1], -1)
 
 
@@ -60,6 +54,22 @@ def on_disc(domain: PupilDomain, values: np.ndarray, coarse: tuple[int, int], co
     return interpolate_pupil(domain, values, coarse, *disc_axes(*counts))
 
 
+@lru_cache(maxsize=32)
+def _matrices(counts: tuple[int, int], radii: bytes, angles: bytes, odd: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return the matrices (radii, 2·radial) and (angular/2, 2·angles) between which `interpolate` takes values.
+
+    ``radii`` and ``angles``: arrays as bytes. The first halves are for even harmonics, the others for odd ones.
+    """
+    rho, theta = np.frombuffer(radii), np.frombuffer(angles)
+    analysis, harmonics = _harmonics(counts[1], odd)
+    polynomial, (here, _) = _polynomials(counts[0], rho).T, disc_axes(*counts)
+    wave = (np.sin if odd else np.cos)(np.outer(harmonics, theta))
+    at_odd = harmonics % 2 == 1
+    across = np.concatenate([analysis[:, some] @ wave[some] for some in (~at_odd, at_odd)], axis=1)
+    up = np.concatenate([polynomial, rho[:, None] * polynomial / here], axis=1)
+    return protected(up), protected(across)
+
+
 @lru_cache(maxsize=8)
 def _harmonics(angular: int, odd: bool) -> tuple[np.ndarray, np.ndarray]:
     """Return the matrix (angles, harmonics) that takes values over half a turn to their harmonics, and those."""
@@ -71,12 +81,12 @@ def _harmonics(angular: int, odd: bool) -> tuple[np.ndarray, np.ndarray]:
     return protected(matrix), protected(number)
 
 
-@lru_cache(maxsize=32)
-def _polynomials(radial: int, rho: tuple[float, ...]) -> np.ndarray:
+def _polynomials(radial: int, rho: np.ndarray) -> np.ndarray:
     """Return the matrix (radial, radii) from a polynomial's values at the Gauss nodes in ρ² to those at other radii.
 
     f = Σ (2n + 1)/2·⟨f, Pₙ⟩·Pₙ, which the rule integrates exactly (A&S 22.2.10).
     """
     place, weight = gauss_legendre(radial)
     here, there = legvander(place, radial - 1), legvander(2 * np.square(rho) - 1, radial - 1)
-    return protected((here * weight[:, None] * (np.arange(radial) + 0.5)) @ there.T)
+    matrix: np.ndarray = (here * weight[:, None] * (np.arange(radial) + 0.5)) @ there.T
+    return matrix
