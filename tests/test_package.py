@@ -15,7 +15,7 @@ LAYERS = (
     "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
     "p2sf.lens",
     "p2sf.paraxial",
-    "p2sf.lensfile p2sf.request p2sf.raytrace",
+    "p2sf.camera p2sf.lensfile p2sf.raytrace",
     "p2sf.psf p2sf.pixel_kernels",
     "p2sf.metrics",
     "p2sf.tolerance",

@@ -9,8 +9,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import App, Parameter
 
+from p2sf.camera import AS_IN_FILE, Request, set_up
 from p2sf.cli.lookups import accuracy_rows
-from p2sf.cli.options import Json, LensName, Threads, Whole, check_samples
+from p2sf.cli.options import CameraFlags, Json, LensName, Threads, Whole, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space
@@ -19,13 +20,12 @@ from p2sf.database.render import Database, Sampling
 from p2sf.database_files import load_database, provenance, save_database
 from p2sf.database_files.place import is_stack, place_of, size_bytes
 from p2sf.database_files.provenance import axis_names
-from p2sf.errors import ExportError, RequestError
-from p2sf.files.writing import check_place, plain
+from p2sf.errors import RequestError
+from p2sf.files.writing import check_ending, check_place, plain
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.psf.methods import by_six
-from p2sf.request import AimChoice, Request, StopChoice, set_up
 from p2sf.spans import check_ascending, depths, numbers
 from p2sf.threads import using_threads
 
@@ -55,41 +55,6 @@ class Nodes:
     fields_deg: str | None = None
     fields_x_deg: str | None = None
     wavelengths_nm: str = "400:700:31"
-
-
-@dataclass(frozen=True)
-class CameraOptions:
-    """How the camera is set; as the lens file has it when not given.
-
-    Attributes
-    ----------
-    zoom
-        Of a lens that zooms: where its ring stands, a number on its own scale or the name of a column of its file.
-    focus_position
-        Of a lens that focuses inside: where the ring of its focus stands, as for zoom.
-    focus_mm
-        Put the sensor at the paraxial image of this distance, mm; inf is allowed. A lens that focuses inside moves its
-        ring instead.
-    sensor_shift_um
-        Move the sensor on top of that, µm, away from the lens.
-    f_number
-        Focal length over entrance-pupil diameter.
-    stop
-        Take the stop from the file, or let the narrowest rim for an object at infinity decide (auto).
-    aim
-        Fill the rim of the real stop with exact rays, or the paraxial entrance pupil.
-    absorption
-        Take from the rays what the media absorb whose catalogue (AGF) states their internal transmittance.
-    """
-
-    zoom: float | str | None = None
-    focus_position: float | str | None = None
-    focus_mm: float | None = None
-    sensor_shift_um: float = 0.0
-    f_number: float | None = None
-    stop: StopChoice = "file"
-    aim: AimChoice | None = None
-    absorption: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -136,13 +101,13 @@ def build(
         str, Parameter(["--output", "-o"], negative="", help="File to write: .npz, a stack .zarr, which may be a URL.")
     ],
     nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
-    camera: Annotated[CameraOptions, Parameter(name="*")] = CameraOptions(),
+    camera: CameraFlags = AS_IN_FILE,
     kind: Annotated[DatabaseKind, Parameter(name="*")] = DatabaseKind(),
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
     """Build the PSF database of a lens and write it, with its error, measured."""
-    _check_ending(output, ".zarr" if kind.stack else ".npz")
+    _check_output(output, kind.stack)
     found = find_lens(lens)
     setup = set_up(found, Request(**vars(camera)))
     check_kind(kind.method, kind.interpolant, bool(nodes.fields_x_deg))
@@ -211,18 +176,12 @@ def _angles(text: str, name: str, least: float) -> np.ndarray:
     return angles
 
 
-def _check_ending(output: str, ending: str) -> None:
-    if Path(output).suffix.lower() != ending:
-        database = Message("a database is a .npz file, a {stack} a .zarr", stack=ParameterName("stack"))
-        raise ExportError(
-            "{parameter} is {path}; {wanted}, choose a name that ends in {ending}",
-            parameter="output",
-            path=output,
-            wanted=Message("a stack is a .zarr folder") if ending == ".zarr" else database,
-            ending=ending,
-        )
-    if ending == ".npz":
-        check_place(output)
+def _check_output(output: str, stack: bool) -> None:
+    if stack:
+        return check_ending("output", output, ".zarr", Message("a stack is a .zarr folder"))
+    either = Message("a database is a .npz file, a {stack} a .zarr", stack=ParameterName("stack"))
+    check_ending("output", output, ".npz", either)
+    return check_place(output)
 
 
 def _write_stack(database: Database, lens: Lens, output: str, kind: DatabaseKind) -> None:

@@ -52,9 +52,9 @@ def export(
     beside = Path(file.rpartition("/")[2] if is_url(file) else file)
     target = output or beside.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)
-    from p2sf.interchange import open_stored
+    from p2sf.interchange import open_database
 
-    known = open_stored(file).accuracy
+    known = open_database(file).accuracy
     if as_json:
         about = {"file": str(target), "to": to, "bytes": target.stat().st_size}
         print_json({**about, "predicted_error": plain(known.record)})
@@ -64,10 +64,10 @@ def export(
 
 
 def _iset(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.interchange import IsetOptions, open_stored, write_iset
+    from p2sf.interchange import IsetOptions, open_database, write_iset
 
     options = IsetOptions(picture.depth_mm, picture.pixels or IsetOptions().pixels, picture.pixel_um)
-    write_iset(open_stored(file), target, options)
+    write_iset(open_database(file), target, options)
 
 
 def _fits(file: str, target: Path, picture: RenderedOptions) -> None:
@@ -83,9 +83,9 @@ def _tiff(file: str, target: Path, picture: RenderedOptions) -> None:
 
 
 def _csv(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.interchange import open_stored, write_csv
+    from p2sf.interchange import open_database, write_csv
 
-    write_csv(open_stored(file), target)
+    write_csv(open_database(file), target)
 
 
 def _sampling(picture: RenderedOptions) -> Sampling:

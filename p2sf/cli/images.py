@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
+from p2sf.camera import Request, Setup, set_up
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import accuracy_rows, is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, Whole, check_output, check_samples
@@ -23,7 +24,6 @@ from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.methods import AUTO, by_six
 from p2sf.psf.prediction import CAUTION, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf
-from p2sf.request import Request, Setup, set_up
 from p2sf.threads import using_threads
 
 

@@ -1,10 +1,11 @@
 """`p2sf psf FILE.npz`: a PSF looked up in a database, without the lens."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from p2sf.camera import Request, stated
 from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database import ExactDatabase
@@ -17,7 +18,6 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.prediction import TOO_FAR, USELESS
 from p2sf.psf.result import Psf
-from p2sf.request import Request
 
 if TYPE_CHECKING:
     from p2sf.database import GridDatabase
@@ -25,9 +25,8 @@ if TYPE_CHECKING:
 
     Database = ExactDatabase | GridDatabase | FittedDatabase
 
-OF_THE_SOURCE = ("depth_mm", "field_deg", "field_x_deg", "image_height_mm", "wavelength_nm", "sensor_shift_um")
-FROM_THE_LENS = {field.name: field.default for field in fields(Request) if field.name not in OF_THE_SOURCE}
-"""What only the lens could answer, so that a new parameter is refused and not ignored."""
+LOOKED_UP = ("depth_mm", "field_deg", "field_x_deg", "image_height_mm", "wavelength_nm", "sensor_shift_um")
+"""What a database itself can answer; any other parameter needs the lens."""
 
 
 def is_database(name: str) -> bool:
@@ -50,11 +49,11 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
 
     Raises RequestError for what only the lens could answer, DatabaseError outside what the database covers.
     """
-    from p2sf.interchange import open_stored
+    from p2sf.interchange import open_database
 
-    stored = open_stored(name)
-    for parameter, usual in FROM_THE_LENS.items():
-        if getattr(request, parameter) != usual:
+    stored = open_database(name)
+    for parameter in stated(request):
+        if parameter not in LOOKED_UP:
             raise RequestError(
                 "{parameter} needs the lens, which {path} does not trace; give p2sf psf the lens itself",
                 parameter=parameter,

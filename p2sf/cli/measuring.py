@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
+from p2sf.camera import FIELDS, Request, mask_of, set_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, Threads, check_output
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.cli.spots import Clip
@@ -25,7 +26,6 @@ from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.reading import read_frame
 from p2sf.measure.target import TargetMatch, read_target
 from p2sf.messages import Message
-from p2sf.request import FIELDS, Request, mask_of, set_up
 from p2sf.threads import using_threads
 
 Pictures = Annotated[list[Path], Parameter(help="Pictures of the same points, one for each focus position.")]

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from p2sf.camera import Request, Setup, set_up
 from p2sf.cli.cautions import caution
 from p2sf.cli.images import USUAL, Picture, SetOptions
 from p2sf.cli.lookups import is_database
@@ -20,7 +21,6 @@ from p2sf.interchange.psf_set_files import WRITERS, table, write_psf_set
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_angle, check_positive
-from p2sf.request import Request, Setup, set_up
 from p2sf.spans import depths, numbers
 
 INSTEAD = {  # of an axis of a set: what states it for one PSF

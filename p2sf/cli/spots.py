@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
+from p2sf.camera import Setup, set_up
 from p2sf.cli.cautions import crossed_surfaces
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
@@ -17,7 +18,6 @@ from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.raytrace.spot import DRAWN_RINGS
 from p2sf.raytrace.spot import spot as spot_of
-from p2sf.request import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, Output, Whole, check_output, check_whole
+from p2sf.camera import AS_IN_FILE
+from p2sf.cli.options import CameraFlags, Json, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import write_beside, write_json
 from p2sf.lensfile.library import find_lens
-from p2sf.request import AimChoice, Request, StopChoice, set_up
 
 if TYPE_CHECKING:
     from p2sf.studies.tradeoff import MethodCost
@@ -23,18 +23,6 @@ Several = Parameter(consume_multiple=True, negative="")
 Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
 Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
-StopName = Annotated[
-    StopChoice,
-    Parameter(help="Take the stop from the file, or let the narrowest rim for the first depth decide (auto)."),
-]
-AimName = Annotated[
-    AimChoice | None,
-    Parameter(help="Fill the real stop with exact rays, or the paraxial entrance pupil."),
-]
-Ring = Annotated[
-    float | str | None,
-    Parameter(help="Where a ring of the lens stands: a number on its own scale, or a column of its file."),
-]
 Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
 Named = Annotated[str | None, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Complete = Annotated[
@@ -58,10 +46,7 @@ def tradeoff(
     fields_deg: Fields = None,
     depths_mm: Depths = None,
     wavelengths_nm: Waves = None,
-    stop: StopName = "file",
-    aim: AimName = None,
-    zoom: Ring = None,
-    focus_position: Ring = None,
+    camera: CameraFlags = AS_IN_FILE,
     pixels: Pixels = 64,
     complete: Complete = False,
     quick: Quick = False,
@@ -82,11 +67,10 @@ def tradeoff(
     check_output(output, WRITTEN)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
-    request = Request(depth_mm=depths[0], zoom=zoom, focus_position=focus_position, stop=stop, aim=aim)
-    asked = set_up(find_lens(lens), request).lens
-    rows = tradeoff.tradeoff(asked, fields_deg, depths, wavelengths_nm, pixels=pixels)
+    found = find_lens(lens)
+    rows = tradeoff.tradeoff(found, fields_deg, depths, wavelengths_nm, pixels=pixels, camera=camera)
     head, *lines = tradeoff.table(rows)
-    title = f"{asked.title or asked.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
+    title = f"{found.title or found.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
     if output:
         _write_tradeoff(output, rows, (head, *lines), title)
     if as_json:

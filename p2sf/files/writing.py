@@ -57,6 +57,18 @@ def check_place(path: str | PathLike) -> None:
         raise _unwritable(path, OSError(wrong, os.strerror(wrong)))
 
 
+def check_ending(name: str, path: str | PathLike[str], ending: str, wanted: Message) -> None:
+    """Raise ExportError for a file whose name does not end as its kind, ``wanted``, does."""
+    if Path(path).suffix.lower() != ending:
+        raise ExportError(
+            "{parameter} is {path}; {wanted}, choose a name that ends in {ending}",
+            parameter=name,
+            path=str(path),
+            wanted=wanted,
+            ending=ending,
+        )
+
+
 def _unwritable(path: str | PathLike, error: OSError) -> ExportError:
     reason = (error.strerror or str(error)).rstrip(".").lower()
     remedy = REMEDIES.get(error.errno or 0, ANOTHER_PLACE)

@@ -6,6 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
+from p2sf.arguments import checked
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
 from p2sf.database.space import Space
@@ -75,8 +76,30 @@ class Cube:
         return space
 
 
-def open_stored(path: str | os.PathLike[str]) -> Stored:
-    """Return the database of a .npz or of a stack; DatabaseError for any other file."""
+@checked
+def open_database(path: str | os.PathLike[str]) -> Stored:
+    """Open a PSF database: a .npz file or a stack written by `build_database` or ``p2sf database build``.
+
+    Parameters
+    ----------
+    path : str or path
+        The file, or the folder of a stack (.zarr).
+
+    Returns
+    -------
+    Stored
+        ``.psf(source)`` and ``.coefficients(source)`` look up a source; ``.meta`` says where the numbers come from.
+
+    Raises
+    ------
+    DatabaseError
+        If the file is missing, damaged, cut short, of another kind or of a newer version.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.open_database("dg.npz").psf(p2sf.Source(field_deg=7))  # doctest: +SKIP
+    """
     return open_stack(path).stored if is_stack(path) else load_database(path)
 
 

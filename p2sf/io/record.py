@@ -7,13 +7,13 @@ from dataclasses import fields
 import numpy as np
 
 from p2sf import __version__
+from p2sf.camera import Setup
 from p2sf.conventions import NM_PER_UM
 from p2sf.files.writing import plain
 from p2sf.glass.pages import data_version
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
-from p2sf.request import Setup
 
 CONVENTIONS = (
     "unit sum in the window; rows +y up the sensor, row 0 the lowest y, columns +x; a positive field's chief ray "

@@ -17,17 +17,12 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_fields, real_array
 from p2sf.conventions import FloatOrArray, protected
 from p2sf.errors import RequestError
-from p2sf.parameters import check_finite
+from p2sf.parameters import LONGEST_PATH_UM, OF_THE_MASK, check_between, check_finite, check_values
 from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
 
 if TYPE_CHECKING:
     from scipy.interpolate import RectBivariateSpline
 
-LARGEST_OBSCURATION = 0.99
-MOST_VANES, WIDEST_VANE = 12, 0.5
-FEWEST_BLADES, MOST_BLADES = 3, 32
-NARROWEST_APODISATION, MOST_POWER = 0.1, 20
-LONGEST_PATH_UM = 1e6  # a metre: a steeper phase than any, and far from where slopes overflow
 FEWEST_CELLS, MOST_CELLS, SAMPLED = 4, 1024, 129
 SAME_ANGLE_DEG = 1e-9
 SAME_PLACE = 1e-12  # of the rim's radius: less is rounding
@@ -156,25 +151,11 @@ class PupilMask:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        _check_between("obscuration", self.obscuration, 0, LARGEST_OBSCURATION)
+        check_values(self, OF_THE_MASK)
         _check_within(self.obscuration, self.obscuration_x, self.obscuration_y)
-        _check_count("vanes", self.vanes, 1, MOST_VANES)
-        _check_between("vane_width", self.vane_width, 0, WIDEST_VANE)
-        _check_count("blades", self.blades, FEWEST_BLADES, MOST_BLADES)
-        _check_between("roundness", self.roundness, 0, 1)
-        _check_between("cubic_um", self.cubic_um, -LONGEST_PATH_UM, LONGEST_PATH_UM)
         for value in self.zernike_um:
-            _check_between("zernike_um", value, -LONGEST_PATH_UM, LONGEST_PATH_UM)
-        for name in ("vane_angle_deg", "blade_angle_deg", "turn_deg"):
-            check_finite(name, getattr(self, name))
-        if not self.apodisation >= NARROWEST_APODISATION:
-            raise RequestError(
-                "{parameter} is {value:g}; give a radius of at least {low:g}, inf for none",
-                parameter="apodisation",
-                value=self.apodisation,
-                low=NARROWEST_APODISATION,
-            )
-        _check_power(self.apodisation_power)
+            check_between("zernike_um", value, -LONGEST_PATH_UM, LONGEST_PATH_UM)
+        check_finite("turn_deg", self.turn_deg)
         if len(self.zernike_um) > MOST_TERMS["noll"]:
             raise RequestError(
                 "{parameter} has {count} terms; give up to {most} numbers",
@@ -502,20 +483,7 @@ def _multiple_of(angle_deg: float, step_deg: float) -> bool:
     return min(rest, step_deg - rest) < SAME_ANGLE_DEG
 
 
-def _check_between(name: str, value: float, low: float, high: float) -> None:
-    if not low <= value <= high:
-        raise RequestError(
-            "{parameter} is {value:g}; give a number from {low:g} to {high:g}",
-            parameter=name,
-            value=value,
-            low=low,
-            high=high,
-        )
-
-
 def _check_within(radius: float, x: float, y: float) -> None:
-    check_finite("obscuration_x", x)
-    check_finite("obscuration_y", y)
     if radius and (x or y) and not radius + hypot(x, y) <= 1 + SAME_PLACE:
         raise RequestError(
             "{parameter} is {value:g} about ({x:g}, {y:g}), which reaches beyond the rim of the stop; make it smaller "
@@ -524,28 +492,6 @@ def _check_within(radius: float, x: float, y: float) -> None:
             value=radius,
             x=x,
             y=y,
-        )
-
-
-def _check_count(name: str, value: int, low: int, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not (value == 0 or low <= value <= most):
-        raise RequestError(
-            "{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}",
-            parameter=name,
-            value=value,
-            low=low,
-            high=most,
-        )
-
-
-def _check_power(value: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value % 2 or not 2 <= value <= MOST_POWER:
-        raise RequestError(
-            "{parameter} is {value}; give an even number from {low} to {high}",
-            parameter="apodisation_power",
-            value=value,
-            low=2,
-            high=MOST_POWER,
         )
 
 

@@ -4,9 +4,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from math import hypot, inf
+from os import PathLike
 
 import numpy as np
 
+from p2sf.arguments import checked
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import without_coefficients
@@ -17,6 +19,7 @@ from p2sf.scene.bounds import check_blur, check_colours
 from p2sf.scene.cost import Cost, predicted_cost
 from p2sf.scene.field_area import Point
 from p2sf.scene.field_points import scene_maps
+from p2sf.scene.files import read_scene
 from p2sf.scene.nodes import (
     DEPTH_COUNTS,
     NODE_COUNTS,
@@ -126,13 +129,42 @@ def _sensor_map(lens: Lens, scene: Scene, vergence: float, wavelength_um: float)
 
 
 @one_blas_thread
-def plan(lens: Lens, scene: Scene, check: Callable[[], None] | None = None) -> Plan:
-    """Return the cheapest plan whose measured errors stay within the scene's tolerance.
+@checked
+def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], None] | None = None) -> Plan:
+    """Find the cheapest model of a lens that stays within the tolerance of a scene.
 
-    Each decision takes the first entry of its list, cheapest first, that keeps its share; where none does, the
-    last, and `Plan.meets` is False. ``check`` is called now and then and may raise, to stop. Raises P2SFError where
-    the lens cannot form the scene's image.
+    Each decision takes the first entry of its list, cheapest first, that keeps its share; where none does, the last.
+
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    scene : Scene or path
+        Sensor, depths, colours and tolerance, or a TOML file that states them (``p2sf plan --help``).
+    check : callable, optional
+        Called repeatedly during the work; an exception that it raises stops the work.
+
+    Returns
+    -------
+    Plan
+        The plan, for `form_image`. ``.decisions`` says what was decided and why, ``.predicted_error`` is the relative
+        error, and ``.meets`` says whether it is within the tolerance.
+
+    Raises
+    ------
+    RequestError
+        If the scene is invalid.
+    GeometryError, GlassError
+        If the lens cannot form the image of the scene.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
+    True
     """
+    scene = scene if isinstance(scene, Scene) else read_scene(scene)
     camera = scene.camera(lens)
     check_colours(camera, scene)
     study = Study(camera, scene, check or (lambda: None))

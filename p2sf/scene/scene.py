@@ -6,12 +6,12 @@ from math import inf, isfinite, log10, sqrt
 import numpy as np
 
 from p2sf.arguments import check_fields
+from p2sf.camera import AimChoice, Request, set_up
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Alternatives, Message
-from p2sf.parameters import check_reach
-from p2sf.request import AimChoice, Request, check_aim, set_up
+from p2sf.parameters import check_aim, check_reach
 from p2sf.scene.sensor import Sensor
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
@@ -128,7 +128,7 @@ class Scene:
                 measure=self.measure,
                 least=TIGHTEST,
             )
-        check_aim(self.aim)
+        check_aim("aim", self.aim)
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
 

@@ -10,11 +10,17 @@ from statistics import median
 from time import process_time
 from typing import BinaryIO
 
-from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from numpy.typing import ArrayLike
+
+from p2sf.arguments import checked, number_list
+from p2sf.camera import AS_IN_FILE, AimChoice, Camera, set_up_source, with_camera
+from p2sf.conventions import NM_PER_UM
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.metrics.compare import Errors, compare
+from p2sf.notebook import html_table
+from p2sf.parameters import check_angle
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
@@ -47,31 +53,86 @@ class MethodCost:
     tolerance: float | None
 
 
+class TradeoffTable(list[MethodCost]):
+    """Result of `tradeoff`: a list of rows that prints as a table."""
+
+    def __repr__(self) -> str:
+        lines = table(self)
+        widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+        return "\n".join("  ".join(map(str.ljust, line, widths)).rstrip() for line in lines)
+
+    def _repr_html_(self) -> str:
+        head, *rows = table(self)
+        return html_table("Each method against the Huygens sum", head, rows)
+
+
 @one_blas_thread
+@checked
+@with_camera
 def tradeoff(
     lens: Lens,
-    fields_deg: Iterable[float] | None = None,
-    depths_mm: Iterable[float] = (inf,),
-    wavelengths_nm: Iterable[float] | None = None,
-    methods: Sequence[str] = NAMES,
+    fields_deg: ArrayLike | None = None,
+    depths_mm: ArrayLike = (inf,),
+    wavelengths_nm: ArrayLike | None = None,
+    *,
+    methods: str | Sequence[str] = NAMES,
     pixels: int = PIXELS,
     pixel_um: float | None = None,
-) -> list[MethodCost]:
-    """Return a row per (depth, field, wavelength) and method, each against the settled Huygens sum at that point.
+    camera: Camera = AS_IN_FILE,
+    aim: AimChoice | None = None,
+) -> TradeoffTable:
+    """Measure the time of each method and its error against the settled Huygens sum of exact rays.
 
-    By default the fields are those of the lens file and the wavelength is its reference. `seidel`, `fitted` and
-    `traced` have a second row for their preview. Unless ``pixel_um`` is given, the window is the one that shows the
-    whole PSF of the six coefficients. Raises SamplingError for samples that cannot be.
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    fields_deg, wavelengths_nm : array_like, optional
+        Field angles, degrees, and wavelengths, nm; by default the fields and the middle wavelength of the lens.
+    depths_mm : array_like
+        Object distances from the first vertex, mm.
+    methods : str or sequence of str
+        One method, or several.
+    pixels : int
+        Samples along each side of the compared window.
+    pixel_um : float, optional
+        Distance between samples, µm; by default one that shows the whole PSF.
+    camera, aim
+        As for `render`; the stop "auto" is that at the first depth.
+
+    Returns
+    -------
+    TradeoffTable
+        A list with one row per point, method and quality: errors, numbers, rays, CPU seconds, peak memory in bytes.
+
+    Raises
+    ------
+    RequestError, GeometryError, GlassError, SamplingError
+        As for `render`.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> rows = p2sf.tradeoff(p2sf.load_lens("landscape"), fields_deg=[0], methods=["seidel"], pixels=16)
+    >>> [row.quality for row in rows]
+    ['preview', 'settled']
     """
     check_samples(pixels, pixel_um)
-    fields = lens.fields_deg if fields_deg is None else fields_deg
-    waves = (lens.reference_wavelength_um * NM_PER_UM,) if wavelengths_nm is None else wavelengths_nm
-    rows: list[MethodCost] = []
-    for depth, field, wave in product(depths_mm, fields, waves):
-        source = Source(float(depth), float(slope_from_degrees(field)), wave / NM_PER_UM)
+    fields = number_list("fields_deg", lens.fields_deg if fields_deg is None else fields_deg).tolist()
+    for angle in fields:
+        check_angle("fields_deg", angle)
+    depths = number_list("depths_mm", depths_mm, infinite=True).tolist()
+    usual = lens.reference_wavelength_um * NM_PER_UM
+    waves = number_list("wavelengths_nm", usual if wavelengths_nm is None else wavelengths_nm).tolist()
+    methods = (methods,) if isinstance(methods, str) else methods
+    first = Source(next(iter(depths), inf), wavelength_um=lens.reference_wavelength_um)
+    lens = set_up_source(lens, first, camera).lens
+    rows = TradeoffTable()
+    for place in product(depths, fields, waves):
+        depth, field, wave = place
+        source = Source(depth, field_deg=field, wavelength_nm=wave)
         window = pixels, pixel_um or _pitch(lens, source, pixels)
         reference = huygens_psf(lens, source, *window)
-        place = float(depth), float(field), float(wave)
         if not rows:
             # Untimed, since a first call loads libraries and tables; the reference has just had its own.
             for way in _ways(set(methods) - {REFERENCE}):

@@ -19,7 +19,7 @@ from p2sf.errors import DatabaseError, ExportError
 from p2sf.interchange import (
     IsetOptions,
     open_cube,
-    open_stored,
+    open_database,
     write_csv,
     write_fits,
     write_iset,
@@ -59,11 +59,11 @@ def test_a_stack_and_a_database_give_the_same_cube(database, lens, cube, tmp_pat
     stack = open_cube(write_stack(database, lens, tmp_path / "a.zarr", SAMPLING).path)
     np.testing.assert_allclose(stack.values, cube.values, rtol=1e-5, atol=1e-9)  # float32 sums in other batches
     assert stack.pixel_um == cube.pixel_um == 1.5
-    assert open_stored(stack.stored and tmp_path / "a.zarr").meta["lens"] == cube.stored.meta["lens"]
+    assert open_database(stack.stored and tmp_path / "a.zarr").meta["lens"] == cube.stored.meta["lens"]
 
 
 def test_csv_has_every_node_and_its_coefficients(file, lens, tmp_path):
-    stored = open_stored(file)
+    stored = open_database(file)
     lines = write_csv(stored, tmp_path / "a.csv").read_text().splitlines()
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     assert len(rows) == 3 * 5 * 3
@@ -140,7 +140,7 @@ def test_tiff_is_an_imagej_hyperstack(cube, tmp_path):
 
 def test_iset_psfs_lie_as_iset_reads_them(file, database):
     """Field along +x, origin at sample N/2 counted from 1, unit sum; our own rendering turned gives the same."""
-    fields = ray_trace(open_stored(file), IsetOptions(pixels=32, pixel_um=1.5, heights=9))
+    fields = ray_trace(open_database(file), IsetOptions(pixels=32, pixel_um=1.5, heights=9))
     psf = fields["psf"]["function"]
     assert psf.shape == (32, 32, 9, 3)
     np.testing.assert_allclose(psf.sum((0, 1)), 1, rtol=1e-12)
@@ -153,7 +153,7 @@ def test_iset_psfs_lie_as_iset_reads_them(file, database):
 
 def test_iset_geometry_and_light_are_traced(file, lens):
     """Real height differs from the ideal by the distortion; light falls off like cos⁴ at most a little otherwise."""
-    fields = ray_trace(open_stored(file), IsetOptions(pixels=2))
+    fields = ray_trace(open_database(file), IsetOptions(pixels=2))
     ideal, real = fields["psf"]["fieldHeight"][:, 0], fields["geometry"]["function"][:, 1]
     assert ideal[0] == 0
     assert abs(real[0]) < 1e-12
@@ -194,7 +194,7 @@ printf('%s %s %s\\n', optics.model, class(rt.name), class(rt.program));
 @pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("octave"), reason="GNU Octave is not installed: apt-get install octave")
 def test_octave_reads_the_iset_file_and_finds_sums_axes_and_centre(file, tmp_path):
-    path = write_iset(open_stored(file), tmp_path / "rt.mat", IsetOptions(depth_mm=20_000.0, pixels=64, pixel_um=1.5))
+    path = write_iset(open_database(file), tmp_path / "rt.mat", IsetOptions(depth_mm=20_000.0, pixels=64, pixel_um=1.5))
     script = tmp_path / "check.m"
     script.write_text(OCTAVE.format(path=path))
     said = subprocess.run(
@@ -219,12 +219,12 @@ def test_octave_reads_the_iset_file_and_finds_sums_axes_and_centre(file, tmp_pat
 @pytest.mark.parametrize("pixels", [33, 130, 0])
 def test_iset_refuses_sizes_it_cannot_read(file, tmp_path, pixels):
     with pytest.raises(ExportError, match="an even number of samples up to 128"):
-        write_iset(open_stored(file), tmp_path / "rt.mat", IsetOptions(pixels=pixels))
+        write_iset(open_database(file), tmp_path / "rt.mat", IsetOptions(pixels=pixels))
 
 
 def test_iset_needs_the_axis(lens, tmp_path):
     off = build_database(lens, Space([np.inf], [0.1, 0.2], [0.55]))
-    stored = open_stored(save_database(off, lens, tmp_path / "off.npz"))
+    stored = open_database(save_database(off, lens, tmp_path / "off.npz"))
     with pytest.raises(ExportError, match="field heights start at 0"):
         write_iset(stored, tmp_path / "rt.mat")
 

@@ -26,11 +26,11 @@ from time import process_time
 import numpy as np
 
 import p2sf
+from p2sf.camera import Camera, set_up_source
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import shipped_lenses
-from p2sf.request import set_up_source
 from p2sf.tolerance import Tolerance, differentials, harms, sensitivities, usual_sources, usual_tolerances
 from p2sf.tolerance.files import back_focus, with_compensators
 from tests.support.depths import NEAR_MM, RELAYS_MM, WIDEST_DEG
@@ -128,7 +128,7 @@ def frequencies(at: Point) -> np.ndarray:
 def truth(at: Point, folder: Path | None = None) -> tuple[Truth, RayFigures | None]:
     """Return what the referee finds, and its rays where a PSF can be summed; LostRays where rays are lost."""
     kept = folder / f"{at.label.replace('∞', 'inf')}.json" if folder else None
-    setup = set_up_source(at.lens, at.source, focus_mm=at.focus_mm)
+    setup = set_up_source(at.lens, at.source, Camera(focus_mm=at.focus_mm))
     rays = ray_figures(setup.lens, setup.source)
     if kept and kept.is_file():
         return Truth(**json.loads(kept.read_text())), rays if rays.rays.slope <= STEEPEST else None
@@ -218,7 +218,7 @@ def tolerance_rows(name: str, depth_mm: float, window: Window | None, f_number: 
     """Yield what the most harmful error of each kind adds to the RMS of the worst field, on every road."""
     focus = None if depth_mm in (inf, *RELAYS_MM.values()) else depth_mm
     at = Point(name, depth_mm, 0.0, focus)
-    setup = set_up_source(at.lens, at.source, focus_mm=focus, f_number=f_number)
+    setup = set_up_source(at.lens, at.source, Camera(focus_mm=focus, f_number=f_number))
     lens, sources = setup.lens, usual_sources(setup.lens, setup.source)
     listed, places = with_compensators(usual_tolerances(lens), (back_focus(lens),))
     where = f"{name} {'∞' if depth_mm == inf else f'{depth_mm:g} mm'}" + (f" f/{f_number:g}" if f_number else "")

@@ -109,7 +109,7 @@ def test_a_shadow_out_of_focus_lies_on_its_own_side():
     """
     lens = with_mask(ideal(), MASK)
     for shift_mm in (-5.0, 5.0):
-        far = p2sf.request.with_sensor(lens, 50.0 + shift_mm)
+        far = p2sf.lens.lens.with_sensor(lens, 50.0 + shift_mm)
         found, source = landing(far, Source(wavelength_um=WAVELENGTH_UM)), Source(wavelength_um=WAVELENGTH_UM)
         wanted = -1e3 * NA * shift_mm * np.array([X, Y]) * -(RATIO**2) / (1 - RATIO**2)
         assert np.array(found.centroid_um).ravel() == pytest.approx(wanted, rel=1e-6)
@@ -122,7 +122,7 @@ def test_a_shadow_out_of_focus_lies_on_its_own_side():
 
 def test_the_farthest_ray_is_sought_on_both_edges():
     """Out of focus the ideal lens shows its pupil: points without area lie on the rim or on the edge of the disc."""
-    far, shift = p2sf.request.with_sensor(with_mask(ideal(), MASK), 45.0), 5.0
+    far, shift = p2sf.lens.lens.with_sensor(with_mask(ideal(), MASK), 45.0), 5.0
     found = landing(far, Source(wavelength_um=WAVELENGTH_UM))
     edge, scale = np.asarray(found.light) == 0, 1e3 * NA * shift
     xi, eta = np.asarray(found.x_um)[edge] / scale, np.asarray(found.y_um)[edge] / scale

@@ -8,6 +8,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 import p2sf
+from p2sf.camera import Request, set_up
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.wavefront import wavefront
@@ -17,7 +18,6 @@ from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.pencil import pencil
-from p2sf.request import Request, set_up
 from tests.support.waves import waves
 
 SHARP = [("double_gauss_28", 11.0, 7.0), ("cooke_triplet", 16.0, 0.0), ("petzval", 11.0, 3.0)]  # f-number, field

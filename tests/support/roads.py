@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 import p2sf
+from p2sf.camera import Camera, set_up_source
 from p2sf.cli import main
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.raytrace.spot import spot
-from p2sf.request import set_up_source
 from p2sf.tolerance import differentials
 
 SAME = 5e-6  # relative: half a unit of six digits, which the command line prints
@@ -137,7 +137,7 @@ def contrast(at: Point, method: str, frequency_per_mm: np.ndarray) -> Iterator[S
 
 
 def library_spot(at: Point) -> Iterator[Shown]:
-    setup = set_up_source(at.lens, at.source, focus_mm=at.focus_mm)
+    setup = set_up_source(at.lens, at.source, Camera(focus_mm=at.focus_mm))
     yield Shown("spot", "spot RMS", "exact rays", float(spot(setup.lens, setup.source).rms_um))
 
 

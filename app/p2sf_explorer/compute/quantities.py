@@ -7,7 +7,7 @@ from math import inf
 from typing import Any
 
 from p2sf.lens.positions import Kind
-from p2sf.pupil.mask import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES
+from p2sf.parameters import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES
 from p2sf_explorer.compute.setup import Ranges, focus_place, zoom_place
 from p2sf_explorer.state.scales import (
     INFINITE,

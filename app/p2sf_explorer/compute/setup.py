@@ -2,13 +2,14 @@
 
 import os
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
 
 import numpy as np
 
+from p2sf.camera import AS_IN_FILE, Camera, Request, Setup, mask_of, set_up, with_field
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens, with_mask
@@ -20,7 +21,6 @@ from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, find_stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.methods import by_six
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.request import Request, Setup, set_up, with_field
 from p2sf.tolerance.errors_of_build import MOVES, source_of_build
 from p2sf_explorer.compute.ranges import (
     closest_distance,
@@ -33,10 +33,14 @@ from p2sf_explorer.compute.ranges import (
 )
 from p2sf_explorer.state.build_errors import BuildErrors
 from p2sf_explorer.state.built import with_errors
-from p2sf_explorer.state.limits import MASK, RINGS
+from p2sf_explorer.state.limits import MASK, RINGS, SLIDERS
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import Optics, State, changed, new_state
 from p2sf_explorer.state.what_if import altered
+
+HERE = {*RINGS, *MASK, "field_deg", "field_x_deg"}
+ASKED = {part.name for part in fields(Optics)} & {part.name for part in fields(Request)} - HERE
+"""What the library sets up; rings, mask and field are set here, since these make no new lens when they are dragged."""
 
 
 @dataclass(frozen=True)
@@ -246,7 +250,7 @@ def masked(lens: Lens, state: State) -> Lens:
 
 @lru_cache(maxsize=16)
 def _masked(lens: Lens, mask: tuple[tuple[str, float], ...]) -> Lens:
-    return with_mask(lens, replace(lens.mask, **dict(mask)))  # type: ignore[arg-type]  # each of its field's own type
+    return with_mask(lens, mask_of(lens, Camera(**dict(mask))))  # type: ignore[arg-type]  # each of its field's own type
 
 
 @dataclass(frozen=True)
@@ -284,16 +288,7 @@ def _built(setup: Setup, errors: BuildErrors) -> Setup:
 
 
 def _request(state: State, field_deg: float | None) -> Request:
-    return Request(
-        depth_mm=state.optics.depth_mm,
-        field_deg=field_deg,
-        wavelength_nm=state.optics.wavelength_nm,
-        focus_mm=state.optics.focus_mm,
-        sensor_shift_um=state.optics.sensor_shift_um,
-        f_number=state.optics.f_number,
-        stop="auto" if state.optics.stop == "auto" else "file",
-        aim="paraxial" if state.optics.aim == "paraxial" else "stop",
-    )
+    return Request(field_deg=field_deg, **{name: getattr(state.optics, name) for name in ASKED})
 
 
 @lru_cache(maxsize=32)
@@ -365,9 +360,5 @@ def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
         field_x_deg=0.0,
         wavelength_nm=fresh.optics.wavelength_nm,
         errors=(),
-        focus_mm=None,
-        sensor_shift_um=0.0,
-        f_number=None,
-        **dict.fromkeys(RINGS),
-        **dict.fromkeys(MASK),
+        **{name: getattr(AS_IN_FILE, name) for name in SLIDERS if hasattr(AS_IN_FILE, name)},
     )

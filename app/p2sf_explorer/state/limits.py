@@ -4,8 +4,8 @@ from math import inf
 
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
+from p2sf.parameters import OF_THE_CAMERA, OF_THE_MASK, OF_THE_SOURCE, PARAMETERS
 from p2sf.psf.methods import AUTO, METHODS
-from p2sf.pupil.mask import LARGEST_OBSCURATION, MOST_BLADES, MOST_POWER, MOST_VANES, NARROWEST_APODISATION, WIDEST_VANE
 from p2sf.pupil.zernike_terms import ORDERS
 from p2sf.tolerance.criteria import CRITERIA
 from p2sf.tolerance.errors_of_build import GRADES
@@ -43,25 +43,7 @@ CHOICES = {
 MOST_LISTED = 5  # values of a list
 # The smallest and the largest value that make sense, and the name and unit of the quantity in a sentence.
 RANGES: dict[str, tuple[float, float, Message, str]] = {
-    "depth_mm": (1e-3, inf, Message("source depth"), "mm"),
-    "focus_mm": (1e-3, inf, Message("focus distance"), "mm"),
-    "zoom": (-1e6, 1e6, Message("zoom"), ""),
-    "focus_position": (-1e6, 1e6, Message("focus"), ""),
-    "sensor_shift_um": (-1e6, 1e6, Message("sensor shift"), "µm"),
-    "field_deg": (-89.0, 89.0, Message("field angle"), "°"),
-    "field_x_deg": (-89.0, 89.0, Message("field angle along x"), "°"),
-    "wavelength_nm": (100.0, 20000.0, Message("wavelength"), "nm"),
-    "f_number": (0.2, 1000.0, Message("f-number"), ""),
-    "obscuration": (0.0, LARGEST_OBSCURATION, Message("obscuration"), ""),
-    "vanes": (0, MOST_VANES, Message("number of vanes"), ""),
-    "vane_width": (0.0, WIDEST_VANE, Message("vane width"), ""),
-    "vane_angle_deg": (-360.0, 360.0, Message("vane angle"), "°"),
-    "blades": (0, MOST_BLADES, Message("number of blades"), ""),
-    "roundness": (0.0, 1.0, Message("roundness"), ""),
-    "blade_angle_deg": (-360.0, 360.0, Message("blade angle"), "°"),
-    "apodisation": (NARROWEST_APODISATION, inf, Message("apodisation"), ""),
-    "apodisation_power": (2, MOST_POWER, Message("apodisation power"), ""),
-    "cubic_um": (-1000.0, 1000.0, Message("cubic phase"), "µm"),
+    **{each.name: (*each.typed, each.words, each.unit) for each in PARAMETERS.values() if each.typed and each.words},
     "tolerance": (0.0, 1.0, Message("tolerance R²"), ""),
     "stage_share": (0.1, 0.95, Message("share of the stage"), ""),
     "scale_percent": (50.0, 300.0, Message("size of type"), "%"),
@@ -96,18 +78,17 @@ LISTED = {
     "curves_frequencies_per_mm": "frequency_per_mm",
 }
 MOST_WAVES = 1000.0
-SMOOTH_MASK = (
-    *("obscuration", "roundness", "blade_angle_deg", "vane_width", "vane_angle_deg"),
-    *("apodisation", "cubic_um"),
-)
-COUNTS = ("blades", "vanes", "apodisation_power")
-MASK = (*SMOOTH_MASK, *COUNTS)
+MASK = tuple(each.name for each in OF_THE_MASK if each.typed)
 """Entries named as the fields of `p2sf.pupil.mask.PupilMask`; None: as the lens file has it."""
+# Whole numbers are those whose range is stated in whole numbers.
+COUNTS = tuple(each.name for each in OF_THE_MASK if each.typed and isinstance(each.typed[0], int))
+SMOOTH_MASK = tuple(name for name in MASK if name not in COUNTS)
 CLEAR_PUPIL = {"obscuration": 0.0, "blades": 0, "vanes": 0, "apodisation": inf, "cubic_um": 0.0}
 RINGS = ("zoom", "focus_position")
 """Where the rings of a lens stand that zooms or focuses inside; None: where the file begins."""
-OF_THE_SOURCE = ("depth_mm", "field_deg", "field_x_deg", "wavelength_nm", "focus_mm", "sensor_shift_um", "f_number")
-DRAGGED = (*OF_THE_SOURCE, *RINGS, *SMOOTH_MASK)
+# The source and the camera, but for the rings and what stands in the stop.
+SET = tuple(each.name for each in (*OF_THE_SOURCE, *OF_THE_CAMERA) if each.typed and each.name not in RINGS)
+DRAGGED = (*SET, *RINGS, *SMOOTH_MASK)
 SLIDERS = (*DRAGGED, *COUNTS)
 LINKABLE = (*SLIDERS, "method", "added_waves", "errors")
 ADDED = "added_"  # before a term's name: the slider that adds waves to it
@@ -116,9 +97,7 @@ KINDS = {str: Message("a text"), bool: Message("true or false"), int: Message("a
 OPTIONAL = ("focus_mm", "f_number", *RINGS, *MASK, "photo_pixel_um", "scale_percent", "tolerances_limit")
 PLAIN: dict[str, type] = {
     "clip": bool,
-    "vanes": int,
-    "blades": int,
-    "apodisation_power": int,
+    **dict.fromkeys(COUNTS, int),
     "show_pupil_shape": bool,
     "tab": str,
     "stage": str,

@@ -1,0 +1,64 @@
+"""The picture that a script forms: `p2sf.form_image`."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from p2sf.arguments import checked, real_array
+from p2sf.image.form import Forming
+from p2sf.image.form import form_image as form
+from p2sf.scene.plan import Plan
+from p2sf.threads import using_threads
+
+
+@checked
+def form_image(
+    planned: Plan,
+    values: ArrayLike,
+    depth_mm: ArrayLike | None = None,
+    *,
+    method: Literal["patches", "lowrank"] = "patches",
+    surround: Literal["edge", "black"] = "edge",
+    threads: int | None = None,
+) -> np.ndarray:
+    """Form the picture that the sensor receives through the lens, with distortion, illumination, blur and pixels.
+
+    Parameters
+    ----------
+    planned : Plan
+        What `plan` found for the lens and the scene.
+    values : array_like
+        The scene in linear light, shape (rows, columns, channels) as the scene's sensor and colours say: floats, since
+        whole numbers are codes of sRGB in most pictures.
+    depth_mm : array_like, optional
+        Depth of every pixel, mm, shape (rows, columns), between ``near_mm`` and ``far_mm`` of the scene; by default
+        its far end.
+    method : {"patches", "lowrank"}
+        With overlapping patches, or with a few kernels for the whole picture.
+    surround : {"edge", "black"}
+        What surrounds the picture: its outermost pixels repeated, or darkness.
+    threads : int, optional
+        As for `render`.
+
+    Returns
+    -------
+    numpy.ndarray
+        The formed picture, linear light, float32, shape (rows, columns, channels).
+
+    Raises
+    ------
+    RequestError
+        If shapes do not fit the scene, values are not finite or whole numbers, or a depth is outside the scene's.
+
+    Examples
+    --------
+    >>> import numpy as np, p2sf
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> planned = p2sf.plan(p2sf.load_lens("double_gauss_28"), scene)
+    >>> p2sf.form_image(planned, np.ones((20, 30, 3))).shape
+    (20, 30, 3)
+    """
+    depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
+    with using_threads(threads):
+        return form(planned, values, depths, Forming(method, surround))
