@@ -104,19 +104,32 @@ UPRIGHT = Section()
 @lru_cache(maxsize=64)
 def sections(lens: Lens) -> tuple[Section, ...]:
     """Return where every surface and the sensor stand in the drawing."""
-    if lens.misaligned:
-        return tuple(Section.of(frame) for frame in lens.frames)
-    return tuple(Section(z) for z in vertices(lens))
+    return tuple(Section.of(frame) for frame in lens.frames)
 
 
-def _placed_glass(lens: Lens) -> Glass:
-    """Return the outlines of a misaligned lens, whose elements stand as its parts do, seen along x."""
-    rims, places = clear_rims(straightened(lens)), sections(lens)
+def _own_profile(surface: Surface, rim: float) -> Profile:
+    """Return the section of a surface in its own axes; of a mirror with a decentred rim between the ends of that."""
+    if surface.rim is None or not surface.reflects:
+        return profile(surface, 0.0, rim)
+    half = min(surface.rim.half_widths[1] if surface.rim.half_widths else rim, rim)
+    y = surface.rim.decentre[1] + np.linspace(-half, half, PROFILE_POINTS)
+    return sag(surface, y), y
+
+
+def _back(place: Section, direction: int) -> int:
+    """Return 1 where the back of a mirror lies to the right in the drawing, else −1."""
+    return direction if place.along_z[0] >= 0 else -direction
+
+
+@lru_cache(maxsize=32)
+def glass_of(lens: Lens) -> Glass:
+    """Return the outlines of a `still` lens, seen along x; real sag, to the clear rims."""
+    rims, places = drawn_rims(lens), sections(lens)
     index = np.abs(indices(lens, lens.reference_wavelength_um))
     own = [_own_profile(surface, rim) for surface, rim in zip(lens.surfaces, rims, strict=False)]
     outlines = []
     for i, (front, back) in enumerate(pairwise(own)):
-        if index[i + 1] > GLASS_INDEX and rims[i] > 0:
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0 and not crossed_before(lens, i):
             behind = Section.of(lens.motions[i + 1]).placed(*back)
             made = element_outline(front, behind, float(index[i + 1]), (i + 1, i + 2))
             outlines.append(GlassOutline(*places[i].placed(made.z, made.y), made.index, made.surfaces))
@@ -137,57 +150,23 @@ def _placed_glass(lens: Lens) -> Glass:
     return Glass(tuple(outlines), mirrors, ideal, profiles[-1], float(index[-1]), high, *ends)
 
 
-def _own_profile(surface: Surface, rim: float) -> Profile:
-    """Return the section of a surface in its own axes; of a mirror with a decentred rim between the ends of that."""
-    if surface.rim is None or not surface.reflects:
-        return profile(surface, 0.0, rim)
-    half = min(surface.rim.half_widths[1] if surface.rim.half_widths else rim, rim)
-    y = surface.rim.decentre[1] + np.linspace(-half, half, PROFILE_POINTS)
-    return sag(surface, y), y
+def last_end(lens: Lens) -> float:
+    """Return how far behind its vertex, mm, the last surface ends."""
+    return float(profile(lens.surfaces[-1], 0.0, drawn_rims(still(lens))[-1])[0].max())
 
 
-def _back(place: Section, direction: int) -> int:
-    """Return 1 where the back of a mirror lies to the right in the drawing, else −1."""
-    return direction if place.along_z[0] >= 0 else -direction
-
-
-@lru_cache(maxsize=32)
-def glass_of(lens: Lens) -> Glass:
-    """Return the outlines of a `still` lens; real sag, to the clear rims."""
-    if lens.misaligned:
-        return _placed_glass(lens)
-    z, rims = vertices(lens), clear_rims(lens)
-    index = np.abs(indices(lens, lens.reference_wavelength_um))
-    profiles = [profile(surface, at, rim) for surface, at, rim in zip(lens.surfaces, z, rims, strict=False)]
-    outlines = tuple(
-        element_outline(profiles[i], profiles[i + 1], float(index[i + 1]), (i + 1, i + 2))
-        for i in range(len(profiles) - 1)
-        if index[i + 1] > GLASS_INDEX and rims[i] > 0 and not crossed_before(lens, i, z)
-    )
-    mirrors = tuple(
-        MirrorProfile(*line, direction)
-        for line, surface, direction in zip(profiles, lens.surfaces, lens.directions, strict=False)
-        if surface.reflects
-    )
-    ideal = tuple(
-        IdealProfile(at, rim, surface.ideal_focal_length > 0)
-        for surface, at, rim in zip(lens.surfaces, z, rims, strict=False)
-        if surface.ideal
-    )
-    ends = [end(line[0]) for end in (np.min, np.max) for line in profiles]
-    return Glass(
-        outlines, mirrors, ideal, profiles[-1], float(index[-1]), float(max(rims)), float(min(ends)), float(max(ends))
-    )
-
-
-def crossed_before(lens: Lens, at: int, z: list[float]) -> bool:
+def crossed_before(lens: Lens, at: int) -> bool:
     """Return whether light crosses the glass behind surface ``at``, from 0, on its way back through an element."""
     return any(
-        abs(z[at] - z[other + 1]) <= SAME_PLACE_MM
-        and abs(z[at + 1] - z[other]) <= SAME_PLACE_MM
+        _same_place(lens, at, other + 1)
+        and _same_place(lens, at + 1, other)
         and lens.media[other + 1] == lens.media[at + 1]
         for other in range(at)
     )
+
+
+def _same_place(lens: Lens, one: int, other: int) -> bool:
+    return bool(np.abs(lens.frames[one].origin - lens.frames[other].origin).max() <= SAME_PLACE_MM)
 
 
 def filling(glass: Glass, sensor: Section) -> tuple[GlassOutline, ...]:
@@ -215,6 +194,11 @@ def widest_exit(lens: Lens) -> tuple[float, float]:
 def vertices(lens: Lens) -> list[float]:
     """Return z of every vertex in mm, the first at 0, then the sensor's."""
     return [0.0, *np.cumsum([surface.thickness for surface in lens.surfaces]).tolist()]
+
+
+def drawn_rims(lens: Lens) -> tuple[float, ...]:
+    """Return the half-heights to draw the surfaces of a lens with: those of the lens set straight."""
+    return clear_rims(straightened(lens))
 
 
 @lru_cache(maxsize=32)

@@ -190,8 +190,6 @@ def upright_part(source: Source) -> float:
 
 def nearly_straight(lens: Lens) -> bool:
     """Return whether the axis behind the last surface still is about that before the first, as paraxial marks are."""
-    if not lens.misaligned:
-        return True
     behind = lens.frames[-1].rotation @ lens.motions[-1].rotation.T
     return bool(behind[2, 2] > STRAIGHT)
 
@@ -204,9 +202,8 @@ def sensor_half(lens: Lens, rays: tuple[RayPath, ...]) -> float:
 
 def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
     """Return glass, stop and sensor of a lens."""
-    glass, z, places = glass_of(still(lens)), vertices(lens), sections(lens)
-    if lens.misaligned:
-        z = [place.z for place in places]
+    glass, places = glass_of(still(lens)), sections(lens)
+    z = [place.z for place in places]
     return Drawing(
         glass=glass,
         outlines=glass.outlines + filling(glass, places[-1]),
@@ -234,7 +231,7 @@ def widest_image(lens: Lens) -> float:
 
 def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
     distance = float(setup.coefficients.image_distance)
-    if not isfinite(distance) or setup.lens.misaligned:
+    if not (isfinite(distance) and nearly_straight(setup.lens)):
         return None
     rays = setup.rays
     unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * distance

@@ -22,11 +22,11 @@ from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.deferred_sums import SumCache, most_samples, psf_request, slow
 from p2sf_explorer.compute.preview import (
+    EDGE,
     FAR,
     Preview,
     best_fit,
     clipped_psf,
-    edge_count,
     edge_points,
     first_fit,
     landing_um,
@@ -345,7 +345,7 @@ def extent_of_six(setup: ParaxialSetup) -> Extent:
 
 def extent_of(setup: ParaxialSetup, rays: Rays) -> Extent:
     """Return how far light reaches by a pencil whose last rays are those at the rim; none if all are lost."""
-    cycles = np.hypot(rays.fx, rays.fy)[-edge_count(rays) :]
+    cycles = np.hypot(rays.fx, rays.fy)[-2 * EDGE :]
     paraxial = float(setup.coefficients.na) / setup.source.wavelength_um
     widest = float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial
     return Extent(landing_um(rays) + mask_slope(setup) / widest, AIRY_RADIUS / widest)
@@ -383,7 +383,7 @@ def window_um(setup: ParaxialSetup, clip: bool = False) -> float:
 
 def edge_pencil(setup: ParaxialSetup) -> Rays:
     """Return the few rays at the rim that show how far light reaches."""
-    return pencil(setup.lens, setup.source, *edge_points(setup.lens.misaligned))
+    return pencil(setup.lens, setup.source, *edge_points())
 
 
 def chosen(state: State, setup: ParaxialSetup) -> tuple[str, Message]:

@@ -25,7 +25,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup
 
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
 TRIED = 2  # levels of fits to the first rays
-EDGE = 9  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
+EDGE = 16  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
 
 
 @dataclass(frozen=True)
@@ -53,27 +53,21 @@ def first_level(lens: Lens) -> Level:
 def points(level: Level) -> tuple[np.ndarray, np.ndarray]:
     """Return ξ and η of the level's rays, then of those at the edge."""
     xi, eta, _ = level_rays(level)
-    edge = edge_points(not level.basis.domain.symmetric)
+    edge = edge_points()
     return np.append(xi, edge[0]), np.append(eta, edge[1])
 
 
-def edge_points(around: bool = False) -> np.ndarray:
-    """Return ξ and η of rays on the rim's right half, or all ``around`` it, and on 0.7 of it, (2, rays)."""
-    turn = np.linspace(0, np.pi, EDGE)
-    if around:
-        turn = np.append(turn, turn[1:-1] + np.pi)
+@lru_cache(maxsize=1)
+def edge_points() -> np.ndarray:
+    """Return ξ and η of rays all around the rim, and on 0.7 of it, (2, rays)."""
+    turn = np.linspace(0, 2 * np.pi, EDGE, endpoint=False)
     edge = np.stack([np.sin(turn), np.cos(turn)])
     return np.concatenate([edge, 0.7 * edge], axis=1)
 
 
-def edge_count(rays: Rays) -> int:
-    """Return how many of a pencil's last rays are `edge_points`: of a misaligned lens those of the left half too."""
-    return 4 * (EDGE - 1) if rays.xi.min() < 0 else 2 * EDGE
-
-
 def landing_um(rays: Rays) -> float:
     """Return how far from the chief ray the farthest of the last, the edge's, rays lands, in x or y, µm."""
-    reach = np.abs(np.stack([rays.dx, rays.dy])[:, -edge_count(rays) :])
+    reach = np.abs(np.stack([rays.dx, rays.dy])[:, -2 * EDGE :])
     return UM_PER_MM * float(np.nanmax(reach)) if np.isfinite(reach).any() else 0.0
 
 
@@ -142,12 +136,7 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
 def preview_pupil(traced: Preview) -> WavefrontMap:
     """Return the displayed wavefront over the pupil: the terms that fit that of the level's rays."""
     setup = traced.setup
-    rays, skew = traced.rays, setup.lens.misaligned
-    if skew:
-        back = exit_radius(setup.lens, setup.source, rays)
-    else:
-        back = (setup.lens.sensor_mm - setup.pupils.exit_from_last) / rays.chief_kz
-    waves = opd_on_sphere(rays, back)
+    waves = opd_on_sphere(traced.rays, exit_radius(setup.lens, setup.source, traced.rays, setup.stop))
     return map_behind(setup, _projection(first_level(setup.lens)) @ waves, "preview")
 
 

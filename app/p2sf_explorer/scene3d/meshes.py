@@ -11,7 +11,7 @@ from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.placement import Motion, along_z
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_outline import opening_radius, vane
-from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, clear_rims, crossed_before, sag, vertices
+from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, crossed_before, drawn_rims, sag, still
 
 CUT = (np.pi, 2.5 * np.pi)  # the sweep that remains, from −x over −y and +x to +y: a quarter is cut away
 STEPS = 48  # of the sweep
@@ -39,42 +39,40 @@ class Element:
 
 @lru_cache(maxsize=16)
 def elements(lens: Lens) -> tuple[Element, ...]:
-    """Return the glass of a lens of `glass_outlines.still`: real sag to the clear rims, a quarter cut away.
+    """Return the glass of a lens of `glass_outlines.still` where it stands, a quarter cut away.
 
-    A mirror is a thin shell on its back, and so is an ideal lens.
+    It has its real sag to the clear rims; an element of tilted surfaces is a wedge. A mirror is a thin shell on its
+    back, and so is an ideal lens.
     """
-    if lens.misaligned:
-        return _placed_elements(lens)
-    z, rims = vertices(lens), clear_rims(lens)
-    index = np.abs(indices(lens, lens.reference_wavelength_um))
-    pairs = zip(lens.surfaces[:-1], lens.surfaces[1:], strict=True)
-    glass = (
-        Element(element((front, z[i], rims[i]), (back, z[i + 1], rims[i + 1])), float(index[i + 1]))
-        for i, (front, back) in enumerate(pairs)
-        if index[i + 1] > GLASS_INDEX and rims[i] > 0 and not crossed_before(lens, i, z)
-    )
-    shells = (
-        Element(element((s, z[i], rims[i]), (s, z[i] + lens.directions[i] * SHELL * rims[i], rims[i])), SHELL_INDEX)
-        for i, s in enumerate(lens.surfaces)
-        if s.reflects or s.ideal
-    )
-    return (*glass, *shells)
-
-
-def _placed_elements(lens: Lens) -> tuple[Element, ...]:
-    """Return the glass and mirrors of a misaligned lens where they stand; an element of tilted surfaces is a wedge."""
-    rims, index = clear_rims(lens), np.abs(indices(lens, lens.reference_wavelength_um))
+    rims, index = drawn_rims(lens), np.abs(indices(lens, lens.reference_wavelength_um))
     found = []
     for i, (front, back) in enumerate(pairwise(lens.surfaces)):
-        if index[i + 1] > GLASS_INDEX and rims[i] > 0:
-            made = element((front, 0.0, rims[i]), (back, front.thickness, rims[i + 1]))
-            behind = lens.frames[i + 1].then(along_z(-front.thickness))
-            found.append(Element(wedged(made, lens.frames[i], behind), float(index[i + 1])))
+        if index[i + 1] > GLASS_INDEX and rims[i] > 0 and not crossed_before(lens, i):
+            found.append(_between(lens, i, (front, rims[i]), (back, rims[i + 1]), float(index[i + 1])))
     for i, surface in enumerate(lens.surfaces):
-        if surface.reflects:
+        if surface.reflects or surface.ideal:
             sides = (surface, 0.0, rims[i]), (surface, lens.directions[i] * SHELL * rims[i], rims[i])
             found.append(Element(placed(element(*sides), lens.frames[i]), SHELL_INDEX))
     return tuple(found)
+
+
+def filling(lens: Lens) -> tuple[Element, ...]:
+    """Return the medium between a lens's last surface and the sensor where it is not air, else nothing."""
+    index = abs(float(indices(lens, lens.reference_wavelength_um)[-1]))
+    if index <= GLASS_INDEX:
+        return ()
+    rims = drawn_rims(still(lens))
+    return (_between(lens, len(rims) - 1, (lens.surfaces[-1], rims[-1]), (None, max(rims)), index),)
+
+
+def _between(
+    lens: Lens, at: int, front: tuple[Surface, float], back: tuple[Surface | None, float], index: float
+) -> Element:
+    """Return what lies behind surface ``at``, from 0: both of its sides with the rims they are drawn with."""
+    thickness = lens.surfaces[at].thickness
+    made = element((front[0], 0.0, front[1]), (back[0], thickness, back[1]))
+    behind = lens.frames[at + 1].then(along_z(-thickness))
+    return Element(wedged(made, lens.frames[at], behind), index)
 
 
 def placed(mesh: Mesh, frame: Motion) -> Mesh:
@@ -87,15 +85,6 @@ def wedged(mesh: Mesh, front: Motion, back: Motion) -> Mesh:
     half = len(mesh.points) // 2
     sides = zip((mesh.points[:half], mesh.points[half:]), (front, back), strict=True)
     return Mesh(np.concatenate([points @ frame.rotation.T + frame.origin for points, frame in sides]), mesh.faces)
-
-
-def filling(lens: Lens, sensor_z: float) -> tuple[Element, ...]:
-    """Return the medium between a lens's last surface and the sensor where it is not air, else nothing."""
-    index = abs(float(indices(lens, lens.reference_wavelength_um)[-1]))
-    if index <= GLASS_INDEX:
-        return ()
-    rim, wide = clear_rims(lens)[-1], max(clear_rims(lens))
-    return (Element(element((lens.surfaces[-1], vertices(lens)[-2], rim), (None, sensor_z, wide)), index),)
 
 
 Side = tuple[Surface | None, float, float]

@@ -61,7 +61,7 @@ def ray_bundle(setup: ParaxialSetup, drawn: Drawing, clip: bool = False) -> np.n
     for number in range(1, len(points)):
         behind = (ended > 0) & (number > ended)
         points[number] = np.where(behind[:, None] | np.isnan(points[number]), points[number - 1], points[number])
-    if azimuth and lens.misaligned:  # a round lens is shown with its source upright
+    if azimuth:
         points = points @ Placement(tilt_z_deg=-azimuth).motion.rotation.T
     return points.swapaxes(0, 1)
 
@@ -74,7 +74,7 @@ def front(setup: ParaxialSetup, drawn: Drawing, last_z: float) -> Front:
     W is then that of the six coefficients. Raises GeometryError.
     """
     rays = pencil(setup.lens, setup.source, *_polar())
-    exact = None if setup.altered else opd_on_sphere(rays, _exit_radius(setup, rays))
+    exact = None if setup.altered else opd_on_sphere(rays, exit_radius(setup.lens, setup.source, rays, setup.stop))
     waves = np.asarray(wavefront(setup.coefficients, *_polar())) if exact is None else np.nan_to_num(exact)
     kx, ky, kz = (np.where(rays.passed, k, chief) for k, chief in _cosines(rays))
     radius = _drawn_radius(setup, drawn, last_z, float(rays.chief_kz[0]))
@@ -99,12 +99,6 @@ def _polar() -> tuple[np.ndarray, np.ndarray]:
 def _cosines(rays: Rays) -> tuple[tuple[np.ndarray, float], ...]:
     """Return the direction cosines in the image of the rays and of the chief ray."""
     return (rays.kx, float(np.squeeze(rays.chief_kx))), (rays.ky, rays.chief_ky[0]), (rays.kz, rays.chief_kz[0])
-
-
-def _exit_radius(setup: ParaxialSetup, rays: Rays) -> float:
-    if setup.lens.misaligned:
-        return float(np.squeeze(exit_radius(setup.lens, setup.source, rays)))
-    return float((setup.lens.sensor_mm - setup.pupils.exit_from_last) / rays.chief_kz[0])
 
 
 def _drawn_radius(setup: ParaxialSetup, drawn: Drawing, last_z: float, chief_kz: float) -> float:

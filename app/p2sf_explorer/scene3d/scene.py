@@ -8,7 +8,7 @@ from p2sf.lens.lens import seen_from
 from p2sf.lens.placement import Motion, Placement
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.charts.brightness import stretched
-from p2sf_explorer.compute.glass_outlines import still
+from p2sf_explorer.compute.glass_outlines import last_end, still
 from p2sf_explorer.compute.layout import shown_lens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import visible_colour
@@ -32,31 +32,10 @@ class Scene3D:
 
 
 def scene(live: Live) -> Scene3D:
-    """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor."""
-    setup, drawn = live.setup, live.layout.drawing
-    standing = still(setup.lens)
-    wedge, thick = 0.18 * drawn.half_height + 0.25 * drawn.stop_rim, THICKNESS * drawn.half_height
-    rays = ray_bundle(setup, drawn, live.state.optics.clip)
-    half, rim = live.layout.sensor_half, drawn.stop_rim
-    if setup.lens.misaligned:
-        return skew_scene(live, rays)
-    return Scene3D(
-        glass=elements(standing) + filling(standing, drawn.sensor_z),
-        stop=masked_stop(setup.lens.mask, rim, rim + wedge, drawn.stop_z, thick),
-        sensor=plate(half, drawn.sensor_z, thick),
-        rays=rays,
-        colour=visible_colour(live.state.optics.wavelength_nm),
-        front=front(setup, drawn, float(drawn.glass.last[0].max())),
-        psf_surface=psf_surface(
-            live.psf, brightness(live), drawn, half, float(rays[0, -1, 1]), live.setup.lens.directions[-1]
-        ),
-    )
+    """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor.
 
-
-def skew_scene(live: Live, rays: np.ndarray) -> Scene3D:
-    """Return the scene of a misaligned lens: its parts where they stand, wavefront and PSF at its sensor.
-
-    These two are made in the sensor's own axes, turned with the source's azimuth, and put where the sensor stands.
+    Wavefront and PSF are made in the sensor's own axes, turned with the source's azimuth, and put where the sensor
+    stands.
     """
     setup, drawn, half = live.setup, live.layout.drawing, live.layout.sensor_half
     rim, thick = drawn.stop_rim, THICKNESS * drawn.half_height
@@ -66,14 +45,14 @@ def skew_scene(live: Live, rays: np.ndarray) -> Scene3D:
     chief = pencil(lens, setup.source, np.zeros(1), np.zeros(1))
     across, up = float(np.squeeze(chief.chief_x)), float(np.squeeze(chief.chief_y))
     stands = stands.then(Motion(np.eye(3), np.array([across, 0.0, 0.0])))
-    wave = front(setup, flat, -lens.sensor_mm)
+    wave = front(setup, flat, last_end(lens) - lens.sensor_mm)
     psf = psf_surface(live.psf, brightness(live), flat, half, up, lens.directions[-1])
     stop = masked_stop(lens.mask, rim, rim + 0.18 * drawn.half_height + 0.25 * rim, 0.0, thick)
     return Scene3D(
-        glass=elements(still(shown)),
+        glass=elements(still(shown)) + filling(shown),
         stop=placed(stop, shown.frames[int(setup.stop.surface) - 1]),
         sensor=placed(plate(half, 0.0, thick), shown.frames[-1]),
-        rays=rays,
+        rays=ray_bundle(setup, drawn, live.state.optics.clip),
         colour=visible_colour(live.state.optics.wavelength_nm),
         front=replace(wave, mesh=placed(wave.mesh, stands)),
         psf_surface=replace(psf, mesh=placed(psf.mesh, stands)),
