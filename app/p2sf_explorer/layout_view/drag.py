@@ -20,10 +20,7 @@ from p2sf_explorer.layout_view.grips import (
     dragged,
     glass_runs,
     group_of,
-    sensor_grip,
-    skew_grips,
-    stop_grips,
-    surface_grips,
+    placed_grips,
 )
 from p2sf_explorer.layout_view.source_point import DrawnSetup, SourceHandle
 from p2sf_explorer.layout_view.values import value_of
@@ -79,12 +76,7 @@ class LayoutDrag:
 
     def grips(self, shown: DrawnSetup) -> Iterator[Grip]:
         """Yield everything to hold but the source and the glass; behind a fold nothing."""
-        if shown.layout.skew:
-            yield from skew_grips(shown.setup, shown.layout, self._store.selection)
-            return
-        yield from stop_grips(shown.setup, shown.layout)
-        yield from surface_grips(shown.setup.lens, self._store.selection)
-        yield sensor_grip(shown.layout)
+        yield from placed_grips(shown.setup, shown.layout, self._store.selection)
 
     def _distance(self, grip: Grip, shown: DrawnSetup, point: QPointF) -> float:
         """Return how far a pixel is from a grip: a point, the sensor's line, or the stop's bars."""

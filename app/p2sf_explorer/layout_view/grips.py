@@ -49,8 +49,8 @@ class Grip:
         return self.drawn or (self.z, self.y)
 
 
-def skew_grips(setup: ParaxialSetup, layout: Layout, selected: Span | None) -> tuple[Grip, ...]:
-    """Return the grips of a lens with tilted or decentred parts, each where its part is drawn.
+def placed_grips(setup: ParaxialSetup, layout: Layout, selected: Span | None) -> tuple[Grip, ...]:
+    """Return the grips of a lens, each where its part is drawn.
 
     What they move are numbers of the lens set straight. Behind a fold a way along the drawing is none along the axis,
     and there are no grips.

@@ -10,7 +10,7 @@ from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.field_map import SHAPE, FieldMapRequest, answer, fields_deg, place_of, places
+from p2sf_explorer.results.field_map import SHAPE, FieldMapRequest, answer, place_of, places
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.tiles import TilesChart, tile
@@ -33,24 +33,28 @@ class MapChart(TilesChart):
     def __init__(self, store: Store):
         super().__init__(framed=False)
         self._store = store
-        self.fields_deg = np.zeros(0)
-        self.places = np.zeros((0, 2))
-        self.skew, self.corner_slope, self.present_at = False, 1.0, (0.0, 0.0)
-        self.nodes: tuple[tuple[str, float, float], ...] = ()
+        self.fields_deg, self.places = np.zeros((0, 2)), np.zeros((0, 2))
+        self.asked: FieldMapRequest | None = None
+        self.present_at = (0.0, 0.0)
         self.choice = Cursor()
-        self._taken, self._field, self._held = 0, 0.0, False
+        self._taken, self._held = 0, False
         self.takes_arrows = True
         self.setAccessibleName(tr("Field map"))
 
+    @property
+    def free(self) -> bool:
+        """Return whether each point of the map has a field of its own, and a press goes there."""
+        return self.asked is not None and not self.asked.symmetric
+
     def takes(self, point: QPointF) -> bool:
         """Return whether a press chooses a picture, or a field."""
-        return self.skew or self.tile_at(point) is not None
+        return self.free or self.tile_at(point) is not None
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Go to the field of the picture under the pointer; without symmetry to that of the point itself."""
         if event.button() != Qt.MouseButton.LeftButton:
             return
-        if self.skew and self.tiles:
+        if self.free and self.tiles:
             self._held = True
             self._store.begin()
             self._follow(event.position())
@@ -77,7 +81,8 @@ class MapChart(TilesChart):
         self._go(np.clip(self.from_pixels(point), -edge, edge))
 
     def _go(self, place: np.ndarray) -> None:
-        x, y = fields_deg(place, self.corner_slope)
+        assert self.asked  # there is nothing to press before
+        x, y = self.asked.field_of(place)
         self._store.update(field_deg=round(y, 4), field_x_deg=round(x, 4))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -95,23 +100,16 @@ class MapChart(TilesChart):
             super().keyPressEvent(event)
 
     def show_place(self, place: tuple[float, float]) -> None:
-        """Put the ring at the present field."""
+        """Mark the present field, from whose picture the keys choose."""
         if place != self.present_at:
             self.present_at = place
-            self.update()
-
-    def show_field(self, field_deg: float) -> None:
-        """Mark the picture of the present field, from which the keys choose."""
-        if abs(field_deg) != self._field:
-            self._field = abs(field_deg)
             self.choice.forget()
             self.update()
 
     def present(self) -> int:
         """Return the picture of the present field: of those equally far out the last taken, else the first."""
-        if self.skew:
-            return int(np.hypot(*(self.places - self.present_at).T).argmin())
-        apart = np.abs(self.fields_deg - self._field)
+        assert self.asked  # whose pictures these are
+        apart = np.hypot(*(self.fields_deg - self.asked.field_of(np.array(self.present_at))).T)
         least = apart.min() + SAME_DEG
         return self._taken if self._taken < len(apart) and apart[self._taken] < least else int(apart.argmin())
 
@@ -119,15 +117,12 @@ class MapChart(TilesChart):
         self._taken = number
         self.choice.forget()
         self.update()
-        if self.skew:
-            self._go(self.places[number])
-        else:
-            self._store.update(field_deg=round(float(self.fields_deg[number]), 4), field_x_deg=0.0)
+        self._go(self.places[number])
 
     def _paint_nodes(self, painter: QPainter) -> None:
         """Paint where coma (×) and astigmatism (+) vanish."""
         half = self.theme.px(NODE_PX)
-        for name, *place in self.nodes:
+        for name, *place in self.asked.nodes if self.asked else ():
             x, y = (float(v) for v in self.to_pixels(*place))
             painter.setPen(QPen(QColor(getattr(self.theme, NODE_COLOURS[name])), 2.5 * self.theme.scale))
             for dx, dy in ((half, half), (half, -half)) if name == "coma" else ((half, 0), (0, half)):
@@ -140,8 +135,8 @@ class MapChart(TilesChart):
         if self.tiles:
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(QColor(self.theme.accent), 2 * self.theme.scale))
-            if self.skew:
-                self._paint_nodes(painter)
+            self._paint_nodes(painter)
+            if self.free:
                 ring = self.theme.px(RING_PX)
                 painter.drawEllipse(QPointF(*map(float, self.to_pixels(*self.present_at))), ring, ring)
             else:
@@ -168,7 +163,6 @@ class FieldMapPanel:
     def show(self, live: Live) -> None:
         """Mark the present field, and ask for the map when more than the field has changed."""
         asked: FieldMapRequest = live.views["field_map"]
-        self.chart.show_field(float(degrees_from_slope(live.setup.source.field_slope)))
         self.chart.show_place(place_of(live.state, asked.corner_slope))
         changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
         self.asking.ask(asked)
@@ -185,9 +179,8 @@ class FieldMapPanel:
         at = [(row, column) for row in range(SHAPE[0]) for column in range(SHAPE[1])]
         kept = [place for place in at if np.isfinite(found[place]).any()]
         self.chart.places = np.array([where[place] for place in kept]).reshape(-1, 2)
-        self.chart.skew, self.chart.corner_slope, self.chart.nodes = asked.skew, asked.corner_slope, asked.nodes
-        slopes = [np.hypot(*where[place]) * asked.corner_slope for place in kept]
-        self.chart.fields_deg = degrees_from_slope(np.array(slopes))
+        self.chart.asked = asked
+        self.chart.fields_deg = np.array([asked.field_of(where[place]) for place in kept]).reshape(-1, 2)
         shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
         self.chart.show_tiles(shown, spacing, SHAPE[0])
         heads = (

@@ -23,6 +23,7 @@ from p2sf_explorer.state.state import State, changed
 SHAPE = 3, 9  # rows, columns
 ASPECT = 1.5  # of the sensor, whose corner is the field's edge
 PIXELS = {"preview": 24, "settled": 40}
+SAME_ANGLE = 1e-9  # radians
 MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 
 
@@ -30,16 +31,23 @@ MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 class FieldMapRequest:
     """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window.
 
-    ``skew``: the lens is not symmetric, and every picture has a field (x, y) of its own. ``nodes``: of "coma" and
-    "astigmatism", the places x and y where these vanish to third order, 1 from the middle to the corner.
+    ``symmetric``: fields of one distance from the axis share a picture, turned about the axis. ``nodes``: of "coma"
+    and "astigmatism", the places x and y where these vanish to third order, 1 from the middle to the corner.
     """
 
     state: State
     corner_slope: float
     window: tuple[int, float]
     six: bool
-    skew: bool = False
+    symmetric: bool = True
     nodes: tuple[tuple[str, float, float], ...] = ()
+
+    def field_of(self, place: np.ndarray) -> tuple[float, float]:
+        """Return the field along x and along y, degrees, whose picture stands at a place, as `places` has it."""
+        if self.symmetric:
+            place = np.array([0.0, np.round(np.hypot(*place), 9)])
+        x, y = degrees_from_slope(np.asarray(place) * self.corner_slope).tolist()
+        return x, y
 
 
 def field_map(live: Live) -> FieldMapRequest:
@@ -53,9 +61,9 @@ def field_map(live: Live) -> FieldMapRequest:
         everywhere_by_coefficients(live.state, live.setup),
         changed(optics(live.state), field_deg=0.0, field_x_deg=0.0),
     )
-    skew = s.lens.misaligned and not six
-    nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if skew else ()
-    return FieldMapRequest(state, corner, (pixels, wide / pixels), six, skew, nodes)
+    bent = s.lens.misaligned and not six
+    nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if bent else ()
+    return FieldMapRequest(state, corner, (pixels, wide / pixels), six, s.lens.mask.round and not bent, nodes)
 
 
 @lru_cache(maxsize=8)
@@ -73,12 +81,6 @@ def nodes_of(
     return tuple((name, float(x), float(y)) for name, x, y in at if abs(x) <= edge[0] and abs(y) <= edge[1])
 
 
-def fields_deg(place: np.ndarray, corner_slope: float) -> tuple[float, float]:
-    """Return the field along x and along y, degrees, of a place of the map, 1 from the middle to the corner."""
-    x, y = degrees_from_slope(np.asarray(place) * corner_slope).tolist()
-    return x, y
-
-
 def place_of(state: State, corner_slope: float) -> tuple[float, float]:
     """Return where the present field stands in the map, as `places` has it."""
     x, y = (slope_from_degrees(np.array([state.optics.field_x_deg, state.optics.field_deg])) / corner_slope).tolist()
@@ -94,71 +96,39 @@ def places() -> np.ndarray:
 
 
 def answer(request: FieldMapRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
-    """Return the pictures, (rows, columns, pixels, pixels), each over its own peak; ``tell`` is called after each.
+    """Return the pictures, (rows, columns, pixels, pixels), each over its own peak, from the middle out.
 
-    Fields of one distance from the axis share a PSF, mirrored or turned about the axis (the lens is round).
+    ``tell`` is called after each field.
     """
     found = np.full((*SHAPE, request.window[0], request.window[0]), np.nan, np.float32)
     where = places()
-    radius = np.round(np.hypot(where[..., 0], where[..., 1]), 9)
-    if request.skew:
-        return _everywhere(request, where, found, stopped, tell)
-    rings = np.unique(radius)
-    for number, ring in enumerate(rings, 1):
+    fields: dict[tuple[float, float], list[tuple[int, ...]]] = {}
+    for at in sorted(np.ndindex(*SHAPE), key=lambda at: float(np.hypot(*where[at]))):
+        fields.setdefault(request.field_of(where[at]), []).append(at)
+    for number, (field, own) in enumerate(fields.items(), 1):
         if stopped():
             break
-        values = picture_at(request, float(ring))
-        for at in zip(*np.nonzero(radius == ring), strict=True):
-            found[at] = turned(values, float(np.arctan2(where[at][0], where[at][1])))
-        tell(number / len(rings), found)
+        values, inverted = picture_at(request, field)
+        for at in own:
+            found[at] = turned(values, float(np.arctan2(*where[at])) + (np.pi if inverted else 0.0))
+        tell(number / len(fields), found)
     return found
 
 
-def _everywhere(
-    request: FieldMapRequest,
-    where: np.ndarray,
-    found: np.ndarray,
-    stopped: Callable[[], bool],
-    tell: Callable[[float, object], None],
-) -> np.ndarray:
-    """Return the pictures of a lens that is not symmetric, none of which stands in for another; from the middle out."""
-    order = sorted(np.ndindex(*SHAPE), key=lambda at: float(np.hypot(*where[at])))
-    for number, at in enumerate(order, 1):
-        if stopped():
-            break
-        found[at] = _skew_picture(request, where[at])
-        tell(number / len(order), found)
-    return found
-
-
-def _skew_picture(request: FieldMapRequest, place: np.ndarray) -> np.ndarray:
-    """Return the PSF at a place of the map over its peak, in the sensor's axes, NaN where there is none."""
-    field_x, field_y = fields_deg(place, request.corner_slope)
-    state = changed(request.state, field_deg=field_y, field_x_deg=field_x)
-    try:
-        setup = paraxial_setup(state)
-        values = in_window(state, request.window, request.six).values
-    except P2SFError:  # rays lost at the edge of the field: an empty place
-        return np.full((request.window[0],) * 2, np.nan)
-    inverted = float(setup.coefficients.image_height) * setup.source.field_slope < 0
-    angle = np.deg2rad(setup.source.azimuth_deg) + (np.pi if inverted else 0.0)
-    return turned(values, float(angle)) / (float(values.max()) or 1.0)
-
-
-def picture_at(request: FieldMapRequest, ring: float) -> np.ndarray:
-    """Return the PSF at a share of the corner's field over its peak, +y away from the axis, NaN where there is none."""
-    state = changed(request.state, field_deg=float(degrees_from_slope(ring * request.corner_slope)))
+def picture_at(request: FieldMapRequest, field_deg: tuple[float, float]) -> tuple[np.ndarray, bool]:
+    """Return the PSF of a field (x, y) over its peak, NaN where there is none, and whether +y is towards the axis."""
+    state = changed(request.state, field_x_deg=field_deg[0], field_deg=field_deg[1])
     try:
         values = in_window(state, request.window, request.six).values
     except P2SFError:  # rays lost at the edge of the field: an empty place
-        return np.full((request.window[0],) * 2, np.nan)
-    outward = values if float(paraxial_setup(state).coefficients.image_height) >= 0 else turned(values, np.pi)
-    return outward / (float(values.max()) or 1.0)
+        return np.full((request.window[0],) * 2, np.nan), False
+    inverted = float(paraxial_setup(state).coefficients.image_height) < 0
+    return values / (float(values.max()) or 1.0), inverted
 
 
 def turned(values: np.ndarray, angle: float) -> np.ndarray:
     """Return a picture whose +y points ``angle`` radians from +y towards +x, straight lines between samples."""
-    if not angle:
+    if abs(np.remainder(angle + 1, 2 * np.pi) - 1) < SAME_ANGLE:
         return values
     count = len(values)
     axis = np.arange(count) - count // 2

@@ -21,7 +21,7 @@ from p2sf_explorer.compute.layout import layout_of
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import disc, pupil_of
 from p2sf_explorer.compute.setup import built, paraxial_setup, prescription, with_lens
-from p2sf_explorer.results.field_map import field_map, fields_deg
+from p2sf_explorer.results.field_map import field_map
 from p2sf_explorer.state.build_errors import renumbered, with_error, without_piece
 from p2sf_explorer.state.built import adjustments, exaggerated, pieces, with_errors
 from p2sf_explorer.state.state import changed, new_state
@@ -276,7 +276,7 @@ def test_nodes_stand_in_the_map_where_their_fields_do():
     assert name == "coma" and x == pytest.approx(0.0, abs=1e-9) and 0.0 < abs(y) < 0.5
 
     def coma(place):
-        field_x, field_y = fields_deg(np.array(place), found.corner_slope)
+        field_x, field_y = found.field_of(np.array(place))
         setup = paraxial_setup(changed(state, field_deg=field_y, field_x_deg=field_x))
         return abs(exact_aberrations(setup.lens, setup.source)[0])
 

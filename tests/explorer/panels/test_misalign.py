@@ -118,13 +118,13 @@ def test_a_point_of_the_field_map_is_dragged_to_any_field(window, panel, qtbot):
     window.store.update(tab="field_map", errors=(("tilt_y", 3, 5, 0.1),), f_number=8.0)
     chart = window.panels["field_map"].chart
     settled(window.panels["field_map"], qtbot)
-    assert chart.tiles and chart.skew
+    assert chart.tiles and chart.free
     at = QPoint(*(round(float(v)) for v in chart.to_pixels(-0.5, -0.25)))
     QTest.mousePress(chart, Qt.MouseButton.LeftButton, pos=at)
     QTest.mouseRelease(chart, Qt.MouseButton.LeftButton, pos=at)
     optics = window.store.state.optics
     slopes = np.tan(np.deg2rad([optics.field_x_deg, optics.field_deg]))
-    assert slopes / chart.corner_slope == pytest.approx([-0.5, -0.25], abs=0.01)  # a pixel of the map
+    assert slopes / chart.asked.corner_slope == pytest.approx([-0.5, -0.25], abs=0.01)  # a pixel of the map
 
 
 def test_the_layout_says_that_it_is_seen_along_x_and_by_what_it_exaggerates(window, panel):

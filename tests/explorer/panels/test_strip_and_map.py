@@ -130,8 +130,8 @@ def test_the_map_is_the_psf_turned_towards_each_field(window, qtbot):
     top, bottom = found[0, 4], found[2, 4]
     assert bottom[1:, 1:] == pytest.approx(top[1:, 1:][::-1, ::-1], abs=1e-4), "turned by 180°"
     right = found[1, 8]
-    own = field_map.picture_at(asked, float(field_map.places()[1, 8, 0]))
-    assert right[1:, 1:] == pytest.approx(own.T[1:, 1:], abs=1e-4), "+y points to the right"
+    own, inverted = field_map.picture_at(asked, asked.field_of(field_map.places()[1, 8]))
+    assert not inverted and right[1:, 1:] == pytest.approx(own.T[1:, 1:], abs=1e-4), "+y points to the right"
     assert (found.max((2, 3)) > 0.5).all()
 
 
@@ -182,6 +182,24 @@ def test_coma_points_away_from_the_axis_at_every_place():
     assert len({side > 0 for side in sides}) == 1 and told == sorted(told), "and all the same way"
 
 
+MAPPED = [{"vanes": 2, "vane_width": 0.2, "vane_angle_deg": 30.0}, {"errors": (("tilt_y", 3, 5, 0.2),)}]
+
+
+@pytest.mark.parametrize("changes", MAPPED, ids=["vanes", "tilted"])
+@pytest.mark.parametrize("at", [(0, 4), (2, 4), (1, 8)], ids=["top", "bottom", "right"])
+def test_a_place_of_a_map_without_symmetry_shows_its_own_field_as_it_lies_on_the_sensor(changes, at):
+    """Vanes stay where they are while the field turns. Of fields along y the picture needs no turning at all."""
+    state = changed(FIRST, method="auto", f_number=5.6, **changes)
+    question = field_map.field_map(live(state, "preview"))
+    found, _ = worked(question, field_map)
+    field_x, field_y = question.field_of(field_map.places()[at])
+    values = in_window(changed(question.state, field_deg=field_y, field_x_deg=field_x), question.window, False).values
+    sensor = field_map.turned(values, np.deg2rad(90.0)) if field_x else values
+    assert found[at] == pytest.approx(sensor / values.max(), abs=1e-6)
+    symmetric = replace(question, symmetric=True)
+    assert np.abs(worked(symmetric, field_map)[0][1, 8] - found[1, 8]).max() > 1e-2, "and no other field's"
+
+
 @pytest.mark.parametrize("key", ["through_focus", "field_map", "colour"])
 def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key):
     window.store.update(tab=key, f_number=8.0)
@@ -204,7 +222,8 @@ def test_the_top_of_the_map_is_the_field_that_lands_there():
         one = changed(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
         values = in_window(one, question.window, True).values
         lands[float(paraxial_setup(one).coefficients.image_height) > 0] = values / values.max()
-    shown = field_map.picture_at(question, 1.0)
+    values, inverted = field_map.picture_at(question, question.field_of(np.array([0.0, 1.0])))
+    shown = field_map.turned(values, np.pi if inverted else 0.0)
     assert shown[1:, 1:] == pytest.approx(lands[True][1:, 1:], abs=1e-4)
     assert np.abs(shown - lands[False]).max() > 0.1, "coma tells the two apart"
 
