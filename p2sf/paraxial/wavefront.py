@@ -67,8 +67,8 @@ def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray
 
 def steepest_of(shape: np.ndarray) -> np.ndarray:
     """Return `steepest_slope` of W40, W31, W22, W20 + Wd and, if there is one, W11 in the last axis."""
-    across, along = np.moveaxis(_slopes(shape, _gradient_basis()), -2, 0)
-    steepest: np.ndarray = np.sqrt(np.add(across, along, out=across).max(-1))
+    squares = _slopes(shape, _gradient_basis())
+    steepest: np.ndarray = np.sqrt((squares[..., 0, :] + squares[..., 1, :]).max(-1))
     return steepest
 
 

@@ -138,7 +138,11 @@ def _result(
     quality: str,
 ) -> Psf:
     wavelength, single = coefficients.wavelength_um, stack.values.ndim == 2
-    energy = energy_fraction(coefficients, stack.total, pixel_um, throughput(mask).spreading)
+
+    def energy() -> float | np.ndarray | None:
+        share = energy_fraction(coefficients, stack.total, pixel_um, throughput(mask).spreading)
+        return float(share) if single and share is not None else share
+
     peaks = cache(partial(_peaks, coefficients, stack, pixel_um, mask, quality))
     if quality == "settled" and prod(stack.total.shape) <= MOST_SEARCHED:
         peaks()  # now, and not when it is first read
@@ -148,7 +152,7 @@ def _result(
         wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
         method="seidel",
         strehl=lambda: float(peaks()[0]) if single else peaks()[0],
-        energy=float(energy) if single and energy is not None else energy,
+        energy=energy,
         numbers=6,
         rays=2,
         sampling=stack.sampling,

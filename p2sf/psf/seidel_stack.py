@@ -78,7 +78,8 @@ def stack_of(
     """
     terms = shape_terms(coefficients)
     shape, terms = terms.shape[:-1], terms.reshape(-1, 5)
-    if not mask.clear or (len(terms) == 1 and _too_steep(terms, pixels, pixel_um, quality)):
+    steep = _steepness(terms, pixels, pixel_um, quality) if len(terms) == 1 else None
+    if not mask.clear or (steep and _too_steep(*steep, pixels)):
         return _one_by_one(each_of(coefficients), shape, (pixels, pixel_um), quality, dtype, threads, mask)
     values = np.empty((len(terms), pixels, pixels), dtype)
     total = np.empty(len(terms))
@@ -94,14 +95,13 @@ def stack_of(
             taken.append(rows)
         return max(taken, key=_size)
 
-    parts = stack_parts(terms, pixels, pixel_um, quality)
-    if len(terms) == 1:  # sharing it out would take a tenth of its time
+    if steep:  # sharing it out would take a tenth of its time
         if threads is not None:
             threads_or_default(threads)  # refuses a number that is none
         with one_blas_thread:
-            used = [fill(list(parts))]
+            used = [fill([(slice(None), _rows(*steep, quality))])]
     else:
-        used = mapped(fill, _shares(parts), threads)
+        used = mapped(fill, _shares(stack_parts(terms, pixels, pixel_um, quality)), threads)
     sampling = Message(
         "{nodes}, {precision}" if len(terms) <= 1 else "up to {nodes}, {precision}",
         nodes=max(used, key=_size).name if used else Message("no nodes"),
@@ -110,10 +110,16 @@ def stack_of(
     return SummedStack(values.reshape(*shape, pixels, pixels), total.reshape(shape), sampling)
 
 
-def _too_steep(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> bool:
-    """Return whether the `shape_terms` of one PSF take so many products that a non-uniform FFT is faster."""
+def _steepness(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> tuple[np.ndarray, float]:
+    """Return the steepest phase of one PSF as `_slopes` has it, and the waves at the window's corner."""
     reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
-    slopes = _slopes(terms[:, :4], reach, quality)[0]
+    return _slopes(terms[:, :4], reach, quality)[0], reach
+
+
+def _too_steep(slopes: np.ndarray, reach: float, pixels: int) -> bool:
+    """Return whether one PSF takes so many products that a non-uniform FFT is faster."""
+    if slopes.size == 1 and _grid_samples(float(slopes[0]), reach) <= PREVIEW_GRID:
+        return False
     rows, columns = chords_for(slopes[0], slopes[-1], reach, reach / sqrt(2))
     return MOST_IN_ROWS < rows * columns / 4 * pixels and rows * columns < MOST_ONE_BY_ONE
 
@@ -198,10 +204,6 @@ def stack_parts(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -
 
     ``terms``: (PSFs, 5) as `shape_terms` gives them. Raises SamplingError for too many samples.
     """
-    if len(terms) == 1:
-        reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
-        yield slice(None), _rows(_slopes(terms[:, :4], reach, quality)[0], reach, quality)
-        return
     for same in groups(terms[:, 4]):
         reach = corner_reach(abs(float(terms[same[0], 4])), pixels, pixel_um)
         for part in _split(same, SORTED_AT_ONCE):
