@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from p2sf.errors import RequestError
+from p2sf.lens.positions import PARAMETER
 from p2sf.messages import Message
-from p2sf.scene.scene import RGB, Channel, Scene
+from p2sf.scene.scene import OF_THE_CAMERA, RGB, Channel, Scene
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", "zoom", "focus_position", "focus_mm", "f_number", "aim", "clip"}
-    | {"sensor", "depth", "channel"},
+    "": {"name", "tolerance", "measure", *OF_THE_CAMERA, "clip", "sensor", "depth", "channel"},
     "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
     "depth": {"near_mm", "far_mm", "map"},
     "channel": {"name", "wavelengths_nm", "weights"},
@@ -62,7 +62,7 @@ def scene_from(table: dict, path: Path) -> Scene:
     far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
     given: dict[str, Any] = {key: table[key] for key in ("name", "measure", "aim") if key in table}
     given |= {key: _number(key, table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
-    given |= {key: _place(key, table[key]) for key in ("zoom", "focus_position") if key in table}
+    given |= {key: _place(key, table[key]) for key in PARAMETER.values() if key in table}
     if "clip" in table:
         given["clip"] = _flag("clip", table["clip"])
     return Scene(

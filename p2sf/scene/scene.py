@@ -1,12 +1,12 @@
 """The scene: which depths, which part of the field, which colours, and how much error is tolerable."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import inf, isfinite, log10, sqrt
 
 import numpy as np
 
 from p2sf.arguments import check_fields
-from p2sf.camera import AimChoice, Request, set_up
+from p2sf.camera import AimChoice, Camera, Request, set_up
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
@@ -75,7 +75,7 @@ class Scene:
     peak signal-to-noise ratio in dB of a picture of white noise between black and white. Pictures with most of their
     light at low frequencies come out better.
 
-    ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `Request`; None leaves them as the
+    ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as the
     lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths in mm.
     """
 
@@ -173,10 +173,8 @@ class Scene:
     @property
     def request(self) -> Request:
         """Return how the camera is set."""
-        return Request(
-            zoom=self.zoom,
-            focus_position=self.focus_position,
-            focus_mm=self.focus_mm,
-            f_number=self.f_number,
-            aim=self.aim,
-        )
+        return Request(**{name: getattr(self, name) for name in OF_THE_CAMERA})
+
+
+OF_THE_CAMERA = tuple(part.name for part in fields(Scene) if part.name in {own.name for own in fields(Camera)})
+"""What of a camera a scene states."""

@@ -12,11 +12,6 @@ from p2sf_explorer.compute.preview import preview, preview_of_coefficients, prev
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State
 
-OPTICS = (
-    *("lens", "lens_text", "depth_mm", "focus_mm", "sensor_shift_um", "field_deg", "wavelength_nm", "f_number"),
-    *("stop", "aim", "clip", "added_waves", "muted", "solo", "free_pupil"),
-)
-
 
 def optics(state: State) -> State:
     """Return a state with the optics of this one and everything else at its default."""
