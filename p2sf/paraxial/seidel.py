@@ -4,11 +4,12 @@ The chief ray enters with unit field slope; its powers multiply the sums afterwa
 work on (depth, wavelength) only and gives exactly zero for a zero field.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import nan
 from operator import add
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -162,11 +163,12 @@ def without_coefficients(lens: Lens) -> Message | None:
 def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
     c, figure = (_per_surface(x, rays.y.ndim) for x in _shape_terms(lens))
     layers = _layers(rays)
-    sums = surface_sums(rays.invariant, c, figure if np.count_nonzero(figure) else 0.0, *layers)
+    sums = surface_sums(rays.invariant, c, figure if np.count_nonzero(figure) else 0.0, layers)
     for at, diffraction in _diffractive(lens):
-        sides = [layer[at] for layer in (*layers, rays.chief_nu[1:])]
+        sides, chief_behind = [column[at] for column in layers], rays.chief_nu[at + 1]
         paths = diffraction.path_terms(rays.wavelength_um)
-        here = diffractive_sums(rays.invariant, float(c.flat[at]), float(figure.flat[at]), paths, *sides)
+        shape = float(c.flat[at]), float(figure.flat[at])
+        here = diffractive_sums(rays.invariant, shape, paths, sides, chief_behind)
         sums = tuple(_with_row(column, at, value) for column, value in zip(sums, here, strict=True))
     for at in _ideal(lens):
         sums = tuple(_with_row(column, at, 0.0) for column in sums)
@@ -180,13 +182,22 @@ def _with_row(column: np.ndarray, at: int, value: FloatOrArray) -> np.ndarray:
     return changed
 
 
+@lru_cache(maxsize=64)
+def _kept_totals(
+    lens: Lens, depth_mm: float, wavelength_um: float, field: Literal["slope", "height"]
+) -> tuple[ParaxialRays, tuple]:
+    """Return the paraxial rays of one depth and wavelength and their `_unit_totals`, which serve every field."""
+    rays = paraxial_rays(lens, depth_mm, wavelength_um, None, field)
+    return rays, _unit_totals(lens, rays)
+
+
 def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
     """Return the five sums over all surfaces; for one source in plain numbers, three times faster."""
     if rays.y.ndim > 1 or _diffractive(lens) or _ideal(lens):
         return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
     columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
     invariant = float(rays.invariant)
-    rows = [surface_sums(invariant, *row) for row in zip(*columns, strict=True)]
+    rows = [surface_sums(invariant, c, figure, row) for c, figure, *row in zip(*columns, strict=True)]
     return tuple(map(sum, zip(*rows, strict=True)))
 
 
@@ -200,15 +211,13 @@ def surface_sums(
     invariant: FloatOrArray,
     c: FloatOrArray,
     figure: FloatOrArray,
-    n: FloatOrArray,
-    after: FloatOrArray,
-    nu: FloatOrArray,
-    nu_after: FloatOrArray,
-    y: FloatOrArray,
-    chief_nu: FloatOrArray,
-    chief: FloatOrArray,
+    layers: Sequence[FloatOrArray],
 ) -> tuple:
-    """Return the five sums of a surface of curvature ``c`` and fourth-order ``figure``; numbers or arrays alike."""
+    """Return the five sums of a surface of curvature ``c`` and fourth-order ``figure``; numbers or arrays alike.
+
+    ``layers``: indices and both rays there, as `_layers` has them.
+    """
+    n, after, nu, nu_after, y, chief_nu, chief = layers
     inverse, inverse_after = 1 / n, 1 / after
     square, square_after = inverse * inverse, inverse_after * inverse_after
     snell, chief_snell = nu + n * y * c, chief_nu + n * chief * c  # A and Ā
@@ -230,25 +239,20 @@ def surface_sums(
 
 def diffractive_sums(
     invariant: FloatOrArray,
-    c: float,
-    figure: float,
+    shape: tuple[float, float],
     paths: tuple[FloatOrArray, FloatOrArray],
-    n: FloatOrArray,
-    after: FloatOrArray,
-    nu: FloatOrArray,
-    nu_after: FloatOrArray,
-    y: FloatOrArray,
-    chief_nu: FloatOrArray,
-    chief: FloatOrArray,
+    layers: Sequence[FloatOrArray],
     chief_nu_after: FloatOrArray,
 ) -> tuple:
     """Return the five sums of a diffractive surface that adds the ``paths`` (p, q): p·r² + q·r⁴.
 
+    ``shape``: its curvature and its fourth-order figure; ``chief_nu_after``: n'·ū' behind it.
     It is a thin lens of index N → ∞ whose second surface has N times as little between it and the first as the path
     that is added (Sweatt 1977). The sums of its two surfaces in `surface_sums` tend to those of either side, with
     u/n = 0 within, and what the second is figured by to −(8q − 2pc²)y⁴: along the normal the path is p·r², along the
     axis p·r²(1 + c²r²/2), and the sphere of its curvature, c + 2p/N, takes 3c²p·r⁴/4 of that.
     """
+    (c, figure), (n, after, nu, nu_after, y, chief_nu, chief) = shape, layers
     before = _side_sums(invariant, c, n, nu, y, chief_nu, chief)
     behind = _side_sums(invariant, c, after, nu_after, y, chief_nu_after, chief)
     second, fourth = paths
@@ -343,8 +347,12 @@ def coefficients(
     """
     # [()] turns arrays without axes into numbers, on which numpy is five times faster.
     wavelength_um, field_slope = (np.asarray(x, dtype=float)[()] for x in (wavelength_um, field_slope))
-    rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
-    spherical, coma, astigmatism, petzval, distortion = _unit_totals(lens, rays)
+    if stop is None and np.ndim(depth_mm) == 0 and np.ndim(wavelength_um) == 0:
+        rays, totals = _kept_totals(lens, float(cast(float, depth_mm)), float(wavelength_um), field)
+    else:
+        rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
+        totals = _unit_totals(lens, rays)
+    spherical, coma, astigmatism, petzval, distortion = totals
     waves = UM_PER_MM / wavelength_um
     index = rays.index[-1]
     square = field_slope * field_slope
