@@ -7,6 +7,7 @@ import numpy as np
 
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import nodes_along
+from p2sf.scene.pricing import computed_counts
 from p2sf.threads import for_each
 
 # Kernels of how many nodes are asked for at once: first, to see how large they are; then so many pixels, or nodes.
@@ -54,7 +55,7 @@ def build_lattice(
     so short that two threads mostly wait for the interpreter's lock: large arrays of other work keep both busy.
     """
     rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
-    down, right = ((len(n) + 1) // 2 if mirrored else len(n) for n in (rows, columns))
+    down, right = computed_counts((len(rows), len(columns)), mirrored)
     wanted = [(a, b) for a in range(down) for b in range(right)]
     watch = watch or Progress()
     watch.expect(len(wanted))

@@ -216,7 +216,7 @@ def _figures(lens: Lens, point: Source, clip: bool) -> tuple[float, float, float
     share = light_collected(lens, point, clip) / light_collected(lens, axis, clip)
     rays = pencil(lens, point, [0.0], [0.0])
     x, y = (float(np.ravel(place)[0]) for place in (rays.chief_x, rays.chief_y))
-    return y, x if lens.misaligned else 0.0, share
+    return y, x, share
 
 
 def _error(light: Light) -> float:

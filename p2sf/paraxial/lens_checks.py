@@ -31,6 +31,11 @@ def lens_checks(lens: Lens) -> tuple[Message, ...]:
     return (*(warning for warning in found if warning), *steps_between(lens))
 
 
+def unless_symmetric(lens: Lens, message: Message | None) -> Message | None:
+    """Return what is to be said of a lens that is tilted, decentred or not of revolution; None of another."""
+    return message if lens.misaligned else None
+
+
 def edge(surface: Surface) -> float:
     """Return the height at which a conicoid turns back on itself, |R|/√(1 + K), mm; inf for an open one."""
     if not isfinite(surface.radius) or surface.conic <= -1:

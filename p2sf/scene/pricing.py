@@ -1,7 +1,7 @@
 """How much a plan computes, and how much the full grid without a plan would."""
 
 from collections.abc import Sequence
-from math import ceil
+from math import ceil, prod
 
 import numpy as np
 
@@ -20,10 +20,16 @@ def mirrored(lens: Lens, scene: Scene) -> bool:
     return scene.sensor.centred and lens.mask.quartered and not lens.misaligned
 
 
+def computed_counts(counts: tuple[int, int], mirrored: bool) -> tuple[int, int]:
+    """Return how many of the kernel nodes along rows and columns are computed; where ``mirrored``, a quarter of all."""
+    rows, columns = counts
+    return (ceil(rows / 2), ceil(columns / 2)) if mirrored else counts
+
+
 def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:
     """Return the plan's work; its pupils were fitted while planning, unless each is fitted by itself."""
     sensor, waves = study.scene.sensor, sum(len(colour.wavelengths_um) for colour in colours)
-    nodes = ceil(counts[0] / 2) * ceil(counts[1] / 2) if mirrored(study.lens, study.scene) else counts[0] * counts[1]
+    nodes = prod(computed_counts(counts, mirrored(study.lens, study.scene)))
     halves, sides = _widths(study, recipe)
     kernels, side = nodes * layers * waves, float(np.sqrt(np.mean(np.square(sides))))
     fits = 0.0 if study.table else kernels * pupil_seconds(recipe.method, recipe.numbers or 6)

@@ -51,10 +51,9 @@ def amount(nodes: ClearNodes, waves: np.ndarray, shape: np.ndarray) -> float:
 def open_nodes(setup: ParaxialSetup, exact: bool, clip: bool) -> ClearNodes:
     """Return nodes over the part of the pupil that passes light; the six coefficients know no rims."""
     lens, source = setup.lens, setup.source
-    if exact and lens.mask.clear and not lens.misaligned:
+    if exact and lens.mask.clear:
         return pupil_samples(setup, True, "settled", clip)[0]
-    nodes = mask_nodes(mask_seen(lens, source), *RAYS)
-    nodes = nodes.unfolded() if lens.misaligned else nodes
+    nodes = lens.pupil_domain.over(mask_nodes(mask_seen(lens, source), *RAYS))
     if not exact:
         return nodes
     passed = pencil(lens, source, nodes.xi, nodes.eta, clip=clip).passed

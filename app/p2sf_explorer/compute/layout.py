@@ -12,6 +12,8 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, seen_from, with_sensor
 from p2sf.lens.misalignment import straightened
 from p2sf.lens.source import Source
+from p2sf.messages import Message
+from p2sf.paraxial.lens_checks import unless_symmetric
 from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
@@ -118,9 +120,9 @@ class Layout:
 
     ``sensor_half``: half the height of the drawn sensor, mm; it holds the chief ray of every field of the lens file.
     ``groups`` are the fans of rays "by field" and "by wavelength", none for those of the present source by their kind.
-    ``skew``: the lens is not symmetric, and what is drawn are its parts and rays seen along x; ``exaggerated``: by what
-    its tilts and decentres are enlarged, rays being those of the lens as it is; ``file_tilted``: the lens file has
-    others, which are not enlarged.
+    ``note``: says of a lens that is not symmetric how its parts and rays are seen; ``exaggerated``: by what its tilts
+    and decentres are enlarged, rays being those of the lens as it is; ``file_tilted``: the lens file has others, which
+    are not enlarged.
     """
 
     drawing: Drawing
@@ -132,7 +134,7 @@ class Layout:
     slope: float
     sensor_half: float
     groups: tuple[LayoutRays, ...] = ()
-    skew: bool = False
+    note: Message | None = None
     exaggerated: int = 1
     file_tilted: bool = False
 
@@ -179,7 +181,7 @@ def layout(
         slope=upright * setup.source.field_slope,
         sensor_half=sensor_half(setup.lens, rays),
         groups=groups,
-        skew=setup.lens.misaligned,
+        note=unless_symmetric(setup.lens, Message("not symmetric: sections seen along x")),
     )
 
 

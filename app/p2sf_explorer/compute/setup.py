@@ -319,13 +319,12 @@ def ranges(lens: Lens) -> Ranges:
 def state_ranges(state: State) -> Ranges:
     """Return the sliders' `ranges` for the lens of a state, whose build may be without symmetry."""
     found = ranges(prescription(state))
-    skew = any(kind in MOVES for kind, *_ in state.optics.errors)
-    return _both_sides(found) if skew and not found.both_sides else found
+    return _with_sides(found, found.both_sides or any(kind in MOVES for kind, *_ in state.optics.errors))
 
 
 @lru_cache(maxsize=8)
-def _both_sides(found: Ranges) -> Ranges:
-    return replace(found, both_sides=True)
+def _with_sides(found: Ranges, both: bool) -> Ranges:
+    return replace(found, both_sides=both)
 
 
 def _field_end(widest: float) -> float:

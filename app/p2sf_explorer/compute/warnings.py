@@ -8,15 +8,19 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, Number
-from p2sf.paraxial.lens_checks import lens_checks
+from p2sf.paraxial.lens_checks import lens_checks, unless_symmetric
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.trace import out_of_order
 from p2sf_explorer.compute.layout import RayPath
 from p2sf_explorer.compute.pupil import WavefrontMap, disc, strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
-from p2sf_explorer.state.panels import PANELS, REGISTRY, REMAINS
+from p2sf_explorer.state.panels import REGISTRY, REMAINS
 from p2sf_explorer.state.scales import significant
 
+OF_THE_ALIGNED = Message(
+    "Six coefficients are those of the aligned lens, without its tilts, decentres and irregularities; choose auto, "
+    "fitted or traced to see what these do."
+)
 DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
 TOGETHER = Message("bring focus and source together to see waves")
 NEARER = Message("stop down or go nearer the axis to see waves")
@@ -35,7 +39,7 @@ def warnings(
     """
     found = (
         _by_hand(setup),
-        _set_straight(setup) if pupil is None else None,
+        unless_symmetric(setup.lens, OF_THE_ALIGNED) if pupil is None and not setup.altered else None,
         _image_at_infinity(setup),
         _blurred(setup) if geometric else None,
         _lost(sum(ray.lost for ray in rays)),
@@ -72,20 +76,6 @@ def _by_hand(setup: ParaxialSetup) -> Message | None:
         return None
     panels = tuple(Message(entry.title) for entry in REGISTRY if entry.by_hand == REMAINS)
     return Message("What-if: coefficients altered by hand; of the lens itself remain: {panels}.", panels=panels)
-
-
-def _set_straight(setup: ParaxialSetup) -> Message | None:
-    if not setup.lens.misaligned or setup.altered:
-        return None
-    return Message(
-        "Six coefficients are those of the aligned lens, without its tilts, decentres and irregularities; choose "
-        "auto, fitted or traced to see what these do."
-    )
-
-
-def left_out(live_lens: Lens, panel: str) -> Message | None:
-    """Return what a panel leaves out of a lens; None where it leaves out nothing."""
-    return PANELS[panel].aligned if live_lens.misaligned else None
 
 
 def _image_at_infinity(setup: ParaxialSetup) -> Message | None:

@@ -190,7 +190,7 @@ def _traced(places: list[Found], what: str, quality: str) -> list[Found]:
 def _together(places: list[MatrixPoint], lens: Lens, clip: bool, what: str, quality: str) -> list[Traced | None]:
     """Return the rays of points of one lens; of each by itself where one chief ray is lost, None for that."""
     columns = (np.array([getattr(place.setup.source, name) for place in places]) for name in SOURCE)
-    if lens.misaligned and any(place.setup.source.azimuth_deg for place in places):  # each sees another lens
+    if any(place.setup.source.azimuth_deg for place in places):  # each sees another lens, or another mask
         return [_alone(place, what, quality) for place in places]
     try:
         rays = TRACES[what](lens, Sources(*columns), clip, quality)

@@ -23,6 +23,7 @@ from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.glass_outlines import Section
 from p2sf_explorer.compute.layout import Drawing, GlassOutline, Layout, LayoutRays, sensor_half
 from p2sf_explorer.compute.quantities import visible_colour
+from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.layout_view.drag import CURSORS, LayoutDrag
 from p2sf_explorer.layout_view.marks import ROW_PX, paint_marks
@@ -405,7 +406,7 @@ def fan_name(groups: tuple[LayoutRays, ...], number: int) -> str:
 
 def drawing_note(layout: Layout) -> str:
     """Return that the drawing is no section of symmetry, and by what it exaggerates; "" where neither is so."""
-    notes = [tr("not symmetric: sections seen along x")] if layout.skew else []
+    notes = [layout.note.text(WINDOW)] if layout.note else []
     if layout.exaggerated > 1:
         notes.append(tr(LARGER_WORDS[layout.file_tilted], factor=layout.exaggerated))
     return ", ".join(notes)

@@ -6,7 +6,7 @@ Only `question` runs on the live path; a worker runs `coarse` (some 0.2 s) and `
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import ceil, exp, hypot
+from math import ceil, exp, hypot, prod
 from pathlib import Path
 from threading import Event
 from time import perf_counter
@@ -31,6 +31,7 @@ from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
+from p2sf.scene.pricing import computed_counts
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.results.photos import MOST_PIXELS, NOISE, channels_of, cut_away, full_shape, own_shape, scene_values
 
@@ -54,8 +55,7 @@ def psf_counts(plan: Plan) -> tuple[Message, Message]:
     """Return how many PSFs make the picture, and the product that it is."""
     rows, columns = plan.counts
     waves = sum(len(colour.wavelengths_um) for colour in plan.colours)
-    mirrored = plan.mirrored and rows * columns > 1
-    places = (-(-rows // 2)) * (-(-columns // 2)) if mirrored else rows * columns
+    places = prod(computed_counts(plan.counts, plan.mirrored))
     product = {"rows": rows, "columns": columns, "waves": waves}
     return Message("{count} PSFs", count=places * waves), (
         Message("{rows} × {columns} places × {waves} wavelengths, mirror images at no cost", **product)

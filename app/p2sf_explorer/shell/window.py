@@ -20,13 +20,13 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow,
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf.paraxial.lens_checks import unless_symmetric
 from p2sf_explorer.accessibility.roles import install_roles
 from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, stylesheet, tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live, Refused
-from p2sf_explorer.compute.warnings import left_out
 from p2sf_explorer.docking.floating_panels import FloatingPanels, Home
 from p2sf_explorer.docking.stage import PanelRoom, ShareSplitter
 from p2sf_explorer.docking.tabs import Tabs
@@ -546,5 +546,5 @@ def paint(panel: Panel, key: str, live: Live) -> None:
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None
-    note = why or left_out(live.setup.lens, key)
+    note = why or unless_symmetric(live.setup.lens, PANELS[key].aligned)
     panel.widget.show_side("A" if why else live.side, said(note) if note else "")

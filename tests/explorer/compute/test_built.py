@@ -191,7 +191,7 @@ def test_a_drawing_exaggerates_places_alone_and_never_too_far():
     larger, factor = exaggerated(errors, 100)
     assert factor == 30 and larger == (("radius", 3, 3, 0.1), ("decentre_y", 3, 5, 3.0), ("tilt_x", 3, 5, 60.0))
     shown = live(of((("decentre_y", 3, 5, 0.1),), exaggerated=10), "preview").layout
-    assert shown.exaggerated == 10 and shown.skew
+    assert shown.exaggerated == 10 and shown.note
     first = next(o for o in shown.drawing.glass.outlines if o.surfaces == (3, 4))
     straight = next(o for o in live(of(()), "preview").layout.drawing.glass.outlines if o.surfaces == (3, 4))
     assert first.y - straight.y == pytest.approx(np.ones_like(first.y))
