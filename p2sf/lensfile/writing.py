@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf, isfinite
 from pathlib import Path
@@ -90,7 +90,7 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
     if lens.object_medium != AIR:
         lines.append(_zemax_glass(lens.object_medium))
     rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _zemax_rows(lens, number, stop)]
-    rows += [_zemax_break(*one) for placement in lens.sensor_before for one in break_rows(placement, 0.0)]
+    rows += [_zemax_break(one) for placement in lens.sensor_before for one in break_rows(placement, 0.0)]
     rows.append(["  TYPE STANDARD", "  CURV 0.0", "  DISZ 0"])
     lines += [line for number, row in enumerate(rows, 1) for line in (f"SURF {number}", *row)]
     return "\n".join([*lines, *_zemax_configurations(lens, stop), ""])
@@ -180,18 +180,17 @@ def _zemax_rows(lens: Lens, number: int, stop: int) -> list[list[str]]:
     open_wide = not isfinite(surface.semi_diameter) and not surface.inner_radius and not surface.rim
     idle = surface.bare and surface.medium == before and number != stop and open_wide
     if idle and breaks and not surface.after:  # as a coordinate break of a file is read
-        return [*(_zemax_break(*row) for row in breaks[:-1]), _zemax_break(*breaks[-1], surface.thickness)]
+        return [*map(_zemax_break, breaks[:-1]), _zemax_break(breaks[-1], surface.thickness)]
     behind = [row for placement in surface.after for row in break_rows(placement, 0.0)]
     own = _zemax_surface(lens, replace(surface, thickness=0.0) if behind else surface, number, stop)
-    rows = [*(_zemax_break(*row) for row in breaks), own, *(_zemax_break(*row) for row in behind[:-1])]
-    return [*rows, _zemax_break(*behind[-1], surface.thickness)] if behind else rows
+    rows = [*map(_zemax_break, breaks), own, *map(_zemax_break, behind[:-1])]
+    return [*rows, _zemax_break(behind[-1], surface.thickness)] if behind else rows
 
 
-def _zemax_break(
-    x: float, y: float, a: float, b: float, c: float, order: float, behind: float, more: float = 0.0
-) -> list[str]:
-    """Return the lines of a coordinate break: decentres, tilts, order and the thickness behind it."""
-    numbers = [f"  PARM {place} {digits(value)}" for place, value in enumerate((x, y, a, b, c), 1)]
+def _zemax_break(row: Sequence[float], more: float = 0.0) -> list[str]:
+    """Return the lines of a coordinate break of `break_rows`, with ``more`` thickness behind it."""
+    *moves, order, behind = row
+    numbers = [f"  PARM {place} {digits(value)}" for place, value in enumerate(moves, 1)]
     numbers.append(f"  PARM 6 {int(order)}")
     return ["  TYPE COORDBRK", "  CURV 0.0", *numbers, f"  DISZ {digits(behind + more)}"]
 

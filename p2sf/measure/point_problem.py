@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.measure.point_model import PictureOptics, SpectralSum
 from p2sf.measure.pupil_model import PupilModel
-from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, paraxial_nodes
+from p2sf.measure.pupil_nodes import PupilNodes, counts_for, mapped_nodes, open_nodes, paraxial_nodes
 from p2sf.pupil.mask import PupilMask, mask_slopes
 from p2sf.pupil.mask_nodes import ClearNodes
 
@@ -170,7 +170,9 @@ class Problem:
             return self._found
         if self.model.mapped:
             numbers = unknowns[: self.numbers]
-            self._take(mapped_nodes(self.model, numbers, self.counts, *self._pupil))
+            cycles, mask, wavelength, clear, azimuth = self._pupil
+            nodes = open_nodes(mask, self.counts, clear, azimuth)
+            self._take(mapped_nodes(self.model, numbers, nodes, cycles, wavelength, azimuth))
         rest, slopes = [], []
         for number, (data, root) in enumerate(zip(self.data, self.root, strict=True)):
             _, _, flux, background = self.frame(unknowns, number)

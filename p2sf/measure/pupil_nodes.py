@@ -65,15 +65,12 @@ def paraxial_nodes(
 def mapped_nodes(
     model: PupilModel,
     numbers: np.ndarray,
-    counts: Counts,
+    nodes: ClearNodes,
     cycles: float,
-    mask: PupilMask = CLEAR,
     wavelength_um: float = 1.0,
-    clear: ClearNodes | None = None,
     azimuth: float = 0.0,
 ) -> PupilNodes:
-    """Return nodes for the pupil map of a model's numbers, ξ and η along the axes of its field."""
-    nodes = open_nodes(mask, counts, clear, azimuth)
+    """Return open nodes with the pupil map of a model's numbers, ξ and η along the axes of its field."""
     xi, eta = turned(nodes.xi, nodes.eta, azimuth)
     _, across, along = model.split(numbers)
     odd, even = model.maps(xi, eta)

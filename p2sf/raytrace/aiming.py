@@ -248,7 +248,7 @@ def start(rays: PupilRays) -> Beam:
     """Return a new beam of these rays, positions from the first vertex."""
     scale = 1 / np.sqrt(1 + rays.slope_x * rays.slope_x + rays.slope_y * rays.slope_y)
     along = rays.slope_x * scale, rays.slope_y * scale, scale
-    beam = launch(rays.index[0], rays.wavelength_um, rays.x, rays.y, rays.plane, *along)
+    beam = launch(rays.index[0], rays.wavelength_um, (rays.x, rays.y, rays.plane), along)
     # The chief ray's slope leads from the source to the pupil's centre, 1/reach along the axis.
     beam.source = 0.0, -rays.chief_slope, rays.reach * rays.plane - 1, rays.reach
     if rays.stop_surface:

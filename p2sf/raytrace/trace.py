@@ -1,6 +1,6 @@
 """Exact skew rays through a whole lens (handbook 8.1)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -72,7 +72,7 @@ def trace(
         unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     index = per_ray(indices(lens, wavelength_um))
     waves = wavelength_um if np.ndim(wavelength_um) == 0 else np.asarray(wavelength_um)[..., None]
-    beam = launch(index[0], waves, *np.moveaxis(origins, -1, 0), *np.moveaxis(unit, -1, 0))
+    beam = launch(index[0], waves, np.moveaxis(origins, -1, 0), np.moveaxis(unit, -1, 0))
     beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # an origin or direction that is not finite
     places: list[np.ndarray] = []
     lost: list[np.ndarray] = []
@@ -118,17 +118,16 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
 def launch(
     index: FloatOrArray,
     wavelength_um: FloatOrArray,
-    x: FloatOrArray,
-    y: FloatOrArray,
-    z: FloatOrArray,
-    cosine_x: FloatOrArray,
-    cosine_y: FloatOrArray,
-    cosine_z: FloatOrArray,
+    position: Sequence[FloatOrArray],
+    direction: Sequence[FloatOrArray],
 ) -> Beam:
-    """Return a new beam of rays in a medium of this index: positions from the first vertex, mm, and unit cosines."""
-    shape = np.broadcast_shapes(*map(np.shape, (x, y, z, cosine_x, cosine_y, cosine_z, index)))
+    """Return a new beam of rays in a medium of this index.
+
+    ``position``: x, y and z from the first vertex, mm; ``direction``: the cosines with the axes.
+    """
+    shape = np.broadcast_shapes(*map(np.shape, (*position, *direction, index)))
     place, ray = np.empty((3, *shape)), np.empty((3, *shape))
-    for row, value in zip((*place, *ray), (x, y, z, cosine_x, cosine_y, cosine_z), strict=True):
+    for row, value in zip((*place, *ray), (*position, *direction), strict=True):
         row[...] = value
     ray *= index
     return Beam(place, ray, wavelength_um)

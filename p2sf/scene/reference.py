@@ -32,7 +32,7 @@ def reference_kernel(
         across, up = (UM_PER_MM * shift for shift in seen.shift_mm(x_mm, y_mm, wavelength))
         angle = np.deg2rad(source.azimuth_deg)
         along, aside = across * np.sin(angle) + up * np.cos(angle), across * np.cos(angle) - up * np.sin(angle)
-        kernel = exact_pixels(seen.lens, source, float(angle), half, pixel_um, float(along), seen.clip, float(aside))
+        kernel = exact_pixels(seen.lens, source, float(angle), half, pixel_um, (float(along), float(aside)), seen.clip)
         total = total + share * kernel
     return total
 
@@ -43,14 +43,14 @@ def exact_pixels(
     angle: float,
     half: int,
     pixel_um: float,
-    shift_um: float,
+    shift_um: tuple[float, float] = (0.0, 0.0),
     clip: bool = False,
-    aside_um: float = 0.0,
 ) -> np.ndarray:
     """Return one wavelength's light per pixel, unit sum, row 0 the top; ``angle`` of the field, radians from +y to +x.
 
-    ``shift_um``, ``aside_um``: where it lands along the field's direction and across.
+    ``shift_um``: where it lands along the field's direction and across.
     """
+    along_um, aside_um = shift_um
     # Its mask is turned, which stays in the lens, and so are a lens's tilts and decentres.
     seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))
     probe = pupil_nodes(lens, seen, PROBE, clip)
@@ -65,7 +65,7 @@ def exact_pixels(
     weight, across_f, along_f = rays.share * rays.amplitude, rays.fx, rays.fy
     sine, cosine = np.sin(angle), np.cos(angle)
     fx, fy = across_f * cosine + along_f * sine, along_f * cosine - across_f * sine
-    amplitude = pupil_amplitude(weight, rays.phase - along_f * shift_um - across_f * aside_um)
+    amplitude = pupil_amplitude(weight, rays.phase - along_f * along_um - across_f * aside_um)
     field = sum_plane_waves(amplitude, fx, fy, place, place, even=False)
     light = (field.real**2 + field.imag**2).reshape(size, len(share), size, len(share))
     pixels = np.einsum("aibj,i,j->ab", light, share, share)

@@ -75,8 +75,9 @@ class Scene:
     peak signal-to-noise ratio in dB of a picture of white noise between black and white. Pictures with most of their
     light at low frequencies come out better.
 
-    ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as the
-    lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths in mm.
+    ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
+    the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
+    mm.
     """
 
     sensor: Sensor

@@ -65,7 +65,7 @@ def test_a_kernel_is_the_light_of_the_reference_on_the_pixels(mask):
     """The plain sum to 1e-3 of interpolating the PSF, the transform to 2e-2: a clear disc's fit leaves 1.2e-2."""
     lens, source = with_mask(LENS, mask), Source(field_deg=10)
     wanted = pixels_of_psf(lens, source, ANGLE, HALF, PIXEL)
-    assert relative_l2(exact_pixels(lens, source, ANGLE, HALF, PIXEL, 0.0), wanted) < 1e-3
+    assert relative_l2(exact_pixels(lens, source, ANGLE, HALF, PIXEL), wanted) < 1e-3
     pupil = pupil_map(lens, source, "fitted")
     window = PixelWindow(half_width(pupil, PIXEL), PIXEL, samples_across(pupil, PIXEL, 2.0))
     assert relative_l2(cut(pixel_kernel(pupil, ANGLE, window), HALF), wanted) < 2e-2
@@ -163,7 +163,7 @@ def test_the_image_of_a_point_is_its_psf_within_what_the_plan_predicts(mask):
         source = planned.sensor_map(0.0).source(x, y, 0.546)
         half = 7
         part = found[row - half : row + half + 1, column - half : column + half + 1]
-        wanted = exact_pixels(lens, source, float(np.arctan2(x, y)), half, 4.0, 0.0)
+        wanted = exact_pixels(lens, source, float(np.arctan2(x, y)), half, 4.0)
         assert relative_l2(part / part.sum(), wanted) < planned.predicted_error
 
 
@@ -201,11 +201,11 @@ def test_holes_of_mirrors_end_the_light_of_pictures_where_rims_clip():
     source = Source(field_deg=0.1)
     pupil = pupil_map(lens, source, "fitted", clip=True)
     window = PixelWindow(half_width(pupil, 3.0), 3.0, samples_across(pupil, 3.0, 2.0))
-    wanted = exact_pixels(lens, source, ANGLE, HALF, 3.0, 0.0, clip=True)
+    wanted = exact_pixels(lens, source, ANGLE, HALF, 3.0, clip=True)
     assert relative_l2(cut(pixel_kernel(pupil, ANGLE, window), HALF), wanted) < 1e-2
     # The primary is the stop, so a ring there is the same, seen from any field.
     ring = with_mask(find_lens("cassegrain_f10"), PupilMask(obscuration=0.35))
-    assert relative_l2(exact_pixels(ring, source, ANGLE, HALF, 3.0, 0.0), wanted) < 1e-3
+    assert relative_l2(exact_pixels(ring, source, ANGLE, HALF, 3.0), wanted) < 1e-3
     assert illumination(sensor_map(lens, np.inf, 0.546, 3.0, True), Sensor(10, 10, 300.0)).min() > 0.99
 
 

@@ -15,7 +15,7 @@ from p2sf.measure.point_fit import fit_point
 from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
 from p2sf.measure.pupil_model import pupil_model
-from p2sf.measure.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, paraxial_nodes
+from p2sf.measure.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, open_nodes, paraxial_nodes
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import fit
@@ -78,7 +78,7 @@ def test_light_of_a_pupil_map_behind_a_mask_is_that_of_a_plain_sum(mask):
     waves = rng.normal(0, 0.1, len(model.wave_names))
     maps = model.paraxial_map + rng.normal(0, 0.01, len(model.map_names))
     numbers = np.concatenate([waves, maps])
-    nodes = mapped_nodes(model, numbers, (24, 64), NA / WAVE, mask, WAVE)
+    nodes = mapped_nodes(model, numbers, open_nodes(mask, (24, 64), None, 0.0), NA / WAVE, WAVE)
     light = PixelSum(nodes, (11, 11), PictureOptics(NA, WAVE, PIXEL, 0.0, mask)).light(
         waves @ model.waves(nodes.xi, nodes.eta) + nodes.waves
     )

@@ -46,7 +46,7 @@ def test_a_clipped_kernel_is_the_sum_of_the_rays_that_pass(name, degrees, pixel,
     lens, at = with_aim(find_lens(name), aim), source(degrees)
     pupil = pupil_map(lens, at, "fitted", clip=True)
     half = half_width(pupil, pixel)
-    good = exact_pixels(lens, at, ANGLE, half, pixel, 0.0, clip=True)
+    good = exact_pixels(lens, at, ANGLE, half, pixel, clip=True)
     assert relative(kernel_of(pupil, pixel, half), good) < 0.015
     assert relative(kernel_of(pupil_map(lens, at, "fitted"), pixel, half), good) > 0.05
 
@@ -57,7 +57,7 @@ def test_a_pupil_through_the_stop_has_the_weights_of_its_rays():
     pupil = pupil_map(lens, at, "fitted")
     assert np.ptp(pupil.weight[1:]) > 0.02
     half = half_width(pupil, 4.0)
-    good = exact_pixels(lens, at, ANGLE, half, 4.0, 0.0)
+    good = exact_pixels(lens, at, ANGLE, half, 4.0)
     assert relative(kernel_of(pupil, 4.0, half), good) < 0.01
     paraxial = pupil_map(with_aim(lens, "paraxial"), at, "fitted")
     assert not paraxial.weight.size

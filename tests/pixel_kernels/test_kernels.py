@@ -47,14 +47,14 @@ def test_the_fft_of_a_fitted_pupil_is_the_huygens_sum_of_exact_rays(degrees):
     half = half_width(pupil, PIXEL)
     wide = pixel_kernel(pupil, 0.0, PixelWindow(2 * half, PIXEL, 14))
     kernel = wide[half:-half, half:-half] / wide[half:-half, half:-half].sum()
-    assert relative(kernel, exact_pixels(lens, source(degrees), 0.0, half, PIXEL, 0.0)) < 5e-3
+    assert relative(kernel, exact_pixels(lens, source(degrees), 0.0, half, PIXEL)) < 5e-3
 
 
 def test_the_reference_of_pixels_is_the_reference_of_the_house_added_up():
     """9 × 9 samples a pixel instead of Gauss points: a pixel's rim falls a twentieth of it beside the truth."""
     lens = find_lens("double_gauss_28")
     fine = huygens_psf(lens, source(10), 25 * 9, PIXEL / 9).values.reshape(25, 9, 25, 9).sum((1, 3))[::-1]
-    assert relative(exact_pixels(lens, source(10), 0.0, 12, PIXEL, 0.0), fine / fine.sum()) < 5e-3
+    assert relative(exact_pixels(lens, source(10), 0.0, 12, PIXEL), fine / fine.sum()) < 5e-3
 
 
 @pytest.mark.parametrize("method", ["seidel", "fitted"])
@@ -83,7 +83,7 @@ def test_oblique_directions_are_turned_as_the_reference_is():
     pupil = pupil_map(lens, source(12), "fitted", GOOD)
     half = half_width(pupil, PIXEL)
     wide = pixel_kernel(pupil, angle, PixelWindow(2 * half, PIXEL, 8))[half:-half, half:-half]
-    good = exact_pixels(lens, source(12), angle, half, PIXEL, 0.0)
+    good = exact_pixels(lens, source(12), angle, half, PIXEL)
     assert relative(wide / wide.sum(), good) < 1e-2
     assert relative(wide[:, ::-1] / wide.sum(), good) > 0.1  # and the mirror image, a wrong sense of turning, is not
 
@@ -95,7 +95,7 @@ def test_pupils_of_a_misaligned_lens_are_turned_too():
     pupil, angle = pupil_map(lens, oblique, "fitted"), np.deg2rad(oblique.azimuth_deg)
     half = half_width(pupil, PIXEL)
     wide = pixel_kernel(pupil, angle, PixelWindow(2 * half, PIXEL, 8))[half:-half, half:-half]
-    good = exact_pixels(lens, oblique, angle, half, PIXEL, 0.0)
+    good = exact_pixels(lens, oblique, angle, half, PIXEL)
     assert relative(wide / wide.sum(), good) < 2.5e-3
     for other in (0.0, -angle):
         assert relative(pixel_kernel(pupil, other, PixelWindow(half, PIXEL, 8)), good) > 0.1

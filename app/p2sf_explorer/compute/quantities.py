@@ -7,7 +7,7 @@ from math import inf
 from typing import Any
 
 from p2sf.lens.positions import Kind
-from p2sf.parameters import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES
+from p2sf.parameters import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES, PARAMETERS
 from p2sf_explorer.compute.setup import Ranges, focus_place, zoom_place
 from p2sf_explorer.state.scales import (
     INFINITE,
@@ -202,7 +202,6 @@ F_NUMBER = Quantity(
 
 def _in_the_stop(
     key: str,
-    title: str,
     tip: str,
     scale: Scale,
     write: Callable[[float], str],
@@ -216,7 +215,9 @@ def _in_the_stop(
         given: float | None = entry(state, key)
         return float(getattr(ranges.mask, key)) if given is None else given
 
-    return Quantity(key, title, tip, lambda ranges: scale, write, read, shown, none, lambda ranges: ticks)
+    return Quantity(
+        key, PARAMETERS[key].control, tip, lambda ranges: scale, write, read, shown, none, lambda ranges: ticks
+    )
 
 
 def _whole(words: str) -> Callable[[str], float]:
@@ -253,7 +254,6 @@ READ_ANGLE = {"°": 1.0, "deg": 1.0}
 COMMON_BLADES, WIDE_VANE, NARROW_APODISATION, LARGE_CUBIC_UM = 16, 0.2, 0.3, 10.0
 OBSCURATION = _in_the_stop(
     "obscuration",
-    "Obscuration",
     "Obscuration ε: radius of the dark disc in the middle of the stop, as a share of the rim's. It blocks ε² of the "
     "light, narrows the core and brightens the rings.",
     Linear(0.0, LARGEST_OBSCURATION),
@@ -263,7 +263,6 @@ OBSCURATION = _in_the_stop(
 )
 BLADES = _in_the_stop(
     "blades",
-    "Blades",
     "Blades of the iris, their corners on the rim's circle; 0: round. An even number of blades gives as many spikes "
     "in the PSF, an odd number twice as many.",
     Stepped((0, *range(FEWEST_BLADES, COMMON_BLADES + 1))),
@@ -273,7 +272,6 @@ BLADES = _in_the_stop(
 )
 ROUNDNESS = _in_the_stop(
     "roundness",
-    "Roundness",
     "Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.",
     Linear(0.0, 1.0),
     lambda value: f"{value:.2f}",
@@ -282,7 +280,6 @@ ROUNDNESS = _in_the_stop(
 )
 BLADE_ANGLE = _in_the_stop(
     "blade_angle_deg",
-    "Blade angle",
     "Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.",
     Linear(-60.0, 60.0),
     _degrees,
@@ -291,7 +288,6 @@ BLADE_ANGLE = _in_the_stop(
 )
 VANES = _in_the_stop(
     "vanes",
-    "Vanes",
     "Vanes of the spider that holds the obscuration, from the middle to the rim, evenly spaced; 0: none. Each makes "
     "a spike at right angles to itself.",
     Stepped(tuple(range(MOST_VANES + 1))),
@@ -301,7 +297,6 @@ VANES = _in_the_stop(
 )
 VANE_WIDTH = _in_the_stop(
     "vane_width",
-    "Vane width",
     "Vane width, as a share of the rim's diameter.",
     Linear(0.0, WIDE_VANE),
     lambda value: f"{value:.3f}",
@@ -310,7 +305,6 @@ VANE_WIDTH = _in_the_stop(
 )
 VANE_ANGLE = _in_the_stop(
     "vane_angle_deg",
-    "Vane angle",
     "Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.",
     Linear(-180.0, 180.0),
     _degrees,
@@ -319,7 +313,6 @@ VANE_ANGLE = _in_the_stop(
 )
 APODISATION = _in_the_stop(
     "apodisation",
-    "Apodisation",
     "Apodisation: the radius, as a share of the rim's, where the amplitude has fallen to 1/e and the intensity to "
     "1/e²; ∞: uniform light. It dims the rings and widens the core.",
     Vergence(NARROW_APODISATION, 1.0),
@@ -330,7 +323,6 @@ APODISATION = _in_the_stop(
 )
 APODISATION_POWER = _in_the_stop(
     "apodisation_power",
-    "Apodisation power",
     "Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 is a Gaussian, a larger even number a super-Gaussian.",
     Stepped(tuple(range(2, MOST_POWER + 1, 2))),
     lambda value: f"{value:.0f}",
@@ -339,7 +331,6 @@ APODISATION_POWER = _in_the_stop(
 )
 CUBIC = _in_the_stop(
     "cubic_um",
-    "Cubic phase",
     "Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, so one "
     "deconvolution can remove the blur.",
     Linear(-LARGE_CUBIC_UM, LARGE_CUBIC_UM),
