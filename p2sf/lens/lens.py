@@ -22,7 +22,7 @@ from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, Sa
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
 from p2sf.notebook import html_table
-from p2sf.pupil.basis import PupilDomain
+from p2sf.pupil.basis import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 if TYPE_CHECKING:
@@ -330,7 +330,7 @@ class Lens:
     @cached_property
     def pupil_domain(self) -> PupilDomain:
         """Return which part of the pupil tells everything: half of it, or all where the lens is misaligned."""
-        return PupilDomain(symmetric=not self.misaligned)
+        return WHOLE if self.misaligned else HALF
 
     @cached_property
     def absorbs(self) -> tuple[bool, ...]:

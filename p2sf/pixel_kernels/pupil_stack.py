@@ -133,6 +133,14 @@ def _as_stack(pupil: PixelPupil | PupilStack) -> PupilStack:
     return PupilStack(**values)
 
 
+def stray_of(mask: PupilMask) -> float:
+    """Return the part of the light that may land outside the window: none behind a mask that is not round.
+
+    What is dark in some directions only may be where most of the light is.
+    """
+    return STRAY * mask.round
+
+
 def with_reach(pupils: PupilStack) -> PupilStack:
     """Return the pupils with the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
 
@@ -162,12 +170,11 @@ def with_reach(pupils: PupilStack) -> PupilStack:
             share=worst,
         )
     distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]
-    mask, stray = pupils.mask, STRAY
+    mask, stray = pupils.mask, stray_of(pupils.mask)
     if not mask.clear:
         xi, eta = pupils.xi @ at.xi, pupils.eta @ at.eta
         round_part = mask.round_part
         light = np.where(round_part.opens(xi, eta), light * round_part.amplitude(xi * inside, eta * inside) ** 2, 0.0)
-        stray *= mask.round  # what is dark in some directions only may be where most of the light is
     if mask.phased:
         slopes = mask_slopes(mask)
         steepest = (

@@ -15,6 +15,7 @@ from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.pixel_kernels.nodes import hats
+from p2sf.pixel_kernels.pupil_stack import stray_of
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_cells import turned_back
 from p2sf.raytrace.pencil import pencil
@@ -22,7 +23,6 @@ from p2sf.raytrace.seen_mask import mask_seen
 
 TRACED = 40, 120  # steps of radius, and of direction in each half of the disc: exact rays at their ends
 FINER = 5  # times as many cells either way, with rays interpolated between the exact ones
-STRAY = 2e-3  # of the light may land outside the window, as of a sum of waves
 RINGS = 2048
 CELLS = 7  # along the side of a pixel, in which rays are counted where part of it is sensitive
 
@@ -33,7 +33,7 @@ class RaySpread:
 
     Half a pencil has two ``sides``, 1 as it is and −1 mirrored; that of a lens without symmetry is whole.
 
-    ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but STRAY.
+    ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but `stray_of` it.
     ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.
     ``mask``: what of the light stands in the pupil keeps, in the axes of the field at +y; the shares are those without.
     """
@@ -80,7 +80,7 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
     spread = float(np.nanmax(np.hypot(rays.fx, rays.fy)))
     made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part, sides)
-    reach = _reach(np.hypot(x, y), made.passing(1, 0.0), STRAY if mask.round else 0.0)
+    reach = _reach(np.hypot(x, y), made.passing(1, 0.0), stray_of(mask))
     return replace(made, reach_um=reach, mask=mask)
 
 

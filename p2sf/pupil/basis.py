@@ -7,7 +7,7 @@ Whoever uses a basis need not ask which it is: a symmetric one has fewer terms a
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,19 +28,14 @@ RING_POWER = 1.3  # of a ring's radius: with 60 rays the terms of degree 8 have 
 
 @dataclass(frozen=True)
 class PupilDomain:
-    """The part of the disc that tells everything of a pupil: the half ξ > 0 where it is symmetric about η, or all."""
+    """The part of the disc that tells everything of a pupil: the half ξ > 0 where that is symmetric about η.
 
-    symmetric: bool = True
+    ``halves``: the signs of ξ of the half discs that belong to it. ``images``: those for which a point of it stands.
+    """
 
-    @cached_property
-    def halves(self) -> tuple[int, ...]:
-        """Return the signs of ξ of the half discs that belong to it."""
-        return (1,) if self.symmetric else (1, -1)
-
-    @cached_property
-    def images(self) -> tuple[int, ...]:
-        """Return the signs of ξ for which a point of it stands: its own and, where symmetric, its mirror image's."""
-        return (1, -1)[: 2 // len(self.halves)]
+    symmetric: ClassVar = True
+    halves: ClassVar[tuple[int, ...]] = (1,)
+    images: ClassVar[tuple[int, ...]] = (1, -1)
 
     def parities(self, odd: bool) -> tuple[bool, ...]:
         """Return whether terms are odd in ξ: those of a function that is so by symmetry, then any that it forbids."""
@@ -50,20 +45,48 @@ class PupilDomain:
         """Return points of the half disc ξ ≥ 0, and behind them their mirror images that belong to the domain too."""
         return np.concatenate([half * xi for half in self.halves]), np.tile(eta, len(self.halves))
 
-    def over(self, nodes: ClearNodes) -> ClearNodes:
-        """Return nodes that are known over half the disc, or over all of it, over the domain."""
-        return nodes if self.symmetric else nodes.unfolded()
-
     def nodes(self, counts: tuple[int, int]) -> ClearNodes:
         """Return the nodes of (radial, angular) ``counts``."""
         return (_kept_nodes if counts[0] * counts[1] <= MOST_KEPT else _kept_nodes.__wrapped__)(self, counts)
 
+    def over(self, nodes: ClearNodes) -> ClearNodes:
+        """Return nodes that are known over half the disc, or over all of it, over the domain."""
+        return nodes
+
     def sampling_rays(self, radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return ξ and η of radii × directions rays for a fit and of those held out, and the former's area weights."""
-        return (_half_rays if self.symmetric else _whole_rays)(radii, directions)
+        nodes = disc_nodes(radii, 2 * directions)
+        return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
 
 
-HALF, WHOLE = PupilDomain(), PupilDomain(False)
+@dataclass(frozen=True)
+class WholeDisc(PupilDomain):
+    """The domain of a pupil without symmetry."""
+
+    symmetric: ClassVar = False
+    halves: ClassVar[tuple[int, ...]] = (1, -1)
+    images: ClassVar[tuple[int, ...]] = (1,)
+
+    def over(self, nodes: ClearNodes) -> ClearNodes:
+        """Return nodes over the whole disc."""
+        return nodes.unfolded()
+
+    def sampling_rays(self, radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return rays: on every ring as many as the harmonics need that are not small there.
+
+        A term ρⁿ·cos mθ has n ≥ m, so that near the middle few directions do, while on the rim a polynomial of degree n
+        takes 2n + 1. With as many on all rings, the same number of rays tells some terms apart by rounding alone.
+        """
+        square, weight = gauss_legendre(radii)
+        rho, held = np.sqrt((1 + square) / 2), np.deg2rad(HELD_OUT_AROUND_DEG)
+        counts = ring_counts(rho, radii * directions)
+        angle = np.concatenate([(np.arange(count) + 0.25) * (2 * np.pi / count) for count in counts])
+        radius, share = np.repeat(rho, counts), np.repeat(weight / 2 / counts, counts)
+        xi, eta = radius * np.sin(angle), radius * np.cos(angle)
+        return np.append(xi, np.sin(held)), np.append(eta, np.cos(held)), share
+
+
+HALF, WHOLE = PupilDomain(), WholeDisc()
 
 
 @lru_cache(maxsize=32)
@@ -71,26 +94,6 @@ def _kept_nodes(domain: PupilDomain, counts: tuple[int, int]) -> ClearNodes:
     half = disc_nodes(*counts)
     nodes = domain.over(ClearNodes(half.xi, half.eta, half.weight, 1.0))
     return replace(nodes, xi=protected(nodes.xi), eta=protected(nodes.eta), weight=protected(nodes.weight))
-
-
-def _half_rays(radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    nodes = disc_nodes(radii, 2 * directions)
-    return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
-
-
-def _whole_rays(radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return rays over the whole disc: on every ring as many as the harmonics need that are not small there.
-
-    A term ρⁿ·cos mθ has n ≥ m, so that near the middle few directions do, while on the rim a polynomial of degree n
-    takes 2n + 1. With as many on all rings, the same number of rays tells some terms apart by rounding alone.
-    """
-    square, weight = gauss_legendre(radii)
-    rho, held = np.sqrt((1 + square) / 2), np.deg2rad(HELD_OUT_AROUND_DEG)
-    counts = ring_counts(rho, radii * directions)
-    angle = np.concatenate([(np.arange(count) + 0.25) * (2 * np.pi / count) for count in counts])
-    radius, share = np.repeat(rho, counts), np.repeat(weight / 2 / counts, counts)
-    xi, eta = radius * np.sin(angle), radius * np.cos(angle)
-    return np.append(xi, np.sin(held)), np.append(eta, np.cos(held)), share
 
 
 def ring_counts(rho: np.ndarray, total: int) -> np.ndarray:

@@ -7,7 +7,7 @@ point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
 See handbook 4.1.
 """
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import prod
 from threading import local
 from typing import Any
@@ -42,10 +42,10 @@ def sum_plane_waves(
     """
     amplitude, kx, ky = np.asarray(amplitude), np.asarray(kx), np.asarray(ky)
     x, y = (np.asarray(axis, dtype=kx.dtype) for axis in (x, y))
+    by_transform, block = (_even_nufft, _even_block) if even else (_nufft, _block)
     many = x.size * y.size > 1 and amplitude.shape[-1] * x.size * y.size > MOST_PRODUCTS
     if many and _evenly_spaced(x) and _evenly_spaced(y):
-        return _nufft(amplitude, kx, ky, x, y, even)
-    block = _even_block if even else _plain_block
+        return by_transform(amplitude, kx, ky, x, y)
     nodes = amplitude.shape[-1]
     parts = (slice(start, start + BLOCK) for start in range(0, nodes, BLOCK))
     return np.asarray(sum(block(amplitude[..., part], kx[..., part], ky[..., part], x, y) for part in parts))
@@ -59,30 +59,35 @@ def _evenly_spaced(axis: np.ndarray) -> bool:
     return bool(steps[0] > 0) and bool(np.ptp(steps) <= rounding)
 
 
-def _nufft(
-    amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray, even: bool
-) -> np.ndarray:
+def _even_nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return `_nufft` for nodes and their mirror images, of half the amplitude each.
+
+    About x = 0 the images' sum is the mirror image of that of the nodes. x and −x are both samples of an odd number.
+    """
+    if x[x.size // 2] == 0 and x.size > 1:
+        wide = x if x.size % 2 else np.append(x, -x[0])
+        field = _nufft(amplitude, kx, ky, wide, y)
+        even: np.ndarray = (field[..., : x.size] + field[..., ::-1][..., : x.size]) / 2
+        return even
+    both = np.concatenate([kx, -kx], axis=-1), np.concatenate([ky, ky], axis=-1)
+    return _nufft(np.concatenate([amplitude, amplitude], axis=-1) / 2, *both, x, y)
+
+
+def _nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return `sum_plane_waves` over evenly spaced axes by a non-uniform FFT of type 1, each set of nodes in turn."""
     shape = np.broadcast_shapes(amplitude.shape, kx.shape, ky.shape)
     sets = [np.broadcast_to(array, shape).reshape(-1, shape[-1]) for array in (amplitude, kx, ky)]
     steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
     middle = float(x[x.size // 2]), float(y[y.size // 2])  # where Fourier mode 0 is
-    # Even sums over half the nodes, as the mean of the other half's mirror image: Fourier modes need an odd number.
-    mirrored = even and middle[0] == 0 and x.size > 1
-    grid = y.size, x.size | 1 if mirrored else x.size
-    modes = tuple(length for length in grid if length > 1)
+    modes = tuple(axis.size for axis in (y, x) if axis.size > 1)
     transform, precision = _plan(modes, kx.dtype, shape[-1] <= FEW_NODES)
-    fields = np.empty((len(sets[0]), *grid), np.result_type(precision, np.complex64))
+    fields = np.empty((len(sets[0]), y.size, x.size), np.result_type(precision, np.complex64))
     for field, weight, across, up in zip(fields, *sets, strict=True):
-        if even and not mirrored:
-            weight, across, up = np.tile(weight / 2, 2), np.concatenate([across, -across]), np.tile(up, 2)
         if any(middle):
             weight = weight * np.exp(2j * np.pi * (across * middle[0] + up * middle[1]))
         turns = [np.ascontiguousarray(k, precision) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
         transform.setpts(*turns)
         transform.execute(weight.astype(fields.dtype), out=field.reshape(modes))
-    if mirrored:
-        fields = (fields[..., : x.size] + fields[..., ::-1][..., : x.size]) / 2
     return fields.astype(np.result_type(kx.dtype, np.complex64), copy=False).reshape(*shape[:-1], y.size, x.size)
 
 
@@ -114,39 +119,30 @@ def _new_plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> tuple[Any, 
     ), precision
 
 
-def _plain_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the block's sum from one real product at |x|, |y|: a(c + is)(c' + is') with the signs of x and y."""
+def _block(
+    amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray, kernels: int = 2
+) -> np.ndarray:
+    """Return the block's sum from one real product at |x|, |y|: a(c + is)(c' + is') with the signs of x and y.
+
+    ``kernels``: how many of cosine and sine there are along x.
+    """
     columns, from_column = np.unique(np.abs(x), return_inverse=True)
     rows, from_row = np.unique(np.abs(y), return_inverse=True)
-    waves = cosine_sine(kx[..., :, None] * columns, kx.dtype)
+    waves = cosine_sine(kx[..., :, None] * columns, kx.dtype)[:kernels]
     both = np.concatenate([*cosine_sine(rows[:, None] * ky[..., None, :], ky.dtype)], axis=-2)
     parts = [part[..., None] * wave for wave in waves for part in (amplitude.real, amplitude.imag)]
-    product = both @ np.concatenate(parts, axis=-1)
-    high, wide = rows.size, columns.size
-    quarters = [product[..., start : start + wide] for start in range(0, 4 * wide, wide)]
-    cosine, sine = quarters[0] + 1j * quarters[1], quarters[2] + 1j * quarters[3]
-    right = (1j * np.sign(x)).astype(cosine.dtype)
-    above = (1j * np.sign(y)).astype(cosine.dtype)[:, None]
-    halves = cosine[..., from_column] + right * sine[..., from_column]
-    upper, lower = halves[..., :high, :], halves[..., high:, :]
-    field: np.ndarray = upper[..., from_row, :] + above * lower[..., from_row, :]
+    table, high = both @ np.concatenate(parts, axis=-1), rows.size
+    table = table.reshape(*table.shape[:-1], len(waves), 2, columns.size)
+    sums = table[..., 0, :] + 1j * table[..., 1, :]  # (…, cosines and then sines of y, cosine and sine of x, columns)
+    above = (1j * np.sign(y)).astype(sums.dtype)[:, None, None]
+    sums = sums[..., :high, :, :][..., from_row, :, :] + above * sums[..., high:, :, :][..., from_row, :, :]
+    field: np.ndarray = sums[..., 0, :][..., from_column]
+    for sine in np.moveaxis(sums, -2, 0)[1:]:
+        field = field + (1j * np.sign(x)).astype(sums.dtype) * sine[..., from_column]
     return field
 
 
-def _even_block(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the block's sum from one real product at |x|, |y| only: half the kernels and half the products."""
-    columns, from_column = np.unique(np.abs(x), return_inverse=True)
-    rows, from_row = np.unique(np.abs(y), return_inverse=True)
-    across = cosine_sine(kx[..., :, None] * columns, kx.dtype)[0]
-    both = np.concatenate([*cosine_sine(rows[:, None] * ky[..., None, :], ky.dtype)], axis=-2)
-    parts = np.concatenate([part[..., None] * across for part in (amplitude.real, amplitude.imag)], axis=-1)
-    product, wide = both @ parts, columns.size
-    halves = product[..., : rows.size, :], product[..., rows.size :, :]
-    upright, odd = (half[..., :wide] + 1j * half[..., wide:] for half in halves)
-    sign = np.sign(y)[:, None]
-    field = upright[..., from_row, :] + (1j * sign).astype(upright.dtype) * odd[..., from_row, :]
-    mirrored: np.ndarray = field[..., from_column]
-    return mirrored
+_even_block = partial(_block, kernels=1)
 
 
 def _wave(cycles: np.ndarray) -> np.ndarray:

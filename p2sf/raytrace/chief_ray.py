@@ -17,6 +17,8 @@ from p2sf.raytrace.trace import run, status_message
 
 def check_chief_ray(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> None:
     """Raise GeometryError where the chief ray of a misaligned lens is lost, or meets a surface beyond its rim."""
+    if not lens.misaligned:
+        return
     if stop is None and isinstance(source, Source):
         _check_cached(lens, source)
     else:

@@ -298,9 +298,8 @@ def _with_chief(
     lens: Lens, source: Source | Sources, xi: ArrayLike, eta: ArrayLike, stop: Stop | None
 ) -> tuple[Lens, np.ndarray, np.ndarray]:
     """Return a lens as the source sees it, and pupil points with that of the chief ray behind them."""
-    if lens.misaligned:
-        lens = seen_from(lens, getattr(source, "azimuth_deg", 0.0))
-        check_chief_ray(lens, source, stop)
+    lens = seen_from(lens, getattr(source, "azimuth_deg", 0.0))
+    check_chief_ray(lens, source, stop)
     return lens, np.append(np.ravel(xi), 0.0), np.append(np.ravel(eta), 0.0)
 
 

@@ -6,9 +6,11 @@ PSF networks do with their last, linear layer.
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from time import process_time
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,8 +28,26 @@ from p2sf.representations.space import LensSpace, SpacePoints
 Weights = list[np.ndarray]
 """A matrix (inputs, outputs) and a vector (outputs,) for each layer, in turn."""
 
-FIELDS = (16, 3, 1500), (32, 3, 3000)  # units a layer, layers, steps of a network of pixels
-SCORES = (16, 2, 2, 2000), (32, 2, 8, 4000), (64, 2, 16, 4000)  # units, layers, rank, steps
+
+class FieldSize(NamedTuple):
+    """How large a network of pixels is: units a layer, layers, and steps of its training."""
+
+    units: int
+    layers: int
+    steps: int
+
+
+class ScoreSize(NamedTuple):
+    """How large a network of scores is: units a layer, layers, components, and steps of its training."""
+
+    units: int
+    layers: int
+    rank: int
+    steps: int
+
+
+FIELDS = FieldSize(16, 3, 1500), FieldSize(32, 3, 3000)
+SCORES = ScoreSize(16, 2, 2, 2000), ScoreSize(32, 2, 8, 4000), ScoreSize(64, 2, 16, 4000)
 TRAINED, TRAINED_SEED = 150, 11  # points at random beside the nodes
 PIXELS_A_STEP, DRAWN, PLACES_A_STEP = 4096, 32, 256
 LEARNING_RATE = 1.5e-2
@@ -95,13 +115,13 @@ def network_representations(space: LensSpace, exact: ExactPsfs, quick: bool = Fa
     cube = np.concatenate([space.grid(counts).cube, space.random(TRAINED, TRAINED_SEED).cube])
     points = space.at(cube)
     pictures = exact.at(points)
-    for sizes in FIELDS[:1] if quick else FIELDS:
-        yield _blur_field(space, exact, points, pictures, *sizes)
+    for of_field in FIELDS[:1] if quick else FIELDS:
+        yield _blur_field(space, exact, points, pictures, of_field)
     started = process_time()
-    basis = principal(pictures, max(rank for _, _, rank, _ in SCORES))
-    seconds = len(points) * exact.seconds + process_time() - started
-    for some in SCORES[:1] if quick else SCORES:
-        yield _score_network(space, points, pictures, basis, seconds, *some)
+    basis = principal(pictures, max(size.rank for size in SCORES))
+    lessons = Lessons(points, pictures, basis, len(points) * exact.seconds + process_time() - started)
+    for size in SCORES[:1] if quick else SCORES:
+        yield _score_network(space, lessons, size)
 
 
 def _in_half_precision(weights: Weights) -> tuple[Weights, int]:
@@ -126,7 +146,7 @@ def _pixels(space: LensSpace) -> np.ndarray:
 
 
 def _blur_field(
-    space: LensSpace, exact: ExactPsfs, points: SpacePoints, pictures: np.ndarray, units: int, layers: int, steps: int
+    space: LensSpace, exact: ExactPsfs, points: SpacePoints, pictures: np.ndarray, size: FieldSize
 ) -> Representation:
     """Return a network of (place, pixel) that gives the root of the intensity, relative to the picture's norm."""
     started = process_time()
@@ -153,10 +173,11 @@ def _blur_field(
             found = generator.permutation(np.minimum(np.searchsorted(edges, at), roots.size - 1))
             yield from (batch(drawn, chance) for drawn in np.split(found, DRAWN))
 
-    weights = started_weights([5, *[units] * layers, 1], generator)
-    kept, nbytes = _in_half_precision(trained(weights, batches(), steps))
+    weights = started_weights([5, *[size.units] * size.layers, 1], generator)
+    kept, nbytes = _in_half_precision(trained(weights, batches(), size.steps))
     seconds = len(points) * exact.seconds + process_time() - started
-    words = f"place and pixel to intensity, {layers} layers of {units} sines, 16 bits, {steps} steps of Adam"
+    layers = f"{size.layers} layers of {size.units} sines"
+    words = f"place and pixel to intensity, {layers}, 16 bits, {size.steps} steps of Adam"
     numbers = sum(w.size for w in kept)
     return Representation("neural", words, numbers, nbytes, seconds, partial(_field_psf, space, kept))
 
@@ -167,39 +188,40 @@ def _field_psf(space: LensSpace, weights: Weights, points: SpacePoints) -> np.nd
     return clipped_to_unit_sum(mirrored(np.square(np.maximum(roots, 0)), space.window.pixels))
 
 
-def _score_network(
-    space: LensSpace,
-    points: SpacePoints,
-    pictures: np.ndarray,
-    components: np.ndarray,
-    seconds: float,
-    units: int,
-    layers: int,
-    rank: int,
-    steps: int,
-) -> Representation:
+@dataclass(frozen=True, eq=False)
+class Lessons:
+    """What networks of scores learn from: pictures at points, their principal components, and what these took."""
+
+    points: SpacePoints
+    pictures: np.ndarray
+    components: np.ndarray
+    seconds: float
+
+
+def _score_network(space: LensSpace, lessons: Lessons, size: ScoreSize) -> Representation:
     """Return a network of place that gives the scores of principal components."""
     started = process_time()
     generator = np.random.default_rng(SEED)
-    basis, nbytes = stored(components[: rank + 1], 8)
-    scores = scores_of(pictures, basis).astype(np.float32)
+    basis, nbytes = stored(lessons.components[: size.rank + 1], 8)
+    scores = scores_of(lessons.pictures, basis).astype(np.float32)
     scale = float(np.sqrt(np.square(scores).sum(1).mean()))
     # Relative errors of a picture are to count alike for all.
-    share = 1 / np.square(np.linalg.norm(pictures, axis=(1, 2)))[:, None]
+    share = 1 / np.square(np.linalg.norm(lessons.pictures, axis=(1, 2)))[:, None]
     share = (share / share.mean() / PLACES_A_STEP).astype(np.float32)
-    places = _places(points.cube)
+    places = _places(lessons.points.cube)
 
     def batches() -> Batches:
         while True:
             which = generator.integers(len(places), size=PLACES_A_STEP)
             yield places[which], scores[which] / scale, share[which]
 
-    weights = started_weights([3, *[units] * layers, rank], generator)
-    weights = trained(weights, batches(), steps)
+    weights = started_weights([3, *[size.units] * size.layers, size.rank], generator)
+    weights = trained(weights, batches(), size.steps)
     weights[-2:] = [scale * w for w in weights[-2:]]
     kept, own = _in_half_precision(weights)
-    seconds += process_time() - started
-    words = f"place to {rank} scores, {layers} layers of {units} sines, components in 8 bits, {steps} steps of Adam"
+    seconds = lessons.seconds + process_time() - started
+    layers = f"{size.layers} layers of {size.units} sines"
+    words = f"place to {size.rank} scores, {layers}, components in 8 bits, {size.steps} steps of Adam"
     numbers = sum(w.size for w in kept) + right_half(basis).size
     psf = partial(_score_psf, space, right_half(basis), kept)
     return Representation("neural", words, numbers, own + nbytes, seconds, psf)

@@ -115,8 +115,7 @@ def _base_ray(lens: Lens, source: Source) -> tuple[np.ndarray, np.ndarray]:
 
     Both complex, y + ix in the axes of each surface, (surfaces,) and (surfaces + 1,).
     """
-    if lens.misaligned:
-        check_chief_ray(lens, source)
+    check_chief_ray(lens, source)
     beam = start(rays := pupil_rays(lens, source, np.zeros(1), np.zeros(1)))
     heights, angles = [], []
 
