@@ -41,10 +41,11 @@ def sum_plane_waves(
     more than MANY_SAMPLES samples to COARSE_ERROR.
     """
     amplitude, kx, ky = np.asarray(amplitude), np.asarray(kx), np.asarray(ky)
+    square = x is y
     x, y = (np.asarray(axis, dtype=kx.dtype) for axis in (x, y))
     by_transform, block = (_even_nufft, _even_block) if even else (_nufft, _block)
     many = x.size * y.size > 1 and amplitude.shape[-1] * x.size * y.size > MOST_PRODUCTS
-    if many and _evenly_spaced(x) and _evenly_spaced(y):
+    if many and _evenly_spaced(x) and (square or _evenly_spaced(y)):
         return by_transform(amplitude, kx, ky, x, y)
     nodes = amplitude.shape[-1]
     parts = (slice(start, start + BLOCK) for start in range(0, nodes, BLOCK))

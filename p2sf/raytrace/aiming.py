@@ -434,7 +434,11 @@ def _difference_mm(enter: Entrance) -> float:
 
 def _beside(x: np.ndarray, y: np.ndarray, step: float) -> Point:
     """Return each point and its neighbours ``step`` mm away in x and in y, on a new first axis."""
-    return np.stack([x, x + step, x]), np.stack([y, y, y + step])
+    beside = np.empty((2, 3, *x.shape))
+    beside[0], beside[1] = x, y
+    beside[0, 1] += step
+    beside[1, 2] += step
+    return beside[0], beside[1]
 
 
 def _at_stop(lens: Lens, enter: Entrance, points: Point, part: float = 1.0) -> Beam:
@@ -502,11 +506,13 @@ def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None") -> Point | Non
     nodes, rim = _terms_at(lens, ROUGH_ORDER), float(np.max(enter.stop.semi_diameter))
     x, y = _first_order_points(enter, chief, nodes.xi, nodes.eta)
     beam = _at_stop(lens, enter, (x, y))
-    met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
-    if not met.any():
-        return None
     scale = enter.upright / rim
-    landed = np.where(met, scale * beam.x, nodes.xi), np.where(met, scale * beam.y, nodes.eta)
+    landed = scale * beam.x, scale * beam.y
+    if beam.status.any():
+        met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
+        if not met.any():
+            return None
+        landed = np.where(met, landed[0], nodes.xi), np.where(met, landed[1], nodes.eta)
     even, odd = basis_by_powers(ROUGH_ORDER, *landed)
     if chief is not None:
         even = odd = np.concatenate([even, odd], axis=-2)

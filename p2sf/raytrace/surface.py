@@ -135,8 +135,10 @@ def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Norm
     return None
 
 
-def _conic_step(beam: Beam, curvature: float, conic: float, index: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
-    """Carry every ray to the plane of the vertex; return the step from there to a conicoid, and (n·cosI·|normal|)².
+def _conic_step(
+    beam: Beam, curvature: float, conic: float, index: FloatOrArray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Carry every ray to the plane of the vertex; return the step to a conicoid, n·cosI·|normal|, its square.
 
     Of the two intersections, the one where light crosses the sheet through the vertex from front to back; written
     as F/(G + root) it needs no special case for a plane (Welford 1986, §4.3, with optical cosines).
@@ -151,20 +153,20 @@ def _conic_step(beam: Beam, curvature: float, conic: float, index: FloatOrArray)
     np.subtract(beam.r, g, out=g)
     square = g * g
     square -= f * (curvature * (index * index + (conic * beam.r * beam.r if conic else 0.0)))
-    g += _along(np.sqrt(square), index)
+    along = _along(np.sqrt(square), index)
+    g += along
     f /= g
-    return f, square
+    return f, along, square
 
 
 def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
     curvature, conic = surface.curvature, surface.conic
-    step, along_square = _conic_step(beam, curvature, conic, index)
+    step, along, along_square = _conic_step(beam, curvature, conic, index)
     beam.advance(step, index)
     # Past its equator the sheet through the vertex ends; NaN, a miss, fails this test too.
     depth = beam.z.max() if curvature > 0 else beam.z.min()
     if not curvature * (1 + conic) * depth < 1:
         beam.fail(~(curvature * (1 + conic) * beam.z < 1), Status.MISSED, number)
-    along = _along(np.sqrt(along_square), index)
     if not conic:
         return Normal(curvature, None, None, along, along_square)
     bulge = curvature * beam.z
@@ -179,7 +181,7 @@ def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int
 
     A ray for which it does not converge is refused.
     """
-    step, _ = _conic_step(beam, surface.curvature, surface.conic, index)
+    step, *_ = _conic_step(beam, surface.curvature, surface.conic, index)
     beam.advance(np.where(np.isfinite(step), step, 0.0), index)
     uneven = None
     for _ in range(NEWTON_STEPS):

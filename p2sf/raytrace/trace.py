@@ -125,7 +125,7 @@ def launch(
 
     ``position``: x, y and z from the first vertex, mm; ``direction``: the cosines with the axes.
     """
-    shape = np.broadcast_shapes(*map(np.shape, (*position, *direction, index)))
+    shape = np.broadcast(*position, *direction, index).shape
     place, ray = np.empty((3, *shape)), np.empty((3, *shape))
     for row, value in zip((*place, *ray), (*position, *direction), strict=True):
         row[...] = value
