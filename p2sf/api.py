@@ -7,7 +7,6 @@ quantity is converted to the unit that the name of its parameter ends in.
 """
 
 import os
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
@@ -148,7 +147,7 @@ def render(
         psf = render_integrated(
             setup.lens, setup.source, method, pixels, pixel_um, tolerance, quality, clip, integrated
         )
-    return warned(replace(psf, azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 5)
+    return warned(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 5)
 
 
 @checked

@@ -1,6 +1,6 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -238,7 +238,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
     made = render_integrated(
         setup.lens, setup.source, method, picture.side, picture.pixel_um, picture.tolerance, clip=picture.clip
     )
-    return replace(made, azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
+    return made.with_fields(azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:

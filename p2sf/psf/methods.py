@@ -312,11 +312,11 @@ def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     psf = seidel_psf(c, *asked.window, asked.quality, mask=mask_seen(lens, source))
     if asked.by_hand:
         return psf
-    psf = replace(psf, predicted_error=seidel_error(lens, source, c))
+    psf = psf.with_fields(predicted_error=seidel_error(lens, source, c))
     straight = Message(
         "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
     )
-    return replace(psf, sampling=straight) if lens.misaligned else psf
+    return psf.with_fields(sampling=straight) if lens.misaligned else psf
 
 
 def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:

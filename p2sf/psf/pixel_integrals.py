@@ -4,7 +4,6 @@ Samples farther apart than λ/(4 NA) miss the rings between them, and none stand
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -98,9 +97,8 @@ def integrated(
     share = light.sum((-2, -1))  # of the light in the finer window, which may be a little larger
     energy = None if fine.energy is None else fine.energy * (share if share.ndim else float(share))
     if points is not None:
-        return replace(points, energy=energy)
-    return replace(
-        fine,
+        return points.with_fields(energy=energy)
+    return fine.with_fields(
         values=light / share[..., None, None],
         pixel_um=pixel_um,
         energy=energy,
@@ -139,7 +137,7 @@ def render_integrated(
         float(critical_pixel_um(c.wavelength_um, c.na)),
         wanted,
     )
-    return psf if psf.energy is not None else replace(psf, energy=light_of_rays(lens, source, psf, clip))
+    return psf if psf.energy is not None else psf.with_fields(energy=light_of_rays(lens, source, psf, clip))
 
 
 def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:

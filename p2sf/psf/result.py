@@ -111,6 +111,11 @@ class Psf:
     peak_um: OnDemand[tuple[float, float] | np.ndarray | None] = OnDemand()
     sum_over_peak: float | np.ndarray | None = None
 
+    def with_fields(self, **values: Any) -> "Psf":
+        """Return the same PSF but for these fields; figures not worked out yet stay so, unlike with `replace`."""
+        own = {name.removeprefix("_"): value for name, value in vars(self).items()}
+        return Psf(**own | values)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return Psf, tuple(getattr(self, field.name) for field in fields(self))
 

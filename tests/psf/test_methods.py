@@ -239,7 +239,7 @@ def test_every_list_of_methods_names_those_there_are():
     """Types and defaults of the library and the command line are written out; the list of methods is what counts."""
     wanted = {methods.AUTO, *NAMES}
     assert set(get_args(api.Method)) == wanted
-    assert set(inspect.signature(api.tradeoff).parameters["methods"].default) == set(NAMES)
+    assert set(inspect.signature(tradeoff).parameters["methods"].default) == set(NAMES)
     described = {method.name for method in methods.METHODS if method.pupil}
     assert set(PUPILS) == described and set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
     assert {method.name for method in methods.METHODS if method.reason} == described  # those that `choose` takes

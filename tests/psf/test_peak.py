@@ -156,3 +156,11 @@ def test_figures_given_as_functions_are_asked_for_once_and_travel_as_numbers():
     assert (psf.strehl, copy.strehl, copy.energy, copy.peak_um, len(calls)) == (0.25, 0.25, 0.5, None, 1)
     with pytest.raises(FrozenInstanceError):
         psf.strehl = 1.0
+
+
+def test_a_rendered_preview_looks_for_its_peak_when_that_is_read():
+    source = Source(field_deg=(0.6, 0.8))  # which is given its azimuth, after its method its error
+    psf = p2sf.render(find_lens("achromat_f6"), source, "seidel", quality="preview")
+    assert callable(vars(psf)["_peak_um"]) and psf.azimuth_deg and psf.predicted_error is not None
+    again = psf.with_fields(seconds=0.0)
+    assert again.strehl == psf.strehl and again.peak_um == psf.peak_um and again.values is psf.values
