@@ -23,18 +23,17 @@ SECTIONS = 16  # of each direction in each round: one trace of many rays costs l
 
 @dataclass(frozen=True, eq=False)
 class ClearRim:
-    """The clear part of the pupil, star-shaped about ``centre`` on the η axis; mirrored at ξ = 0.
+    """The clear part of the pupil, star-shaped about (``aside``, ``centre``).
 
-    ``theta``: (directions,) angles from +η, midway between multiples of π/directions; ``radius`` of the rim along them.
-    Unless ``even``, as that of a misaligned lens, the centre lies ``aside`` at ξ, and twice as many directions go once
-    around.
+    ``theta``: (directions,) angles from +η towards +ξ once around, the first half a step behind 0; ``radius`` of the
+    rim along them. ``even``: whether the half ξ < 0 mirrors the other.
     """
 
     centre: float
     theta: np.ndarray
     radius: np.ndarray
-    aside: float = 0.0
-    even: bool = True
+    aside: float
+    even: bool
 
     @property
     def points(self) -> tuple[np.ndarray, np.ndarray]:
@@ -42,26 +41,26 @@ class ClearRim:
         return self.aside + self.radius * np.sin(self.theta), self.centre + self.radius * np.cos(self.theta)
 
     def outline(self) -> np.ndarray:
-        """Return ξ and η of the closed rim of an even part, (2, 2·directions + 1)."""
-        right = self.points
-        left = -right[0][::-1], right[1][::-1]
-        return np.stack([np.concatenate([r, m, r[:1]]) for r, m in zip(right, left, strict=True)])
+        """Return ξ and η of the closed rim, (2, directions + 1)."""
+        return np.stack([np.append(one, one[:1]) for one in self.points])
 
     def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return how far beyond the rim of an even part points lie, pupil radii along directions; negative inside."""
-        away = eta - self.centre
-        place = np.arctan2(np.abs(xi), away) * (self.theta.size / np.pi) + 0.5
+        """Return how far beyond the rim points lie, pupil radii along directions; negative inside."""
+        across, away = xi - self.aside, eta - self.centre
+        place = (np.arctan2(across, away) / (2 * np.pi) % 1) * self.theta.size + 0.5
         left = np.minimum(place.astype(np.intp), self.theta.size)
-        ends = np.concatenate([self.radius[:1], self.radius, self.radius[-1:]])
-        excess: np.ndarray = np.hypot(xi, away) - ends[left] - (place - left) * (ends[1:] - ends[:-1])[left]
+        ends = np.concatenate([self.radius[-1:], self.radius, self.radius[:1]])
+        excess: np.ndarray = np.hypot(across, away) - ends[left] - (place - left) * (ends[1:] - ends[:-1])[left]
         return excess
 
     def nodes(self, radii: int) -> ClearNodes:
-        """Return Gauss–Legendre nodes in ρ² up to the rim along each direction."""
+        """Return Gauss–Legendre nodes in ρ² up to the rim along each direction, of an even part over its half."""
+        used = slice(self.theta.size // 2 if self.even else None)
+        radius, theta = self.radius[used], self.theta[used]
         square, weight = gauss_legendre(radii)
-        rho = np.sqrt((1 + square) / 2)[:, None] * self.radius
-        area = (weight[:, None] / 2 * self.radius**2 / self.radius.size).ravel()
-        xi, eta = self.aside + rho * np.sin(self.theta), self.centre + rho * np.cos(self.theta)
+        rho = np.sqrt((1 + square) / 2)[:, None] * radius
+        area = (weight[:, None] / 2 * radius**2 / radius.size).ravel()
+        xi, eta = self.aside + rho * np.sin(theta), self.centre + rho * np.cos(theta)
         return ClearNodes(xi.ravel(), eta.ravel(), area / area.sum(), min(float(area.sum()), 1.0), even=self.even)
 
 
@@ -90,4 +89,5 @@ def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: i
         inside = np.logical_and.accumulate(rays.passed.reshape(radii.shape)).sum(axis=0)
         part = (high - low) / SECTIONS
         low, high = low + inside * part, low + np.minimum(inside + 1, SECTIONS) * part
-    return ClearRim(centre, theta, (low + high) / 2, aside, even)
+    radius, around = (low + high) / 2, (np.arange(2 * directions) + 0.5) * (np.pi / directions)
+    return ClearRim(centre, around, np.append(radius, radius[::-1]) if even else radius, aside, even)

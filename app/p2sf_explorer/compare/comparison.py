@@ -9,13 +9,13 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
+from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of_samples
 from p2sf.psf.methods import PsfRequest
 from p2sf_explorer.compare.differences import subtracted
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
-from p2sf_explorer.compute.pupil import WavefrontMap, disc, pupil_map
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.pinning import side_b
@@ -135,7 +135,7 @@ def difference(a: Live, b: Live) -> Difference:
     peak = max(float(a.psf.values.max()), float(b.psf.values.max())) or 1.0
     pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
     least = min((a.pupil, b.pupil), key=lambda side: side.clear)
-    common = pupil_map(pupil, disc(len(pupil))[2], DIFFERENCE)  # without the pixel that maps go on beyond the rim
+    common = map_of_samples(pupil, disc(len(pupil))[2], DIFFERENCE)  # without the pixel that maps go on beyond the rim
     minus = replace(
         common,
         waves=pupil,

@@ -3,13 +3,13 @@
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.metrics.wavefront_map import samples_of_rays
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.tilt import without_tilt
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf_explorer.compute.pupil import pupil_samples
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.what_if import check_focusable
@@ -52,7 +52,7 @@ def open_nodes(setup: ParaxialSetup, exact: bool, clip: bool) -> ClearNodes:
     """Return nodes over the part of the pupil that passes light; the six coefficients know no rims."""
     lens, source = setup.lens, setup.source
     if exact and lens.mask.clear:
-        return pupil_samples(setup, True, "settled", clip)[0]
+        return samples_of_rays(lens, source, "settled", clip).nodes
     nodes = lens.pupil_domain.over(mask_nodes(mask_seen(lens, source), *RAYS))
     if not exact:
         return nodes

@@ -8,12 +8,13 @@ from typing import Any
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
+from p2sf.metrics.wavefront_map import WavefrontMap
 from p2sf.psf.methods import PsfRequest
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.method import ALONE, Least, Rendered, rendered
-from p2sf_explorer.compute.pupil import WavefrontMap, dominant, pupil_of
+from p2sf_explorer.compute.pupil import dominant, pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.compute.warnings import warnings
 from p2sf_explorer.state.state import State

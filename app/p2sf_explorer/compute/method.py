@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.messages import Message
+from p2sf.metrics.wavefront_map import WavefrontMap
 from p2sf.paraxial.seidel import Coefficients, without_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
@@ -35,7 +36,6 @@ from p2sf_explorer.compute.preview import (
     preview_psf,
     preview_pupil,
 )
-from p2sf_explorer.compute.pupil import WavefrontMap
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.compute.warnings import remedy
 from p2sf_explorer.state.scales import nice

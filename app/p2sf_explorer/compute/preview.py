@@ -10,6 +10,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
+from p2sf.metrics.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
 from p2sf.psf.picture import Origin, psf_of_waves
 from p2sf.psf.plane_waves import disc_words, window_reach_um
@@ -20,7 +21,6 @@ from p2sf.raytrace.fit import FittedPencil, Level, fit, fit_rays, level_rays, le
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.vignetting import CLIPPED
-from p2sf_explorer.compute.pupil import WavefrontMap, map_behind, pupil_terms
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
@@ -137,10 +137,15 @@ def preview_pupil(traced: Preview) -> WavefrontMap:
     """Return the displayed wavefront over the pupil: the terms that fit that of the level's rays."""
     setup = traced.setup
     waves = opd_on_sphere(traced.rays, exit_radius(setup.lens, setup.source, traced.rays, setup.stop))
-    return map_behind(setup, _projection(first_level(setup.lens)) @ waves, "preview")
+    level = first_level(setup.lens)
+    return map_of_terms(setup.lens, setup.source, _map_terms(level), _projection(level) @ waves)
 
 
 @lru_cache(maxsize=2)
 def _projection(level: Level) -> np.ndarray:
     """Return the least-squares inverse from the rays' waves to the terms of the pupil map, (terms, rays)."""
-    return np.linalg.pinv(pupil_terms("preview", not level.basis.domain.symmetric, *points(level)).T)
+    return np.linalg.pinv(_map_terms(level).at(*points(level)).T)
+
+
+def _map_terms(level: Level) -> MapTerms:
+    return MapTerms("preview", level.basis.domain.symmetric)

@@ -4,6 +4,7 @@ import numpy as np
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath
 
+from p2sf.metrics.wavefront_map import CIRCLE
 from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.contour import contours, interval
@@ -12,7 +13,6 @@ from p2sf_explorer.charts.plots import HeatMap
 from p2sf_explorer.charts.surface_plot import SurfaceView
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.pupil import CIRCLE
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.camera import SceneCamera
 from p2sf_explorer.state.scales import significant

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.messages import Message, Number
+from p2sf.metrics.wavefront_map import WavefrontSamples, samples_of_coefficients, samples_of_rays
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
 from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decomposed, open_nodes, pupil_opd
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.pupil import pupil_samples
 from p2sf_explorer.results.first_order import NONE, Row
 from p2sf_explorer.state.scales import signed
 
@@ -27,11 +27,19 @@ def zernike(live: Live) -> ZernikeView:
     """Return the terms of the wavefront over the part of the pupil that passes light (handbook 3.4)."""
     exact = live.pupil.kind == "exact rays"
     if live.setup.lens.mask.clear:
-        nodes, waves, _ = pupil_samples(live.setup, exact, live.quality, live.state.optics.clip)
+        samples = _samples(live, exact)
+        nodes, waves = samples.nodes, samples.waves
     else:
         nodes, waves = _over_the_ring(live, exact)
     fits = {order: decomposed(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
     return ZernikeView(fits, live.pupil.kind)
+
+
+def _samples(live: Live, exact: bool) -> WavefrontSamples:
+    setup = live.setup
+    if exact:
+        return samples_of_rays(setup.lens, setup.source, live.quality, live.state.optics.clip)
+    return samples_of_coefficients(setup.coefficients, live.quality)
 
 
 def _over_the_ring(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:

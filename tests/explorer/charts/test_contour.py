@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from p2sf.metrics.wavefront_map import disc
 from p2sf_explorer.charts.contour import contours, finer, interval
-from p2sf_explorer.compute.pupil import disc
 
 
 def sampled(function, count=96):

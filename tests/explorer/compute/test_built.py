@@ -11,6 +11,7 @@ from p2sf.lens.misalignment import displaced, straightened
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.metrics.wavefront_map import disc
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import stop_rim
 from p2sf.raytrace.pencil import displayed_opd, opd_map, pencil, pupil_grid, reaching_by_surfaces
@@ -19,7 +20,7 @@ from p2sf.tolerance.nodal import exact_aberrations
 from p2sf_explorer.compute.glass_outlines import Section
 from p2sf_explorer.compute.layout import layout_of
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.pupil import disc, pupil_of
+from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import built, paraxial_setup, prescription, with_lens
 from p2sf_explorer.results.field_map import field_map
 from p2sf_explorer.state.build_errors import renumbered, with_error, without_piece

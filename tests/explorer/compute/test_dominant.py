@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from p2sf.messages import Message
+from p2sf.metrics.wavefront_map import WavefrontMap, disc
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.pupil import WavefrontMap, disc, dominant, pupil_of, strongest, variance_parts
+from p2sf_explorer.compute.pupil import dominant, pupil_of, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
 from p2sf_explorer.state.state import State, changed, new_state

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from p2sf.errors import P2SFError
+from p2sf.metrics.wavefront_map import disc
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared
 from p2sf.psf.geometric import geometric_psf
 from p2sf.pupil.mask import PupilMask
+from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
+from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import amount, best_shift_um, open_nodes
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.pupil import disc, pupil_of
+from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.results.profiles import fine_lines
 from p2sf_explorer.results.rays import ray_errors, spots
@@ -52,6 +55,29 @@ def test_the_moving_picture_is_the_settled_one_on_fewer_samples(mask, method):
     assert step * settled.pixel_um == pytest.approx(moving.pixel_um)
     same = settled.values[::step, ::step]
     assert r_squared(moving.values, same / same.sum() * moving.values.sum()) > 0.999
+
+
+@pytest.mark.parametrize("mask", [{"obscuration": 0.3}, {"blades": 5, "vanes": 3}, {"apodisation": 0.8}, UNEVEN[1]])
+@pytest.mark.parametrize("errors", [(), (("decentre_x", 3, 5, 0.3), ("tilt_y", 3, 5, -0.4))], ids=["aligned", "off"])
+@pytest.mark.parametrize(("quality", "error"), [("preview", 0.02), ("settled", 0.006)])
+def test_behind_rims_and_a_mask_the_map_is_that_of_the_rays_that_pass_both(mask, errors, quality, error):
+    """Against rays on a grid of 300², kept where they pass; its all-or-nothing edge is wrong by half a cell."""
+    state = new_state(lens="fast_gauss_f14", field_deg=22.0, clip=True, errors=errors, **mask)
+    setup = paraxial_setup(state)
+    found = pupil_of(setup, True, quality, clip=True)
+    xi, eta, inside = pupil_grid(300)
+    inside = inside & mask_seen(setup.lens, setup.source).opens(xi, eta)
+    xi, eta = xi[inside], eta[inside]
+    passed = pencil(setup.lens, setup.source, xi, eta, clip=True).passed
+    assert passed.mean() < 0.95, "the rims matter"
+    xi, eta = xi[passed], eta[passed]
+    waves = displayed_opd(setup.lens, setup.source, xi, eta)
+    assert found.clear == pytest.approx(xi.size * 4 / 300**2 / np.pi, abs=0.006)
+    assert found.rms == pytest.approx(rms_about_plane(waves, xi, eta), rel=error)
+    assert sum(found.parts.values()) + found.rest == pytest.approx(found.rms**2, rel=1e-9)
+    assert found.peak_to_valley == pytest.approx(np.ptp(waves), rel=8 * error)
+    samples = [((at + 1) * len(found.waves) / 2).astype(int) for at in (eta, xi)]
+    assert np.isfinite(found.waves[tuple(samples)]).all()
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.3, 0.7])

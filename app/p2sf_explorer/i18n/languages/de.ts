@@ -980,7 +980,6 @@
 <message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
-<message><source>a pupil that ends at rims or where rays are lost</source><translation>eine Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
 <message><source>a question and its answer go together; give both ask: and tell:</source><translation>eine Frage und ihre Antwort gehören zusammen; ask: und tell: angeben</translation></message>
 <message><source>a radius of 0 with an index is a plane</source><translation>ein Radius 0 mit einem Index ist eine Ebene</translation></message>
 <message><source>a rectangle</source><translation>ein Rechteck</translation></message>
