@@ -1,14 +1,14 @@
 """Blur against depth, and the depths between which it stays within what is tolerated."""
 
 from dataclasses import dataclass
-from math import inf, isfinite, nan
+from math import inf, nan
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import seen_from
-from p2sf.paraxial.pupils import paraxial_rays
+from p2sf.paraxial.depth_of_field import AxialBlur
 from p2sf.raytrace.pencil import Sources
 from p2sf.raytrace.spot import RINGS, landing
 from p2sf_explorer.compute.live import Live
@@ -16,7 +16,6 @@ from p2sf_explorer.compute.ranges import closest_distance
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription
 from p2sf_explorer.state.scales import nice
 
-ELSEWHERE_MM = 1000.0  # any depth but infinity: two points make the line
 DEPTHS = {"preview": 17, "settled": 49}
 FEWER_RINGS = 5  # while a slider moves, and to find the range
 FEWEST = 3  # rays: fewer are no spot
@@ -46,19 +45,20 @@ class DepthOfField:
 def depth_of_field(live: Live) -> DepthOfField:
     """Return the blur at every depth with the sensor where it stands."""
     s, tolerated = live.setup, live.state.display.blur_um
-    clear = sharp(s, tolerated)
+    axial = axial_blur(s)
+    clear = axial.sharp_mm(tolerated)
     near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
-    if focus := sharp(s, FOCUS_UM):
+    if focus := axial.sharp_mm(FOCUS_UM):
         near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur reaches its tip
     depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
-    heights = axial_heights(s, depths)
+    heights = axial.heights_mm(depths)
     return DepthOfField(
         near,
         2 * UM_PER_MM * np.abs(heights),
         real_blur(live, depths, RINGS if live.quality == "settled" else FEWER_RINGS),
         tolerated,
         clear,
-        hyperfocal(s, tolerated),
+        axial.hyperfocal_mm(tolerated),
     )
 
 
@@ -89,7 +89,7 @@ def highest(view: DepthOfField) -> float:
 
 def within(setup: ParaxialSetup, blur_um: float, closest: float) -> tuple[float, float]:
     """Return between which 1/depth, 1/mm, the paraxial blur is below this, up to ``closest`` or just beyond its own."""
-    clear = sharp(setup, blur_um)
+    clear = axial_blur(setup).sharp_mm(blur_um)
     if clear is None or not clear[0]:
         return 0.0, closest
     low, high = (1 / depth for depth in clear[::-1])
@@ -98,9 +98,10 @@ def within(setup: ParaxialSetup, blur_um: float, closest: float) -> tuple[float,
 
 def least_axial(live: Live, closest: float) -> float:
     """Return the least paraxial blur from infinity to 1/``closest``, µm; 0 where any depth is sharp."""
-    if sharp(live.setup, live.state.display.blur_um):
+    axial = axial_blur(live.setup)
+    if axial.sharp_mm(live.state.display.blur_um):
         return 0.0
-    return 2 * UM_PER_MM * float(np.abs(axial_heights(live.setup, np.array([inf, 1 / closest]))).min())
+    return 2 * UM_PER_MM * float(np.abs(axial.heights_mm(np.array([inf, 1 / closest]))).min())
 
 
 def probed(live: Live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
@@ -119,11 +120,9 @@ def vertex_of(near: np.ndarray, blur: np.ndarray) -> float:
     return float(near[1] + (near[1] - near[0]) * (first - last) / (2 * bend)) if bend > 0 else nan
 
 
-def axial_heights(setup: ParaxialSetup, depths: np.ndarray, sensor_mm: float | None = None) -> np.ndarray:
-    """Return where the marginal ray of each depth meets the sensor, mm; its double is the blur's diameter."""
-    sensor_mm = setup.lens.sensor_mm if sensor_mm is None else sensor_mm
-    rays = paraxial_rays(setup.lens, np.asarray(depths), setup.source.wavelength_um, setup.stop)
-    return rays.y[-1] + rays.nu[-1] / rays.index[-1] * sensor_mm
+def axial_blur(setup: ParaxialSetup) -> AxialBlur:
+    """Return the paraxial blur at every depth."""
+    return AxialBlur(setup.lens, setup.source.wavelength_um, setup.stop)
 
 
 def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
@@ -137,50 +136,3 @@ def real_blur(live: Live, depths: np.ndarray, rings: int) -> np.ndarray:
     blur = np.where(np.count_nonzero(found.light, -1) < FEWEST, np.nan, 2 * np.hypot(*found.rms_um))
     # One depth alone, of a lens whose rays are lost at the others, is no curve.
     return blur if np.count_nonzero(np.isfinite(blur)) > 1 else np.full(len(depths), np.nan)
-
-
-def sharp(setup: ParaxialSetup, tolerated_um: float) -> tuple[float, float] | None:
-    """Return nearest and farthest depth in mm with a blur within ``tolerated_um``; None if no real depth has one.
-
-    In s = 1/(object to entrance pupil) the marginal ray is linear (handbook 7.1): h = h∞ + k·s. The nearest is
-    0 where an object on the first surface is still sharp.
-    """
-    pupil, half_mm = float(setup.pupils.entrance_from_first), tolerated_um / 2 / UM_PER_MM
-    roots = linear_roots(setup, pupil, half_mm)
-    if not roots:  # the same blur everywhere
-        return (0.0, inf) if abs(float(axial_heights(setup, np.array([inf]))[0])) <= half_mm else None
-    for low, high in real_depths(pupil):
-        far, near = max(low, min(roots)), min(high, max(roots))
-        if far < near:
-            return _depth(near, pupil), _depth(far, pupil)
-    return None
-
-
-def real_depths(pupil: float) -> list[tuple[float, float]]:
-    """Return the ranges of s in which the depth 1/s − pupil is positive, the one that ends at infinity first."""
-    return [(0.0, 1 / pupil)] if pupil > 0 else [(0.0, inf), *([(-inf, 1 / pupil)] if pupil else [])]
-
-
-def _depth(s: float, pupil: float) -> float:
-    return max(0.0, 1 / s - pupil) if s else inf
-
-
-def linear_roots(setup: ParaxialSetup, pupil: float, half_mm: float, sensor_mm: float | None = None) -> list[float]:
-    """Return the two s at which |h| is ``half_mm``; none where the blur is the same at every depth."""
-    far, one = axial_heights(setup, np.array([inf, ELSEWHERE_MM]), sensor_mm)
-    slope = (one - far) * (ELSEWHERE_MM + pupil)
-    return [float((side * half_mm - far) / slope) for side in (-1, 1)] if slope else []
-
-
-def hyperfocal(setup: ParaxialSetup, tolerated_um: float) -> float:
-    """Return the depth to focus on so that infinity has just the tolerated blur, mm; infinite for an afocal lens.
-
-    The sensor then stands blur/(2|u′|) behind the rear focus.
-    """
-    pupil, focus = (float(v) for v in (setup.pupils.entrance_from_first, setup.cardinal.back_focal_distance))
-    at_focus, behind = (float(axial_heights(setup, np.array([inf]), focus + step)[0]) for step in (0.0, 1.0))
-    if not isfinite(focus) or behind == at_focus:
-        return inf
-    sensor = focus + setup.lens.directions[-1] * tolerated_um / 2 / UM_PER_MM / abs(behind - at_focus)
-    roots = linear_roots(setup, pupil, 0.0, sensor)
-    return 1 / roots[0] - pupil if roots and roots[0] else inf

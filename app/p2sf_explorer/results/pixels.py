@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.metrics.perfect import airy_curves
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.results.profiles import airy_curves
 
 MOST_PIXELS = 201  # across the window; finer pixels are not told apart on screen
 

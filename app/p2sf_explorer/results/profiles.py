@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.measures import energy_in
+from p2sf.metrics.perfect import airy_curves
 from p2sf.psf.fitted import fit, fitted_waves
 from p2sf.psf.plane_waves import counts_for
 from p2sf.psf.result import Psf
@@ -25,7 +25,6 @@ from p2sf_explorer.compute.measured import (
 from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
-FAR, NODES, HANKEL_TERMS = 25.0, 32, 12  # two evaluations of Bessel functions meet at FAR, each exact to 1e-12
 NOTHING, LATER = Message(""), Message("the energy follows when the slider rests")
 MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
 
@@ -118,48 +117,3 @@ def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray
         return None
     middle = np.zeros(1)
     return waves.intensity(position, middle)[0], waves.intensity(middle, position)[:, 0]
-
-
-@lru_cache(maxsize=8)
-def airy_curves(count: int, half_um: float, radius_um: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return positions from −half to half, the Airy pattern there, and its energy 1 − J₀²(v) − J₁²(v) (Rayleigh 1881).
-
-    ``radius_um`` is the first dark ring's; ``count`` is odd, so that one half mirrors the other.
-    """
-    outward = np.linspace(0.0, half_um, count // 2 + 1)
-    v = 3.8317059702 * outward / radius_um
-    zeroth, first = bessel(v)
-    pattern = np.where(v < 1e-9, 1.0, (2 * first / np.where(v < 1e-9, 1.0, v)) ** 2)
-    return mirrored(outward, -1), mirrored(pattern), mirrored(1 - zeroth**2 - first**2)
-
-
-def mirrored(half: np.ndarray, sign: int = 1) -> np.ndarray:
-    """Return a curve on both sides of its first point, odd with the sign −1."""
-    return np.append(sign * half[:0:-1], half)
-
-
-def bessel(v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return J₀ and J₁ of v ≥ 0 to 1e-12: near zero by their integrals, far out by Hankel's series.
-
-    J₀ = (2/π)∫cos(v sin τ)dτ and J₁ = (2/π)∫sin(v sin τ) sin τ dτ over a quarter turn (DLMF 10.9.1, 10.9.2).
-    """
-    found, near = np.empty((2, v.size)), v <= FAR
-    sine = np.sin((np.arange(NODES) + 0.5) * np.pi / (2 * NODES))
-    phase = v[near, None] * sine
-    found[:, near] = np.cos(phase).mean(axis=1), np.sin(phase) @ sine / NODES
-    found[:, ~near] = far_bessel(v[~near])
-    return found[0], found[1]
-
-
-def far_bessel(v: np.ndarray) -> np.ndarray:
-    """Return J₀ and J₁ of v by Hankel's series √(2/πv)·Re Σ iᵏaₖ/vᵏ·exp(iω), ω = v − nπ/2 − π/4 (DLMF 10.17.3)."""
-    series = np.vander(1 / v, HANKEL_TERMS, increasing=True) @ hankel_terms()
-    turn = np.exp(1j * (v[:, None] - np.array([1, 3]) * np.pi / 4))
-    return np.sqrt(2 / (np.pi * v)) * (series * turn).real.T
-
-
-@lru_cache(maxsize=1)
-def hankel_terms() -> np.ndarray:
-    """Return iᵏaₖ of J₀ and J₁, aₖ = Π (4n² − (2j − 1)²)/8j over j ≤ k (DLMF 10.17.1), (terms, 2)."""
-    k, square = np.arange(1, HANKEL_TERMS)[:, None], np.array([0.0, 4.0])
-    return np.cumprod(np.concatenate([np.ones((1, 2)), 1j * (square - (2 * k - 1) ** 2) / (8 * k)]), axis=0)

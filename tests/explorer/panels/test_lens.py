@@ -12,7 +12,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.results.depth_of_field import axial_heights, depth_of_field, highest, real_blur
+from p2sf_explorer.results.depth_of_field import axial_blur, depth_of_field, highest, real_blur
 from p2sf_explorer.results.field import field_curves
 from p2sf_explorer.results.first_order import first_order
 from p2sf_explorer.state.scales import told_apart
@@ -157,7 +157,7 @@ def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
     state = changed(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
     found = live(state, "preview")
     answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
-    sharp = 2e3 * np.abs(axial_heights(found.setup, depths)) <= blur
+    sharp = 2e3 * np.abs(axial_blur(found.setup).heights_mm(depths)) <= blur
     near, far = answer.sharp_mm or (inf, 0.0)
     assert np.array_equal((depths >= near) & (depths <= far), sharp)
     assert np.isfinite(answer.near).all()
