@@ -364,11 +364,10 @@ def _six_suffice(choice: Choice) -> Message:
 
 def _a_fit_suffices(choice: Choice) -> Message:
     return Message(
-        "{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; "
-        "six coefficients: {seidel:.1e}",
+        "{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed and six "
+        "coefficients would leave more",
         numbers=choice.numbers,
         rays=choice.tried_rays,
-        seidel=choice.seidel_error,
         error=choice.predicted_error,
         allowed=choice.allowed_error,
     )

@@ -117,7 +117,8 @@ TRIED = {"tried_rays": 64, "allowed_error": 0.01}
         (Choice("seidel", 2e-3, 6, **TRIED), "six coefficients keep 1 − R² ≤ 2.0e-03, where 1.0e-02 is allowed"),
         (
             Choice("fitted", 3e-3, 26, **TRIED, seidel_error=1.4),
-            "26 numbers from 64 rays keep 1 − R² ≤ 3.0e-03, where 1.0e-02 is allowed; six coefficients: 1.4e+00",
+            "26 numbers from 64 rays keep 1 − R² ≤ 3.0e-03, where 1.0e-02 is allowed and six coefficients "
+            "would leave more",
         ),
         (
             Choice("traced", 5e-5, 0, **TRIED, fitted_error=0.02, fitted_numbers=46),

@@ -2197,7 +2197,7 @@
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
-<message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed; six coefficients: {seidel:.1e}</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}; sechs Koeffizienten: {seidel:.1e}</translation></message>
+<message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed and six coefficients would leave more</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, wo {allowed:.1e} erlaubt ist und sechs Koeffizienten mehr ließen</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{off:.3g} mm from the middle of this picture, which was moved in to stay within the field of the lens</source><translation>{off:.3g} mm von der Mitte dieses Bilds, das nach innen gerückt wurde, um im Feld des Objektivs zu bleiben</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
