@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
+from p2sf.api import Method
 from p2sf.camera import Request, Setup, set_up
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import accuracy_rows, is_database, looked_up
@@ -88,7 +89,7 @@ class Picture:
         Stop rays at every clear semi-diameter.
     """
 
-    method: Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"] | None = None
+    method: Method | None = None
     tolerance: float = 0.99
     sampling: Literal["fft", "mdft"] | None = None
     pixels: Whole | None = None
