@@ -364,6 +364,8 @@ class Lens:
     @cached_property
     def steps(self) -> tuple[float | None, ...]:
         """Return for each of the ``motions`` the distance along z, mm, or None if it is more than a shift along z."""
+        if not self.sensor_before and not any(surface.before or surface.after for surface in self.surfaces):
+            return 0.0, *(surface.thickness for surface in self.surfaces)
         plain = (not motion.turns and not motion.origin[:2].any() for motion in self.motions)
         return tuple(float(m.origin[2]) if along else None for m, along in zip(self.motions, plain, strict=True))
 

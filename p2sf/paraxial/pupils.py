@@ -134,8 +134,7 @@ def named_stop(lens: Lens) -> int:
 def _limiting_surface(lens: Lens, rays: BasisRays, depth_mm: FloatOrArray, named: int, rim: float) -> np.ndarray:
     height, _ = axial_ray(rays, depth_mm)
     rims = rim_radii(lens, named, rim)
-    if lens.misaligned:
-        rims[[number != named and s.rim is not None for number, s in enumerate(lens.surfaces, 1)]] = np.inf
+    rims[[number != named and s.rim is not None for number, s in enumerate(lens.surfaces, 1)]] = np.inf
     fraction = np.abs(height) / rims.reshape(-1, *[1] * (height.ndim - 1))
     fraction[named - 1] *= 1 + RIM_TIE
     limiting: np.ndarray = np.argmax(fraction, axis=0) + 1

@@ -327,9 +327,7 @@ def _relative_to_chief(
     """Return a beam at the sensor as differences from its last ray, the chief ray."""
     if beam.status.any():
         _blank(beam, lens)
-    chief_y = beam.y[..., -1:]
-    # Without symmetry the chief ray need not lie in the plane x = 0.
-    chief_x, chief_kx = (beam.x[..., -1:], beam.p[..., -1:] / index) if lens.misaligned else (0.0, 0.0)
+    chief_x, chief_y = beam.x[..., -1:], beam.y[..., -1:]
     return Rays(
         xi=points[0][:-1],
         eta=points[1][:-1],
@@ -348,7 +346,7 @@ def _relative_to_chief(
         index=index,
         wavelength_um=np.asarray(wavelength_um)[..., None],
         chief_x=chief_x,
-        chief_kx=chief_kx,
+        chief_kx=beam.p[..., -1:] / index,
         transmission=_but_last(beam.transmission),
         clearance=_but_last(beam.clearance),
     )
@@ -402,7 +400,9 @@ def opd_on_sphere(rays: Rays, radius: FloatOrArray) -> np.ndarray:
 def exit_radius(lens: Lens, source: Source | Sources, rays: Rays, stop: Stop | None = None) -> np.ndarray:
     """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
     along = rays.chief_kz
-    if lens.misaligned:  # the cosine about the axis behind the last surface, which a tilted sensor does not share
+    if (
+        lens.steps[-1] is None
+    ):  # the cosine about the axis behind the last surface, which a tilted sensor does not share
         turn = seen_from(lens, getattr(source, "azimuth_deg", 0.0)).motions[-1].rotation[2]
         along = turn[0] * rays.chief_kx + turn[1] * rays.chief_ky + turn[2] * rays.chief_kz
     radius: np.ndarray = (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / along
@@ -423,15 +423,12 @@ def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:
 
     Half the disc is traced, of a misaligned lens all of it.
     """
-    xi, eta, inside = pupil_grid(count)
+    (xi, eta, inside), domain = pupil_grid(count), lens.pupil_domain
     values = np.full((count, count), np.nan)
-    if lens.misaligned:
-        values[inside] = displayed_opd(lens, source, xi[inside], eta[inside])
-        return values
-    right = slice(None), slice(count // 2, None)
-    half = inside[right]
-    values[right][half] = displayed_opd(lens, source, xi[right][half], eta[right][half])
-    values[:, : (count + 1) // 2] = values[:, : -((count + 1) // 2) - 1 : -1]
+    own = inside & (xi >= min(0, *domain.halves))
+    waves = displayed_opd(lens, source, xi[own], eta[own])
+    for image in domain.images:
+        values[:, ::image][own] = waves
     return values
 
 

@@ -82,11 +82,9 @@ def trace(
         lost.append(beam.status != Status.PASSED)
 
     run(lens, beam, index, lens_rims(lens, stop_clips) if clip else None, visit=visit)
-    points = _points(lens, np.array(places))
-    points[np.array(lost)] = np.nan
     cosines = np.stack([beam.p, beam.q, beam.r], -1) / np.abs(np.asarray(index[-1]))[..., None]
-    if lens.misaligned:
-        cosines = cosines @ lens.frames[-1].rotation.T
+    points, cosines = _in_axes_of_lens(lens, np.array(places), cosines)
+    points[np.array(lost)] = np.nan
     cosines[beam.status != Status.PASSED] = np.nan
     return Trace(np.concatenate([origins[None], points]), cosines, beam.path, beam.status, beam.failed_surface)
 
@@ -96,9 +94,9 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
 
     ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. A ray beyond the edge of the glass does so,
     where the surfaces it is traced to have crossed; a thickness against the light puts them in that order on purpose.
-    In a misaligned lens, whose light may go anywhere along z, nothing is looked at.
+    Where parts are tilted or decentred, so that light may go anywhere along z, nothing is looked at.
     """
-    if not len(z) or lens.misaligned:
+    if not len(z) or None in lens.steps:
         return None
     along = lens.directions[1 : len(z)]
     behind = np.array([s.thickness * sign >= 0 for s, sign in zip(lens.surfaces, along, strict=False)], bool)
@@ -172,14 +170,11 @@ def run(
 
 def _onward(beam: Beam, lens: Lens, number: int, index: Index) -> None:
     """Give a beam in the axes of surface ``number``, 0 for those of the lens, in those of the next, or the sensor."""
-    if lens.misaligned:
-        step = lens.steps[number]
-        if step is None:
-            move(beam, lens.motions[number], index[number], number + 1)
-        else:
-            beam.z -= step
-    elif number:
-        beam.z -= lens.surfaces[number - 1].thickness
+    step = lens.steps[number]
+    if step is None:
+        move(beam, lens.motions[number], index[number], number + 1)
+    elif step:
+        beam.z -= step
 
 
 def _cross(
@@ -227,15 +222,17 @@ def _same(before: FloatOrArray, after: FloatOrArray) -> bool:
     return equal if isinstance(equal, bool) else bool(equal.all())
 
 
-def _points(lens: Lens, places: np.ndarray) -> np.ndarray:
-    """Return points (surfaces + 1, …, ray, 3) in the axes of the lens, from places (surfaces + 1, 3, …, ray) in own."""
-    if lens.misaligned:
+def _in_axes_of_lens(lens: Lens, places: np.ndarray, cosines: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return points (surfaces + 1, …, ray, 3) and cosines (…, ray, 3) in the axes of the lens.
+
+    ``places``: (surfaces + 1, 3, …, ray) in the axes of each surface and the sensor, ``cosines`` in the sensor's.
+    """
+    if None in lens.steps:
         rotation, origin = (np.array(part) for part in zip(*lens.frames, strict=True))
         flat = rotation @ places.reshape(*places.shape[:2], -1) + origin[..., None]
-        return np.moveaxis(flat.reshape(places.shape), 1, -1)
-    vertices = np.cumsum([0.0, *(surface.thickness for surface in lens.surfaces)])
-    places[:, 2] += vertices.reshape(-1, *[1] * (places.ndim - 2))
-    return np.moveaxis(places, 1, -1)
+        return np.moveaxis(flat.reshape(places.shape), 1, -1), cosines @ rotation[-1].T
+    places[:, 2] += np.cumsum(lens.steps).reshape(-1, *[1] * (places.ndim - 2))
+    return np.moveaxis(places, 1, -1), cosines
 
 
 def per_ray(index: np.ndarray) -> Index:
