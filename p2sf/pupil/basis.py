@@ -49,6 +49,27 @@ class PupilDomain:
         """Return the nodes of (radial, angular) ``counts``."""
         return (_kept_nodes if counts[0] * counts[1] <= MOST_KEPT else _kept_nodes.__wrapped__)(self, counts)
 
+    @property
+    def turn(self) -> float:
+        """Return the angle that its directions from the middle go over, radians from +η towards +ξ."""
+        return np.pi * len(self.halves)
+
+    def directions(self, count: int) -> np.ndarray:
+        """Return ``count`` even directions to half a turn, the first half a step from +η, radians."""
+        return (np.arange(count * len(self.halves)) + 0.5) * (np.pi / count)
+
+    def neighbours(self, theta: np.ndarray) -> np.ndarray:
+        """Return directions each of which is next to the one before; all around the first comes last once more."""
+        return theta
+
+    def between(self, corners: list[float]) -> tuple[float, ...]:
+        """Return the ends of the intervals of direction between corners, ascending and over its whole turn."""
+        return 0.0, *corners, np.pi
+
+    def middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[float, float]:
+        """Return the middle of points all over the disc: of a symmetric pupil on the line ξ = 0."""
+        return 0.0, float(eta.mean())
+
     def over(self, nodes: ClearNodes) -> ClearNodes:
         """Return nodes that are known over half the disc, or over all of it, over the domain."""
         return nodes
@@ -66,6 +87,18 @@ class WholeDisc(PupilDomain):
     symmetric: ClassVar = False
     halves: ClassVar[tuple[int, ...]] = (1, -1)
     images: ClassVar[tuple[int, ...]] = (1,)
+
+    def neighbours(self, theta: np.ndarray) -> np.ndarray:
+        """Return the directions, and the first once more."""
+        return np.append(theta, theta[0] + self.turn)
+
+    def between(self, corners: list[float]) -> tuple[float, ...]:
+        """Return the corners, once around."""
+        return (*corners, corners[0] + self.turn) if corners else (0.0, self.turn)
+
+    def middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[float, float]:
+        """Return the middle of points, wherever it lies."""
+        return float(xi.mean()), float(eta.mean())
 
     def over(self, nodes: ClearNodes) -> ClearNodes:
         """Return nodes over the whole disc."""

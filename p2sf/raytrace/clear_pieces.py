@@ -17,6 +17,7 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.pupil.basis import WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import (
     FEWEST_ACROSS,
@@ -63,9 +64,9 @@ class Region:
     within: tuple[int, ...] = ()
 
     @property
-    def even(self) -> bool:
-        """Return whether the half ξ < 0 is the mirror image of the other."""
-        return self.mask.even and not self.lens.misaligned
+    def domain(self) -> PupilDomain:
+        """Return what of it tells everything: half, where lens and mask are symmetric."""
+        return self.lens.pupil_domain if self.mask.even else WHOLE
 
     def holds(self, xi: np.ndarray, eta: np.ndarray) -> Clearance:
         """Return which points of the iris lie in the region, how far as `clear_radius` has it, and what ends others."""
@@ -163,10 +164,10 @@ def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool,
                 pieces.append(_nodes(part, shape, counts, (-1) ** size))
     for angle in mask.vane_angles:
         pieces += _vane(region, holes, angle, counts[0])
-    if region.even:
+    if region.domain.symmetric:
         pieces = [(xi, eta, 2 * area) for xi, eta, area in pieces if xi.mean() > 0]
     xi, eta, area = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    return shaded_nodes(mask, xi, eta, area, region.even)
+    return shaded_nodes(mask, xi, eta, area, region.domain.symmetric)
 
 
 @lru_cache(maxsize=64)
@@ -175,16 +176,10 @@ def outline_of(region: Region) -> Outline | None:
     found = _centre(region)
     if found is None:
         return None
-    turn = pi if region.even else 2 * pi
-    count = SCAN // 2 if region.even else SCAN
-    theta = (np.arange(count) + 0.5) * (turn / count)
+    theta = region.domain.neighbours(region.domain.directions(SCAN // 2))
     label = _along(region, found, theta)[1]
-    if not region.even:  # the last direction and the first are neighbours
-        theta, label = np.append(theta, theta[0] + turn), np.append(label, label[0])
     corners = changes_of(lambda angle: _along(region, found, angle)[1], theta, label, CORNER_STEPS).tolist()
-    if region.even:
-        return Outline(*found, (0.0, *corners, pi))
-    return Outline(*found, (*corners, corners[0] + turn) if corners else (0.0, turn))
+    return Outline(*found, region.domain.between(corners))
 
 
 def changes_of(
@@ -220,7 +215,7 @@ def _centre(region: Region) -> tuple[float, float] | None:
     held = _inside(region, xi, eta)
     if not held.any():
         return None
-    middle = (0.0 if region.even else float(xi[held].mean())), float(eta[held].mean())
+    middle = region.domain.middle(xi[held], eta[held])
     if not _inside(region, np.array(middle[:1]), np.array(middle[1:]))[0]:
         raise GeometryError(
             "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",

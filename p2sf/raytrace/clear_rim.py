@@ -12,6 +12,7 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.pupil.basis import WHOLE, PupilDomain
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes
@@ -26,14 +27,14 @@ class ClearRim:
     """The clear part of the pupil, star-shaped about (``aside``, ``centre``).
 
     ``theta``: (directions,) angles from +η towards +ξ once around, the first half a step behind 0; ``radius`` of the
-    rim along them. ``even``: whether the half ξ < 0 mirrors the other.
+    rim along them. ``domain``: what of it tells everything.
     """
 
     centre: float
     theta: np.ndarray
     radius: np.ndarray
     aside: float
-    even: bool
+    domain: PupilDomain
 
     @property
     def points(self) -> tuple[np.ndarray, np.ndarray]:
@@ -54,14 +55,16 @@ class ClearRim:
         return excess
 
     def nodes(self, radii: int) -> ClearNodes:
-        """Return Gauss–Legendre nodes in ρ² up to the rim along each direction, of an even part over its half."""
-        used = slice(self.theta.size // 2 if self.even else None)
+        """Return Gauss–Legendre nodes in ρ² up to the rim along each direction of the domain."""
+        used = slice(self.theta.size // len(self.domain.images))
         radius, theta = self.radius[used], self.theta[used]
         square, weight = gauss_legendre(radii)
         rho = np.sqrt((1 + square) / 2)[:, None] * radius
         area = (weight[:, None] / 2 * radius**2 / radius.size).ravel()
         xi, eta = self.aside + rho * np.sin(theta), self.centre + rho * np.cos(theta)
-        return ClearNodes(xi.ravel(), eta.ravel(), area / area.sum(), min(float(area.sum()), 1.0), even=self.even)
+        return ClearNodes(
+            xi.ravel(), eta.ravel(), area / area.sum(), min(float(area.sum()), 1.0), even=self.domain.symmetric
+        )
 
 
 @lru_cache(maxsize=32)
@@ -75,9 +78,8 @@ def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: i
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
-    even = not lens.misaligned
-    aside, centre = 0.0 if even else float(xi[passed].mean()), float(eta[passed].mean())
-    theta = (np.arange(directions if even else 2 * directions) + 0.5) * (np.pi / directions)
+    domain = lens.pupil_domain
+    (aside, centre), theta = domain.middle(xi[passed], eta[passed]), domain.directions(directions)
     sine, cosine = np.sin(theta), np.cos(theta)
     # The unit circle seen from the centre.
     high = np.sqrt(1 - (centre * sine - aside * cosine) ** 2) - (centre * cosine + aside * sine)
@@ -89,5 +91,5 @@ def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: i
         inside = np.logical_and.accumulate(rays.passed.reshape(radii.shape)).sum(axis=0)
         part = (high - low) / SECTIONS
         low, high = low + inside * part, low + np.minimum(inside + 1, SECTIONS) * part
-    radius, around = (low + high) / 2, (np.arange(2 * directions) + 0.5) * (np.pi / directions)
-    return ClearRim(centre, around, np.append(radius, radius[::-1]) if even else radius, aside, even)
+    radius = np.concatenate([((low + high) / 2)[::side] for side in domain.images])
+    return ClearRim(centre, WHOLE.directions(directions), radius, aside, domain)

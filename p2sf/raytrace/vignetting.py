@@ -96,12 +96,10 @@ def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool 
     radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta, shape.guess(theta))
     square, weight = gauss_legendre(counts[0])
     rho = np.sqrt((1 + square) / 2)[:, None] * radius
-    # ∫∫ρ dρ dθ over the half disc, doubled for the mirror half and divided by the whole pupil's area π.
-    area = (weight[:, None] / 2 * radius**2 * share / np.pi).ravel()
+    # ∫∫ρ dρ dθ over the domain, divided by its area.
+    area = (weight[:, None] / 2 * radius**2 * share / lens.pupil_domain.turn).ravel()
     xi, eta = (shape.aside + rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
-    if lens.misaligned:
-        area /= 2  # no mirror half
-    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()), even=not lens.misaligned)
+    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()), even=lens.pupil_domain.symmetric)
 
 
 def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -123,17 +121,14 @@ def outline(lens: Lens, source: Source, clip: bool = True) -> ClearPart:
     passed = pencil(lens, source, xi, eta, clip).passed
     if not passed.any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
-    aside, middle = float(xi[passed].mean()) if lens.misaligned else 0.0, float(eta[passed].mean())
+    aside, middle = lens.pupil_domain.middle(xi[passed], eta[passed])
     if not pencil(lens, source, [aside], [middle], clip).passed.all():
         raise GeometryError(
             "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
             parameter="clip",
         )
     corners, edge = _corners(lens, source, clip, (aside, middle))
-    if not lens.misaligned:
-        return ClearPart(middle, (0.0, *corners, np.pi), 0.0, edge)
-    around = (*corners, corners[0] + 2 * np.pi) if corners else (0.0, 2 * np.pi)
-    return ClearPart(middle, around, aside, edge)
+    return ClearPart(middle, lens.pupil_domain.between(corners), aside, edge)
 
 
 def _corners(
@@ -143,8 +138,7 @@ def _corners(
 
     Also the directions and radii of points of the edge, as `ClearPart` has them.
     """
-    count = 2 * SCAN + 1 if lens.misaligned else SCAN
-    theta = (np.arange(count) + 0.5) * (np.pi / SCAN)
+    theta = lens.pupil_domain.neighbours(lens.pupil_domain.directions(SCAN))
     radius, rim = _edge(lens, source, clip, centre, theta)
     if not np.ptp(rim):
         return [], (theta, radius)
