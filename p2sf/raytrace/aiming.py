@@ -18,7 +18,7 @@ from p2sf.lens.lens import Lens, indices
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
-from p2sf.pupil.quadrature import disc_nodes, whole_disc
+from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient
 from p2sf.raytrace.stop_map import StopMap
 from p2sf.raytrace.surface import Beam, Status
@@ -268,8 +268,9 @@ def _aimed(
     """Solve for entrance points whose real rays meet the stop at (ξ, η) of its rim; wide fields by continuation."""
     goal = _goal(enter, xi, eta)
     found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta), _move_mm(enter, aim_error))
-    if found.missed.any() and lens.misaligned:
-        found = _outwards(lens, enter, goal, _chief_aim(lens, source, enter, stop), found)
+    chief = _known_chief(lens, source, enter, stop) if found.missed.any() else None
+    if chief is not None:
+        found = _outwards(lens, enter, goal, chief, found)
     elif found.missed.any():
         found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
@@ -458,7 +459,7 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
     """Return entrance points from which Newton's method starts: by a pupil map, or for few rays by first order."""
-    chief = _chief_aim(lens, source, enter, stop) if lens.misaligned else None
+    chief = _known_chief(lens, source, enter, stop)
     known = stop is None and isinstance(source, Source)
     fine = _guessing_map(lens, source) if known and xi.size >= VERY_MANY else None
     if fine is not None:
@@ -467,7 +468,7 @@ def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | N
     if xi.size >= FEW:
         found = _cached_rough_map(lens, source) if known else _rough_map(lens, enter, chief)
         if found is not None:
-            x, y = StopMap.of(ROUGH_ORDER, *found, symmetric=not lens.misaligned).at(xi, eta)
+            x, y = StopMap.of(ROUGH_ORDER, lens.pupil_domain, *found).at(xi, eta)
             return x, y
     return _first_order_points(enter, chief, xi, eta)
 
@@ -486,7 +487,7 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
 @lru_cache(maxsize=64)
 def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
     enter = entrance(lens, source)
-    return _rough_map(lens, enter, _cached_chief_aim(lens, source) if lens.misaligned else None)
+    return _rough_map(lens, enter, _known_chief(lens, source, enter, None))
 
 
 @lru_cache(maxsize=16)
@@ -513,17 +514,16 @@ def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None") -> Point | Non
         if not met.any():
             return None
         landed = np.where(met, landed[0], nodes.xi), np.where(met, landed[1], nodes.eta)
-    even, odd = basis_by_powers(ROUGH_ORDER, *landed)
-    if chief is not None:
-        even = odd = np.concatenate([even, odd], axis=-2)
-    return _least_squares(odd, x), _least_squares(even, y)
+    kinds = basis_by_powers(ROUGH_ORDER, *landed)  # even, odd
+    of_x, of_y = (_joined([kinds[flag] for flag in lens.pupil_domain.parities(own)]) for own in (True, False))
+    return _least_squares(of_x, x), _least_squares(of_y, y)
 
 
 @dataclass(frozen=True, eq=False)
 class _MapTerms:
-    """Nodes over the half disc, without symmetry over the whole, and there the terms of x and y and their gradients.
+    """Nodes over a domain of the disc, and there the terms of x and of y and their gradients, (terms, nodes).
 
-    x has the terms odd in ξ, y and launch weights the even ones, each (terms, nodes); without symmetry all have all.
+    x has the terms odd in ξ, y and launch weights the even ones; without symmetry each has the others behind its own.
     """
 
     order: int
@@ -534,24 +534,26 @@ class _MapTerms:
     of_y: np.ndarray
     slopes_x: Point
     slopes_y: Point
-    symmetric: bool
+    domain: PupilDomain
 
 
 def _terms_at(lens: Lens, order: int, counts: tuple[int, int] = ROUGH_NODES) -> _MapTerms:
-    return _map_terms(order, counts, not lens.misaligned)
+    return _map_terms(order, counts, lens.pupil_domain)
 
 
 @lru_cache(maxsize=8)
-def _map_terms(order: int, counts: tuple[int, int], symmetric: bool) -> _MapTerms:
-    half = disc_nodes(*counts)
-    xi, eta, share = (half.xi, half.eta, half.weight) if symmetric else whole_disc(*counts)
-    even, odd = (basis(order, xi, eta, flag) for flag in (False, True))
-    of_even, of_odd = (gradient(order, xi, eta, flag) for flag in (False, True))
-    if symmetric:
-        return _MapTerms(order, xi, eta, share, odd, even, of_odd, of_even, True)
-    rows, slopes = np.concatenate([even, odd]), [np.concatenate(pair) for pair in zip(of_even, of_odd, strict=True)]
-    both = slopes[0], slopes[1]
-    return _MapTerms(order, xi, eta, share, rows, rows, both, both, False)
+def _map_terms(order: int, counts: tuple[int, int], domain: PupilDomain) -> _MapTerms:
+    nodes, kinds = domain.nodes(counts), (domain.parities(True), domain.parities(False))
+    xi, eta = nodes.xi, nodes.eta
+    of_x, of_y = (_joined([basis(order, xi, eta, odd) for odd in own]) for own in kinds)
+    gradients = [[gradient(order, xi, eta, odd) for odd in own] for own in kinds]
+    slopes_x, slopes_y = ((_joined([d[0] for d in own]), _joined([d[1] for d in own])) for own in gradients)
+    return _MapTerms(order, xi, eta, nodes.weight, of_x, of_y, slopes_x, slopes_y, domain)
+
+
+def _joined(kinds: list[np.ndarray]) -> np.ndarray:
+    """Return the terms of one parity or of both, one behind the other; of one, as they are."""
+    return kinds[0] if len(kinds) == 1 else np.concatenate(kinds, axis=-2)
 
 
 def _with_launch(enter: Entrance, x: np.ndarray, y: np.ndarray, at: _MapTerms) -> StopMap:
@@ -559,7 +561,7 @@ def _with_launch(enter: Entrance, x: np.ndarray, y: np.ndarray, at: _MapTerms) -
     (x_xi, x_eta), (y_xi, y_eta) = at.slopes_x, at.slopes_y
     area = (x @ x_xi) * (y @ y_eta) - (x @ x_eta) * (y @ y_xi)
     launch = area / enter.radius**2 * _oblique(enter, x @ at.of_x, y @ at.of_y)
-    return StopMap.of(at.order, x, y, at.of_y @ (at.share * launch), symmetric=at.symmetric)
+    return StopMap.of(at.order, at.domain, x, y, at.of_y @ (at.share * launch))
 
 
 @lru_cache(maxsize=64)
@@ -585,8 +587,8 @@ def _map_through_rays(
 ) -> tuple[StopMap | None, float, float]:
     """Return a map, and how far points, in radii, and weights are off on the rim; None where rays are lost."""
     at, enter = _terms_at(lens, order, counts), entrance(lens, source)
-    turn = np.linspace(0, np.pi, RIM_RAYS) if at.symmetric else np.arange(2 * RIM_RAYS) * (np.pi / RIM_RAYS)
-    held, count = (np.sin(turn), np.cos(turn)), at.xi.size
+    turn = np.linspace(0, np.pi, RIM_RAYS)
+    held, count = at.domain.points(np.sin(turn), np.cos(turn)), at.xi.size
     rays = _aimed(lens, source, enter, None, np.append(at.xi, held[0]), np.append(at.eta, held[1]), AIM_ERROR)
     if not np.isfinite(rays.x).all():
         return None, inf, inf
@@ -623,6 +625,11 @@ def chief_rays(lens: Lens, source: Source | Sources, stop: Stop | None = None) -
     enter = entrance(lens, source, stop)
     chief = _chief_aim(lens, source, enter, stop)
     return replace(_through(enter, chief.x, chief.y), stop_surface=int(np.max(enter.stop.surface)))
+
+
+def _known_chief(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _Aim | None:
+    """Return the chief ray from which others are looked for; None where first order tells where they enter."""
+    return _chief_aim(lens, source, enter, stop) if lens.misaligned else None
 
 
 def _chief_aim(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _Aim:

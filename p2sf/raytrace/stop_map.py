@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.zernike import powers, rising_powers
 
 
@@ -11,39 +12,38 @@ from p2sf.pupil.zernike import powers, rising_powers
 class StopMap:
     """Polynomials over the stop for entrance points x and y (mm), and weights where the map has them.
 
-    ``table`` holds c[b, a] of ξ²ᵃ·ηᵇ of x/ξ, y and weights; without symmetry of the part even in ξ of each, and ``odd``
-    of the other over ξ. The axes of `Sources` stand between the first axis, which tells these apart, and the powers.
+    ``tables`` hold c[b, a] of ξ²ᵃ·ηᵇ: the first of x/ξ, y and weights, by symmetry; the
+    second, without symmetry, of the other: of x, y/ξ and weights/ξ. The axes of `Sources` stand between the first axis
+    of a table, which tells these apart, and the powers.
     """
 
-    table: np.ndarray
-    odd: np.ndarray | None = None
+    tables: tuple[np.ndarray, ...]
 
     @classmethod
-    def of(cls, order: int, x: np.ndarray, *others: np.ndarray, symmetric: bool) -> "StopMap":
-        """Return the map of coefficients of `zernike`: of x those of the odd terms, of y and weights of the even.
-
-        Without symmetry each has coefficients of the even terms and behind them of the odd.
-        """
-        parts = (x, *others)
-        if symmetric:
-            return cls(_tables(order, parts, (True, *(False for _ in others))))
-        first = len(powers(order))
-        even = _tables(order, tuple(part[..., :first] for part in parts), (False,) * len(parts))
-        return cls(even, _tables(order, tuple(part[..., first:] for part in parts), (True,) * len(parts)))
+    def of(cls, order: int, domain: PupilDomain, x: np.ndarray, *others: np.ndarray) -> "StopMap":
+        """Return the map of coefficients of `zernike`: terms of the parities that a domain has for each, in turn."""
+        parts, tables = (x, *others), []
+        for kinds in zip(domain.parities(True), *(domain.parities(False) for _ in others), strict=True):
+            forms = [powers(order, odd) for odd in kinds]
+            sizes = [len(form) for form in forms]
+            own = [part[..., :size] for part, size in zip(parts, sizes, strict=True)]
+            parts = tuple(part[..., size:] for part, size in zip(parts, sizes, strict=True))
+            tables.append(_table(own, forms))
+        return cls(tuple(tables))
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return entrance points x and y, and weights where the map has them, at points of the stop."""
-        values = _values(self.table, xi, eta)
-        if self.odd is None:
-            values[0] *= xi
-        else:
-            values += _values(self.odd, xi, eta) * xi
+        values = _values(self.tables[0], xi, eta)
+        values[0] *= xi
+        for table in self.tables[1:]:
+            others = _values(table, xi, eta)
+            others[1:] *= xi
+            values += others
         return values
 
 
-def _tables(order: int, parts: tuple[np.ndarray, ...], odd: tuple[bool, ...]) -> np.ndarray:
-    """Return c[b, a] of ξ²ᵃ·ηᵇ for coefficients of even or odd terms."""
-    forms = [powers(order, flag) for flag in odd]
+def _table(parts: list[np.ndarray], forms: list[np.ndarray]) -> np.ndarray:
+    """Return c[b, a] of ξ²ᵃ·ηᵇ for coefficients of terms with these powers."""
     flat = [part @ form.reshape(len(form), -1) for part, form in zip(parts, forms, strict=True)]
     return np.stack(flat).reshape(len(flat), *parts[0].shape[:-1], *forms[0].shape[1:]).swapaxes(-1, -2)
 
