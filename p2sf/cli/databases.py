@@ -106,7 +106,10 @@ def build(
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
-    """Build the PSF database of a lens and write it, with its error, measured."""
+    """Build the PSF database of a lens and write it, with its error, measured.
+
+    The stop auto is the narrowest rim for an object at infinity.
+    """
     _check_output(output, kind.stack)
     found = find_lens(lens)
     setup = set_up(found, Request(**vars(camera)))

@@ -55,7 +55,10 @@ def tradeoff(
     output: Output = None,
     as_json: Json = False,
 ) -> None:
-    """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png."""
+    """Measure every method against the exact reference: errors, numbers, rays, time and memory; .json, .csv or .png.
+
+    The stop auto is the narrowest rim for the first depth.
+    """
     from p2sf.cli import trades
     from p2sf.studies import tradeoff
 

@@ -116,8 +116,8 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
 def launch(
     index: FloatOrArray,
     wavelength_um: FloatOrArray,
-    position: Sequence[FloatOrArray],
-    direction: Sequence[FloatOrArray],
+    position: np.ndarray | Sequence[FloatOrArray],
+    direction: np.ndarray | Sequence[FloatOrArray],
 ) -> Beam:
     """Return a new beam of rays in a medium of this index.
 
