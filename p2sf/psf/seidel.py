@@ -42,7 +42,6 @@ def seidel_psf(
     quality: str = "settled",
     sampling: str = "mdft",
     dtype: DTypeLike | None = None,
-    threads: int | None = None,
     mask: PupilMask = CLEAR,
 ) -> Psf:
     """Return the PSF of the six coefficients over a uniform circular pupil, |FT{exp(i2πW)}|² (Pieroni et al. 2015).
@@ -53,8 +52,8 @@ def seidel_psf(
     Coefficients of any shape give a stack (…, pixels, pixels) at one pitch; without ``pixel_um`` the one that
     shows the widest of them. ``quality``: "settled" keeps a relative L2 error of 1e-4, "preview" is a 128² grid
     for interactive use. ``sampling``: "mdft" takes any size and pitch, "fft" is the paper's padded FFT for even sizes.
-    ``dtype``: float32 or float64, by default float64 settled and float32 preview. ``threads`` share a large stack
-    (`p2sf.threads`), whose values do not depend on their number. Raises GeometryError for an
+    ``dtype``: float32 or float64, by default float64 settled and float32 preview. Threads
+    (`p2sf.threads`) share a large stack, whose values do not depend on their number. Raises GeometryError for an
     image at infinity, SamplingError for a grid that cannot be computed.
     """
     start = perf_counter()
@@ -67,7 +66,7 @@ def seidel_psf(
         stack = _by_fft(coefficients, pixels, pixel_um, quality)
     else:
         dtype = dtype or (np.float32 if quality == "preview" else np.float64)
-        stack = stack_of(coefficients, pixels, pixel_um, quality, dtype, threads, mask)
+        stack = stack_of(coefficients, pixels, pixel_um, quality, dtype, mask=mask)
     tolerance = SETTLED_TOLERANCE if (quality, sampling) == ("settled", "mdft") else None
     return _result(coefficients, stack, pixel_um, tolerance, start, mask, quality)
 
