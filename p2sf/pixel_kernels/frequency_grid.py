@@ -6,8 +6,7 @@ polynomials are Zernike's, so that a field in another direction is the same pupi
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
-from p2sf.pupil.basis import HALF, Gradient, Kinds, PupilDomain, PupilValues, Terms, determinant
+from p2sf.pupil.basis import HALF, Kinds, PupilDomain, Terms, at_nodes, determinant
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike import basis_by_powers
@@ -184,7 +183,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     What rims clip is described only as far as the clear part allows.
     """
     where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
-    at = _at_nodes(where, level)
+    at = at_nodes(level.basis, where)
     phase, fy = fits.phase @ at.values.phase, fits.fy @ at.values.fy
     amplitude = fits.amplitude @ at.values.fy[: fits.amplitude.shape[-1]]
     fx, eta = fits.fx @ at.values.fx, np.broadcast_to(at.nodes.eta, phase.shape)
@@ -207,7 +206,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     first = 2 + level.weighted  # of the rims
     amplitude_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
     # By Parseval ∫|field|²dx = ∫amplitude²/|∂f/∂(ξ, η)| dξ dη.
-    light = amplitude**2 / np.abs(determinant(fits.fx, fits.fy, *at.slopes))
+    light = amplitude**2 / np.abs(determinant(fits.fx, fits.fy, *at.map_slopes))
     energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ at.nodes.weight
     forms = found[:, 0], found[:, 1], xi, amplitude_of, found[:, first:]
     unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
@@ -231,22 +230,6 @@ def _kinds_over(order: int, u: np.ndarray, v: np.ndarray) -> Kinds:
     """Return even and odd terms at points (n, points), each (n, terms, points)."""
     even, odd = (rows.reshape(-1, *u.shape).swapaxes(0, 1) for rows in basis_by_powers(order, u.ravel(), v.ravel()))
     return even, odd
-
-
-@dataclass(frozen=True, eq=False)
-class _FitTerms:
-    """Fixed nodes, the terms of a fit at them, and the gradients of those of its maps."""
-
-    nodes: ClearNodes
-    values: PupilValues
-    slopes: tuple[Gradient, Gradient]
-
-
-@lru_cache(maxsize=16)
-def _at_nodes(where: tuple[int, int], level: Level) -> _FitTerms:
-    nodes = level.basis.domain.nodes(where)
-    points = nodes.xi, nodes.eta
-    return _FitTerms(nodes, level.basis.values(*points), level.basis.map_slopes(*points))
 
 
 def _solve(rows: np.ndarray, values: np.ndarray) -> np.ndarray:

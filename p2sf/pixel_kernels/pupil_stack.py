@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.pupil.basis import Gradient, PupilBasis, PupilDomain, Terms
+from p2sf.pupil.basis import PupilBasis, PupilDomain, Terms, at_nodes
 from p2sf.pupil.mask import CLEAR, PupilMask, mask_slopes
 from p2sf.pupil.zernike import powers
 
@@ -147,20 +147,17 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
     they come back there, and would let light through that does not exist.
     """
-    at = _terms_at(pupils.basis)
+    at = at_nodes(pupils.basis, REACH_NODES)
+    of_xi, of_eta = at.map_slopes  # the phase has the terms of η
     (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
         (form @ across, form @ along)
-        for form, (across, along) in (
-            (pupils.phase, at.slopes[1]),
-            (pupils.eta, at.slopes[1]),
-            (pupils.xi, at.slopes[0]),
-        )
+        for form, (across, along) in ((pupils.phase, of_eta), (pupils.eta, of_eta), (pupils.xi, of_xi))
     )
     area = np.abs(xi_u * eta_v - xi_v * eta_u)
-    inside = (pupils.eta @ at.eta) ** 2 + (pupils.xi @ at.xi) ** 2 <= 1
-    light = np.where(inside & (pupils.rims @ at.eta > 0).all(1), at.weight * area**2, 0.0)
+    inside = (pupils.eta @ at.values.fy) ** 2 + (pupils.xi @ at.values.fx) ** 2 <= 1
+    light = np.where(inside & (pupils.rims @ at.values.fy > 0).all(1), at.nodes.weight * area**2, 0.0)
     if pupils.weight.size:
-        light *= (pupils.weight @ at.eta) ** 2
+        light *= (pupils.weight @ at.values.fy) ** 2
     share = np.pi * light.sum(1) / pupils.radius**2 / pupils.energy
     worst = float(share[np.abs(share - 1).argmax()])
     if abs(worst - 1) > FOLDED:
@@ -172,7 +169,7 @@ def with_reach(pupils: PupilStack) -> PupilStack:
     distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]
     mask, stray = pupils.mask, stray_of(pupils.mask)
     if not mask.clear:
-        xi, eta = pupils.xi @ at.xi, pupils.eta @ at.eta
+        xi, eta = pupils.xi @ at.values.fx, pupils.eta @ at.values.fy
         round_part = mask.round_part
         light = np.where(round_part.opens(xi, eta), light * round_part.amplitude(xi * inside, eta * inside) ** 2, 0.0)
     if mask.phased:
@@ -194,28 +191,11 @@ def cutting_rims(pupils: PupilStack) -> np.ndarray:
     """Return which surfaces' rims clip any part of any of the pupils, (surfaces,)."""
     if not pupils.rims.size:
         return np.zeros(pupils.rims.shape[1], bool)
-    at = _terms_at(pupils.basis)
-    inside = (pupils.eta @ at.eta) ** 2 + (pupils.xi @ at.xi) ** 2 <= 1
-    nearest = np.where(inside[:, None], pupils.rims @ at.eta, np.inf).min(2)
+    at = at_nodes(pupils.basis, REACH_NODES)
+    inside = (pupils.eta @ at.values.fy) ** 2 + (pupils.xi @ at.values.fx) ** 2 <= 1
+    nearest = np.where(inside[:, None], pupils.rims @ at.values.fy, np.inf).min(2)
     cutting: np.ndarray = (nearest < SURELY_CLEAR).any(0)
     return cutting
-
-
-@dataclass(frozen=True, eq=False)
-class _TermsAt:
-    """The terms of η and of ξ at REACH_NODES over u, the nodes' weights, and gradients of the terms of ξ and of η."""
-
-    eta: np.ndarray
-    xi: np.ndarray
-    weight: np.ndarray
-    slopes: tuple[Gradient, Gradient]
-
-
-@lru_cache(maxsize=16)
-def _terms_at(basis: PupilBasis) -> _TermsAt:
-    nodes = basis.domain.nodes(REACH_NODES)
-    values = basis.values(nodes.xi, nodes.eta)
-    return _TermsAt(values.fy, values.fx, nodes.weight, basis.map_slopes(nodes.xi, nodes.eta))
 
 
 @dataclass(frozen=True, eq=False)

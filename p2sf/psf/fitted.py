@@ -1,6 +1,5 @@
 """The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays (handbook 5.3)."""
 
-from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
@@ -14,9 +13,8 @@ from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
 from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
-from p2sf.pupil.basis import PupilBasis, PupilValues
+from p2sf.pupil.basis import at_nodes
 from p2sf.pupil.interpolation import on_disc
-from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit
@@ -118,8 +116,8 @@ def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:
     basis = found.level.basis
     order = max(basis.orders)
     coarse = order // 2 + 2, 2 * order + 4
-    nodes = basis.domain.nodes(coarse)
-    values = np.stack([*found.on(_kept_values(basis, CLEAR, coarse)), found.amplitude_at(nodes.xi, nodes.eta)])
+    there = at_nodes(basis, coarse)
+    values = np.stack([*found.on(there.values), found.amplitude_at(there.nodes.xi, there.nodes.eta)])
     return on_disc(basis.domain, values, coarse, counts)
 
 
@@ -140,18 +138,10 @@ def fitted_intensity(
 
 def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts) -> Values:
     """Return phase, fx and fy of a fit at its nodes, by blocks: of millions of nodes a basis takes gigabytes."""
-    basis = found.level.basis
     if nodes.xi.size <= MOST_KEPT // 2:
-        return found.on(_kept_values(basis, found.mask, counts))
+        return found.on(at_nodes(found.level.basis, counts, found.mask).values)
     blocks = []
     for begin in range(0, nodes.xi.size, MOST_KEPT):
         blocks.append(found.at(nodes.xi[begin : begin + MOST_KEPT], nodes.eta[begin : begin + MOST_KEPT]))
     phase, fx, fy = (np.concatenate(column) for column in zip(*blocks, strict=True))
     return phase, fx, fy
-
-
-@lru_cache(maxsize=16)
-def _kept_values(basis: PupilBasis, mask: PupilMask, counts: Counts) -> PupilValues:
-    """Return the terms at the nodes over what a mask leaves open."""
-    nodes = basis.domain.over(mask_nodes(mask, *counts))
-    return basis.values(nodes.xi, nodes.eta)

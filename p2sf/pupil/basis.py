@@ -5,7 +5,7 @@ that symmetry each of them has the terms of the other kind as well, behind its o
 Whoever uses a basis need not ask which it is: a symmetric one has fewer terms and fewer nodes.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import ClassVar, NamedTuple, TypeAlias
 
@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import protected
-from p2sf.pupil.mask_nodes import ClearNodes
-from p2sf.pupil.quadrature import MOST_KEPT, disc_nodes, gauss_legendre
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
 
 Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
@@ -47,7 +48,8 @@ class PupilDomain:
 
     def nodes(self, counts: tuple[int, int]) -> ClearNodes:
         """Return the nodes of (radial, angular) ``counts``."""
-        return (_kept_nodes if counts[0] * counts[1] <= MOST_KEPT else _kept_nodes.__wrapped__)(self, counts)
+        half = disc_nodes(*counts)
+        return self.over(ClearNodes(half.xi, half.eta, half.weight, 1.0))
 
     @property
     def turn(self) -> float:
@@ -120,13 +122,6 @@ class WholeDisc(PupilDomain):
 
 
 HALF, WHOLE = PupilDomain(), WholeDisc()
-
-
-@lru_cache(maxsize=32)
-def _kept_nodes(domain: PupilDomain, counts: tuple[int, int]) -> ClearNodes:
-    half = disc_nodes(*counts)
-    nodes = domain.over(ClearNodes(half.xi, half.eta, half.weight, 1.0))
-    return replace(nodes, xi=protected(nodes.xi), eta=protected(nodes.eta), weight=protected(nodes.weight))
 
 
 def ring_counts(rho: np.ndarray, total: int) -> np.ndarray:
@@ -289,6 +284,30 @@ class PupilBasis:
         even, odd = (gradient(self.map_order, xi, eta, odd) for odd in (False, True))
         across, along = zip(even, odd, strict=True)
         return (self.fx.of(across), self.fx.of(along)), (self.fy.of(across), self.fy.of(along))
+
+
+@dataclass(frozen=True, eq=False)
+class BasisAtNodes:
+    """A basis at nodes over what a mask leaves open of its domain."""
+
+    basis: PupilBasis
+    nodes: ClearNodes
+
+    @cached_property
+    def values(self) -> PupilValues:
+        """Return the terms of phase, fx and fy."""
+        return self.basis.values(self.nodes.xi, self.nodes.eta)
+
+    @cached_property
+    def map_slopes(self) -> tuple[Gradient, Gradient]:
+        """Return the gradients of the terms of fx and of fy."""
+        return self.basis.map_slopes(self.nodes.xi, self.nodes.eta)
+
+
+@lru_cache(maxsize=24)
+def at_nodes(basis: PupilBasis, counts: tuple[int, int], mask: PupilMask = CLEAR) -> BasisAtNodes:
+    """Return a basis at the nodes of (radial, angular) ``counts``, which is kept with its terms."""
+    return BasisAtNodes(basis, basis.domain.over(mask_nodes(mask, *counts)))
 
 
 def determinant(fx: np.ndarray, fy: np.ndarray, of_fx: Gradient, of_fy: Gradient) -> np.ndarray:

@@ -16,8 +16,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_aligned, seen_from
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.pupil.basis import Gradient, PupilBasis, determinant
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.basis import at_nodes, determinant
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
@@ -271,15 +270,8 @@ def masked_blur(found: FittedPencil) -> float:
     """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
     if found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
         return found.blur_um2
-    nodes, slopes = _kept_slopes(found.level.basis, found.mask)
-    return _blur(found, nodes, np.abs(determinant(found.fx, found.fy, *slopes)))
-
-
-@lru_cache(maxsize=16)
-def _kept_slopes(basis: PupilBasis, mask: PupilMask) -> tuple[ClearNodes, tuple[Gradient, Gradient]]:
-    """Return BLUR_NODES over the open part, and the slopes of the terms of fx and fy there."""
-    nodes = basis.domain.over(mask_nodes(mask, *BLUR_NODES))
-    return nodes, basis.map_slopes(nodes.xi, nodes.eta)
+    there = at_nodes(found.level.basis, BLUR_NODES, found.mask)
+    return _blur(found, there.nodes, np.abs(determinant(found.fx, found.fy, *there.map_slopes)))
 
 
 def _blur(found: FittedPencil, nodes: ClearNodes, area: np.ndarray, radiometrically: bool = False) -> float:

@@ -11,6 +11,7 @@ from p2sf.psf import fitted
 from p2sf.psf.fitted import counts_of, fit, fitted_psf, summed
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.plane_waves import window_reach_um
+from p2sf.pupil.basis import at_nodes
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.pupil.zernike import basis, gradient, terms
@@ -24,9 +25,9 @@ def test_a_sum_of_many_nodes_is_that_of_all_at_once_and_keeps_no_basis(monkeypat
     """A hundred polynomials at all nodes of the largest sum would be gigabytes: behind a mask they come in blocks."""
     lens, source, *_ = next(cases("double_gauss_28"))
     found, counts = fit(with_mask(lens, PupilMask(obscuration=0.3)), source), (100, 400)
-    fitted._kept_values.cache_clear()
+    at_nodes.cache_clear()
     parts = fitted.fitted_intensity(found, counts, 16, 2.0)
-    assert fitted._kept_values.cache_info().currsize == 0
+    assert at_nodes.cache_info().currsize == 0
     monkeypatch.setattr(fitted, "MOST_KEPT", 10**6)
     assert parts == pytest.approx(fitted.fitted_intensity(found, counts, 16, 2.0), rel=1e-10, abs=1e-12)
 

@@ -59,7 +59,7 @@ def test_slopes_are_differences(domain, step=1e-6):
 
 @BOTH
 def test_turned_coefficients_are_those_of_the_turned_function(domain, angle=0.7):
-    """F turned from +η towards +ξ has at a point what f has at the point turned back."""
+    """A function turned from +η towards +ξ has at a point what it had at the point turned back."""
     sine, cosine = np.sin(angle), np.cos(angle)
     back = XI * cosine - ETA * sine, XI * sine + ETA * cosine
     for terms, c in forms(domain):
