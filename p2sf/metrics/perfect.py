@@ -65,7 +65,8 @@ def _far_bessel(v: np.ndarray) -> np.ndarray:
     """Return J₀ and J₁ of v by Hankel's series √(2/πv)·Re Σ iᵏaₖ/vᵏ·exp(iω), ω = v − nπ/2 − π/4 (DLMF 10.17.3)."""
     series = np.vander(1 / v, HANKEL_TERMS, increasing=True) @ _hankel_terms()
     turn = np.exp(1j * (v[:, None] - np.array([1, 3]) * np.pi / 4))
-    return np.sqrt(2 / (np.pi * v)) * (series * turn).real.T
+    found: np.ndarray = np.sqrt(2 / (np.pi * v)) * (series * turn).real.T
+    return found
 
 
 @lru_cache(maxsize=1)
