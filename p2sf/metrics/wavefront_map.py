@@ -17,6 +17,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.basis import HALF, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_cells import inside_share, open_share
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
@@ -28,7 +29,6 @@ from p2sf.raytrace.clear_pieces import CLIPPED, LOST, holes_of
 from p2sf.raytrace.clear_rim import ClearRim, clear_rim
 from p2sf.raytrace.pencil import displayed_opd, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.vignetting import whole_nodes
 from p2sf.raytrace.zernike_fit import USUAL_TERMS
 
 SAMPLES = {"preview": 128, "settled": 384}  # across the picture; an enlarged panel has some thousand pixels
@@ -99,11 +99,12 @@ Clear = ClearRim | PassingCells
 class WavefrontSamples:
     """Nodes over the part of the pupil where rays arrive, W there in waves, and that part where it is not the disc.
 
-    The nodes of the half disc ξ ≥ 0 stand for a wavefront that is even in ξ.
+    ``domain``: HALF for a wavefront that is even in ξ.
     """
 
     nodes: ClearNodes
     waves: np.ndarray
+    domain: PupilDomain
     clear: Clear | None = None
 
 
@@ -133,15 +134,15 @@ def map_of_samples(waves: np.ndarray, inside: np.ndarray, kind: str) -> Wavefron
 
 @dataclass(frozen=True)
 class MapTerms:
-    """Zernike terms up to the order of a quality: those even in ξ, then, unless ``symmetric``, the odd ones."""
+    """Zernike terms up to the order of a quality, as the domain of the lens has them: even in ξ, then odd."""
 
     quality: str
-    symmetric: bool
+    domain: PupilDomain
 
     @property
     def parities(self) -> tuple[bool, ...]:
         """Return whether the terms of each group are odd."""
-        return (False,) if self.symmetric else (False, True)
+        return self.domain.parities(False)
 
     @property
     def degrees(self) -> list[tuple[int, int]]:
@@ -189,14 +190,8 @@ def _power_tables(quality: str, odd: bool) -> tuple[np.ndarray, np.ndarray, np.n
 @lru_cache(maxsize=4)
 def _projection(known: MapTerms) -> np.ndarray:
     """Return the matrix from waves at nodes over the disc to the terms: their means over it, (terms, nodes)."""
-    nodes = _disc_nodes(known.quality, known.symmetric)
+    nodes = known.domain.nodes(RAYS[known.quality])
     return protected(known.at(nodes.xi, nodes.eta) * nodes.weight)
-
-
-@lru_cache(maxsize=4)
-def _disc_nodes(quality: str, symmetric: bool) -> ClearNodes:
-    nodes = whole_nodes(RAYS[quality])
-    return nodes if symmetric else nodes.unfolded()
 
 
 def samples_of_rays(lens: Lens, source: Source, quality: str, clip: bool = False) -> WavefrontSamples:
@@ -204,21 +199,21 @@ def samples_of_rays(lens: Lens, source: Source, quality: str, clip: bool = False
 
     ``quality``: "preview" or "settled". Raises GeometryError where no ray reaches the sensor.
     """
-    nodes = _disc_nodes(quality, not lens.misaligned)
+    nodes = lens.pupil_domain.nodes(RAYS[quality])
     rays = pencil(lens, source, nodes.xi, nodes.eta)
     waves = opd_on_sphere(rays, exit_radius(lens, source, rays))
     if np.isfinite(waves).all() and not (clip and _clipped(lens, source, nodes)):
-        return WavefrontSamples(nodes, waves)
+        return WavefrontSamples(nodes, waves, lens.pupil_domain)
     holed = clip and holes_of(lens)
     clear = _passing(lens, source, quality) if holed else clear_rim(lens, source, clip, *RIMS[quality])
     nodes = clear.nodes(RADII[quality])
-    return WavefrontSamples(nodes, displayed_opd(lens, source, nodes.xi, nodes.eta), clear)
+    return WavefrontSamples(nodes, displayed_opd(lens, source, nodes.xi, nodes.eta), lens.pupil_domain, clear)
 
 
 def samples_of_coefficients(six: Coefficients, quality: str) -> WavefrontSamples:
     """Return W of the six coefficients, which know no rims."""
-    nodes = _disc_nodes(quality, True)
-    return WavefrontSamples(nodes, np.asarray(wavefront(six, nodes.xi, nodes.eta)))
+    nodes = HALF.nodes(RAYS[quality])
+    return WavefrontSamples(nodes, np.asarray(wavefront(six, nodes.xi, nodes.eta)), HALF)
 
 
 def _clipped(lens: Lens, source: Source, nodes: ClearNodes) -> bool:
@@ -241,7 +236,7 @@ def map_of(
     lens: Lens, source: Source, samples: WavefrontSamples, quality: str, kind: str = "exact rays"
 ) -> WavefrontMap:
     """Return the map of a wavefront behind the mask in the lens's stop. Raises GeometryError where nothing is open."""
-    known = MapTerms(quality, samples.nodes.even)
+    known = MapTerms(quality, samples.domain)
     return map_of_terms(lens, source, known, known.fitted(samples), samples.clear, kind)
 
 
@@ -376,10 +371,12 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> OpenPar
 
 def _figure_nodes(mask: PupilMask, known: MapTerms, clear: Clear | None) -> tuple[ClearNodes, ClearNodes]:
     """Return nodes over what is open, and such of positive weights, vanes set aside where nothing else ends it."""
+    if clear is None and mask.clear:
+        return (known.domain.nodes(RAYS[known.quality]),) * 2
     if clear is None:
-        both = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, replace(mask, vanes=0)))
-        nodes, parts = both if known.symmetric else (one.unfolded() for one in both)
-        return (_disc_nodes(known.quality, known.symmetric),) * 2 if mask.clear else (nodes, parts)
+        nodes, parts = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, replace(mask, vanes=0)))
+        over = known.domain.over(nodes)
+        return over, over if parts is nodes else known.domain.over(parts)
     if mask.clear:
         return (clear.nodes(RADII[known.quality]),) * 2
     return (_open_cells(mask, clear, CELLS[known.quality]),) * 2

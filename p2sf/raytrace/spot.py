@@ -11,6 +11,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.pupil.basis import WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes, outline_radius
 from p2sf.raytrace.aiming import Sources
@@ -136,15 +137,15 @@ def landing(
 
 def _landing(lens: Lens, source: Source | Sources, clip: bool, follow_rims: bool, rings: int) -> Landing:
     mask = mask_of_rays(lens, source)
-    even = mask.even and not lens.misaligned
-    found, whole = _traced(lens, source, _open_nodes(mask, rings, even), _rim_points(mask, even), clip)
+    domain = lens.pupil_domain if mask.even else WHOLE
+    found, whole = _traced(lens, source, _open_nodes(mask, rings, domain), _rim_points(mask, domain), clip)
     if whole or not follow_rims or isinstance(source, Sources):
         return _checked(found, clip)
     if mask.clear and not (clip and holes_of(lens)):
         rim = clear_rim(lens, source, clip, *CLEAR_RIM)
         return _checked(_traced(lens, source, rim.nodes(rings), rim.points, False)[0], clip)
-    nodes = _open_nodes(mask, FINER * rings, even)
-    return _checked(_traced(lens, source, nodes, _rim_points(mask, even), clip)[0], clip)
+    nodes = _open_nodes(mask, FINER * rings, domain)
+    return _checked(_traced(lens, source, nodes, _rim_points(mask, domain), clip)[0], clip)
 
 
 _kept_landing = lru_cache(maxsize=32)(_landing)
@@ -161,14 +162,14 @@ def mask_of_rays(lens: Lens, source: Source | Sources) -> PupilMask:
     return mask_seen(lens, source if isinstance(source, Source) else Source(inf, 0.0, wave))
 
 
-def _open_nodes(mask: PupilMask, rings: int, even: bool) -> ClearNodes:
+def _open_nodes(mask: PupilMask, rings: int, domain: PupilDomain) -> ClearNodes:
     nodes = whole_nodes((rings, 2 * rings)) if mask.clear else mask_nodes(mask, rings, 2 * rings)
-    return nodes if even else nodes.unfolded()
+    return domain.over(nodes)
 
 
-def _rim_points(mask: PupilMask, even: bool) -> tuple[np.ndarray, np.ndarray]:
+def _rim_points(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.ndarray]:
     """Return ξ and η on the outline of what a mask leaves open, and of an obscuration."""
-    theta = np.linspace(0, np.pi, RIM_RAYS + 1) if even else np.arange(2 * RIM_RAYS) * (np.pi / RIM_RAYS)
+    theta = np.linspace(0, domain.turn, RIM_RAYS * len(domain.halves) + 1)
     if mask.clear:
         return np.sin(theta), np.cos(theta)
     radius = JUST_INSIDE * outline_radius(mask, theta)

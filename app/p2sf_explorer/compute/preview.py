@@ -148,4 +148,4 @@ def _projection(level: Level) -> np.ndarray:
 
 
 def _map_terms(level: Level) -> MapTerms:
-    return MapTerms("preview", level.basis.domain.symmetric)
+    return MapTerms("preview", level.basis.domain)
