@@ -231,7 +231,7 @@ def _in_axes_of_lens(lens: Lens, places: np.ndarray, cosines: np.ndarray) -> tup
         rotation, origin = (np.array(part) for part in zip(*lens.frames, strict=True))
         flat = rotation @ places.reshape(*places.shape[:2], -1) + origin[..., None]
         return np.moveaxis(flat.reshape(places.shape), 1, -1), cosines @ rotation[-1].T
-    places[:, 2] += np.cumsum(lens.steps).reshape(-1, *[1] * (places.ndim - 2))
+    places[:, 2] += np.cumsum([step or 0.0 for step in lens.steps]).reshape(-1, *[1] * (places.ndim - 2))
     return np.moveaxis(places, 1, -1), cosines
 
 
