@@ -1,8 +1,8 @@
 """Sizes of the program and counts of what should become fewer: ``python -m tests.long.structure [FOLDER]``.
 
 Printed: lines of code (without blanks, comments and docstrings) and syntax nodes of every folder; then branches on
-symmetry, comparisons with names of methods, functions of many parameters, class names that occur twice, and circles
-between folders. ``--list branches`` names every place of that count.
+symmetry, comparisons with names of methods, functions of many parameters, class names that occur twice, names that are
+a bare participle, and circles between folders. ``--list branches`` names every place of that count.
 """
 
 import argparse
@@ -25,6 +25,16 @@ MOST_PARAMETERS = 7
 EXEMPT = ("p2sf/api.py", "p2sf/cli/")  # whose keywords a user reads, as those of two functions elsewhere
 EXEMPT_FUNCTIONS = {"p2sf/database_files/building.py": "build_database", "p2sf/studies/tradeoff.py": "tradeoff"}
 NOT_COUNTED = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
+# Participles that do not end in "ed"; those that are also a verb or a noun, such as read, set or spread, are none.
+IRREGULAR = set(
+    """
+    begun bent bound broken brought built caught chosen come done drawn driven fallen felt flown forgotten found frozen
+    given gone grown heard held hidden kept known laid led left lost made meant met paid risen said seen sent shown sold
+    sought spoken spun stolen stood struck sunk swept taken taught thought thrown told torn understood won worn woven
+    written behind
+    """.split()
+)
+NO_PARTICIPLES = {"seed", "speed", "need", "feed"}
 Place = tuple[Path, int, str]
 
 
@@ -104,6 +114,35 @@ def classes(path: Path, tree: ast.Module) -> Iterator[Place]:
     return ((path, node.lineno, node.name) for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
 
 
+def participles(path: Path, tree: ast.Module) -> Iterator[Place]:
+    """Yield functions, classes and annotated fields whose whole name is a participle.
+
+    Not counted: what is true or false, for which an adjective is right, and methods that return a changed copy of what
+    they belong to, as ``turned`` and ``scaled`` do.
+    """
+    for owner in ast.walk(tree):
+        for node in ast.iter_child_nodes(owner):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                gives = ast.unparse(node.returns).strip("'\"").split("[")[0] if node.returns else ""
+                if isinstance(owner, ast.ClassDef) and gives in ("Self", owner.name, *map(ast.unparse, owner.bases)):
+                    continue
+                name, kind = node.name, gives
+            elif isinstance(node, ast.ClassDef):
+                name, kind = node.name, ""
+            elif isinstance(owner, ast.ClassDef) and isinstance(node, ast.AnnAssign):
+                name, kind = ast.unparse(node.target), ast.unparse(node.annotation)
+            else:
+                continue
+            if kind != "bool" and _is_participle(name.strip("_")):
+                yield path, node.lineno, name
+
+
+def _is_participle(word: str) -> bool:
+    return word in IRREGULAR or (
+        word.isalpha() and word.islower() and word.endswith("ed") and word not in NO_PARTICIPLES
+    )
+
+
 def circles(root: Path) -> list[set[str]]:
     """Return the sets of folders that import each other in circles, within one package."""
     towards: dict[str, set[str]] = defaultdict(set)
@@ -141,7 +180,7 @@ def _reached(start: str, towards: dict[str, set[str]]) -> set[str]:
 
 def counts(root: Path) -> dict[str, list[Place]]:
     """Return the places of every count over core and app."""
-    found: dict[str, list[Place]] = {"branches": [], "methods": [], "parameters": [], "classes": []}
+    found: dict[str, list[Place]] = {"branches": [], "methods": [], "parameters": [], "classes": [], "participles": []}
     named: dict[str, list[Place]] = defaultdict(list)
     for package in PACKAGES[:2]:
         for path in sources(root, package):
@@ -149,6 +188,7 @@ def counts(root: Path) -> dict[str, list[Place]]:
             found["branches"] += branches(short, tree)
             found["methods"] += method_comparisons(short, tree)
             found["parameters"] += long_signatures(short, tree)
+            found["participles"] += participles(short, tree)
             for place in classes(short, tree):
                 named[place[2]].append(place)
     found["classes"] = [place for name in sorted(named) if len(named[name]) > 1 for place in named[name]]
@@ -171,7 +211,9 @@ def sizes(root: Path) -> dict[str, tuple[int, int]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("root", type=Path, nargs="?", default=HERE, help="folder of a checkout")
-    parser.add_argument("--list", choices=("branches", "methods", "parameters", "classes"), help="name every place")
+    parser.add_argument(
+        "--list", choices=("branches", "methods", "parameters", "classes", "participles"), help="name every place"
+    )
     given = parser.parse_args()
     found = counts(given.root)
     if given.list:
@@ -189,6 +231,7 @@ def main() -> None:
     print(f"{len(found['methods'])} comparisons with names of methods")
     print(f"{len(found['parameters'])} functions of more than {MOST_PARAMETERS} parameters")
     print(f"{len({name for _, _, name in found['classes']})} class names that occur more than once")
+    print(f"{len(found['participles'])} names of functions, classes and fields that are a bare participle")
     print(f"circles between folders: {circles(given.root) or 'none'}")
 
 
