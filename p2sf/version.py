@@ -4,7 +4,7 @@ import platform
 from importlib import import_module
 
 
-def _built() -> str:
+def _version_as_built() -> str:
     """Return the version as the build wrote it, from the tag; unknown in a checkout that was never built from."""
     try:
         return str(import_module("p2sf._version").__version__)
@@ -12,7 +12,7 @@ def _built() -> str:
         return "0+unknown"
 
 
-__version__ = _built()
+__version__ = _version_as_built()
 STANDS_ON = ("numpy", "scipy", "PySide6_Essentials", "pyqtgraph", "pyvista", "vtk")
 
 

@@ -59,7 +59,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
                 parameter=parameter,
                 path=name,
             )
-    database = shifted(stored.database, request.sensor_shift_um)
+    database = with_sensor_shift(stored.database, request.sensor_shift_um)
     source = source_of(database, request)
     psf = pixels_psf(database, source, pixels, pixel_um)
     return LookedUp(psf, description(stored, source), _heading(stored, source), stored.accuracy)
@@ -79,7 +79,7 @@ def accuracy_rows(known: DatabaseAccuracy, of: str = "") -> list[Row]:
     return [(f"predicted 1 − R²{of}, median", *median), (f"predicted 1 − R²{of}, worst", *worst)]
 
 
-def shifted(database: "Database", shift_um: float) -> "Database":
+def with_sensor_shift(database: "Database", shift_um: float) -> "Database":
     """Return the database with its sensor moved; RequestError where the interpolant fixes the sensor."""
     if not shift_um:
         return database

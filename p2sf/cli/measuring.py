@@ -20,7 +20,13 @@ from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.frame import Frame, Noise
 from p2sf.measure.frame_fit import FrameFit
 from p2sf.measure.frame_terms import F_NUMBER_ERROR, FIELD, FOCUS, lens_optics
-from p2sf.measure.measurement import Measurement, MeasurementComparison, compared, measured, write_measurement
+from p2sf.measure.measurement import (
+    Measurement,
+    MeasurementComparison,
+    compare_measurements,
+    measure_frame,
+    write_measurement,
+)
 from p2sf.measure.point_fit import PointFit
 from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.reading import read_frame
@@ -141,7 +147,7 @@ def measure(
         frames = [replace(frame, field_deg=field) for frame in frames]
     optics = replace(optics, light=tuple(_colour(text) for text in light or ()))
     with using_threads(threads), percent_line() as tell:
-        found = measured(
+        found = measure_frame(
             frames,
             optics,
             focus_um=focus_um or [0.0] * len(frames),
@@ -328,7 +334,7 @@ MOST_ROWS, SHOWN = 20, 6
 
 def compare(first: Path, second: Path, /, *, as_json: Json = False) -> None:
     """Compare two measurements of the same points: differences of all numbers, in standard deviations of both."""
-    found = compared(first, second)
+    found = compare_measurements(first, second)
     if as_json:
         return print_json(_comparison(found))
     rows: list[Row] = [

@@ -116,15 +116,15 @@ def show(setup: Setup, found: FieldAberrations, moved: NodalSensitivities) -> No
                 f"{move.kind.replace('_', ' ')}, per {move.unit}",
                 abs(waves),
                 f"{(round(np.rad2deg(np.angle(waves))) + 179) % 360 - 179}°",
-                _shown(np.rad2deg(1) * moved.coma_node[number]),
-                _shown(np.rad2deg(1) * moved.astigmatism_middle[number]),
-                _shown(moved.landing_um[number]),
+                _without_rounding(np.rad2deg(1) * moved.coma_node[number]),
+                _without_rounding(np.rad2deg(1) * moved.astigmatism_middle[number]),
+                _without_rounding(moved.landing_um[number]),
             )
         )
     print_table("\nTo first order; towards counts from +y to +x", SENSITIVITY, table)
 
 
-def _shown(value: complex) -> str:
+def _without_rounding(value: complex) -> str:
     """Return x and y, that part as 0 which is nothing but the rounding of differences."""
     least = NOTHING * abs(value)
     x, y = (part if abs(part) > least else 0.0 for part in _pair(value))

@@ -86,17 +86,17 @@ def _check(lens: str, request: Request, picture: Picture, spectrum: str | None, 
 def _axes(setup: Setup, several: SetOptions) -> SetAxes:
     """Return the axes asked for; what has none is that of the one source."""
     source = setup.source
-    fields = _asked(several.fields_deg, "fields_deg", numbers, setup.field_deg)
-    colours = _asked(several.wavelengths_nm, "wavelengths_nm", numbers, source.wavelength_um * NM_PER_UM)
+    fields = _parse_values(several.fields_deg, "fields_deg", numbers, setup.field_deg)
+    colours = _parse_values(several.wavelengths_nm, "wavelengths_nm", numbers, source.wavelength_um * NM_PER_UM)
     for angle in fields:
         check_angle("fields_deg", float(angle))
     for colour in colours:
         check_positive("wavelengths_nm", float(colour))
-    distances = _asked(several.depths_mm, "depths_mm", depths, source.depth_mm)
+    distances = _parse_values(several.depths_mm, "depths_mm", depths, source.depth_mm)
     return axes_of(distances, fields, colours)
 
 
-def _asked(text: str | None, name: str, read: Callable[[str, str], np.ndarray], single: float) -> np.ndarray:
+def _parse_values(text: str | None, name: str, read: Callable[[str, str], np.ndarray], single: float) -> np.ndarray:
     return np.array([single]) if text is None else read(text, name)
 
 

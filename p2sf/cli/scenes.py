@@ -50,7 +50,7 @@ def plan_command(
     """Decide what a scene requires of a lens model, and say why."""
     check_whole("check", check, 0, 1000)
     glass = find_lens(lens)
-    planned = _planned(glass, _asked(glass, scene))
+    planned = _make_plan(glass, _read_scene(glass, scene))
     with using_threads(threads):
         verdict = verify(planned, check) if check else None
     measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
@@ -67,7 +67,7 @@ def plan_command(
     return None
 
 
-def _asked(glass: Lens, path: Path) -> Scene:
+def _read_scene(glass: Lens, path: Path) -> Scene:
     """Return a file's scene; a focus or f-number that the lens cannot take is named as in the file."""
     scene = read_scene(path)
     try:
@@ -86,7 +86,7 @@ class PlanningProgress:
     seconds: float = 0.0
 
 
-def _planned(glass: Lens, scene: Scene) -> Plan:
+def _make_plan(glass: Lens, scene: Scene) -> Plan:
     """Return the plan, with a line of progress on a terminal; Ctrl+C stops it."""
     if not sys.stderr.isatty():
         return plan(glass, scene)
@@ -167,11 +167,11 @@ def image(
         )
     check_output(output, WRITABLE)
     glass = find_lens(lens)
-    asked = _asked(glass, scene)
+    asked = _read_scene(glass, scene)
     _check_kept(output, picture, asked)
     values, encoding = source_picture(picture, asked, shown)
     with using_threads(threads):
-        formed, facts = _formed(glass, asked, values, shown)
+        formed, facts = _form_picture(glass, asked, values, shown)
     written = _for_file(formed, asked)
     write_photo(output, written, encoding)
     rows, columns = written.shape[:2]
@@ -223,20 +223,20 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray
     )
 
 
-def _formed(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
+def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
     from p2sf.image import Forming, form_image, plan_lattice, preview
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
-    planned = _planned(glass, scene)
+    planned = _make_plan(glass, scene)
     warn(None if planned.meets else TOO_TIGHT)
     formed = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)
     facts = {"method": shown.method, "predicted_error": planned.predicted_error}
     if not shown.deblur:
         return formed, facts
     lattice = plan_lattice(planned, planned.vergences[0])  # of the scene's far end
-    return _sharpened(lattice, formed, shown), {**facts, "deblur": shown.deblur}
+    return _sharpen(lattice, formed, shown), {**facts, "deblur": shown.deblur}
 
 
 def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
@@ -246,7 +246,7 @@ def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
     return noisy
 
 
-def _sharpened(lattice: "Lattice", formed: np.ndarray, shown: Shown) -> np.ndarray:
+def _sharpen(lattice: "Lattice", formed: np.ndarray, shown: Shown) -> np.ndarray:
     """Return the picture sharpened with its kernels, assuming the noise of 8 bits at least."""
     from p2sf.image.deblur import richardson_lucy, wiener
 

@@ -153,10 +153,18 @@ def record_of(
         where = {"kind": one.kind, "first": one.piece[0], "last": one.piece[1]}
         size = {"amount": one.amount, "unit": UNITS[one.kind]}
         both = {
-            "rms_waves": [_known(one) for one in worst[2 * number : 2 * number + 2]],
-            "adds_waves": _known(adds[number]),
+            "rms_waves": [_finite_or_none(one) for one in worst[2 * number : 2 * number + 2]],
+            "adds_waves": _finite_or_none(adds[number]),
         }
-        rows.append({**where, **size, **both, "harm": _known(harm[number]), "form_error": _known(excess[number])})
+        rows.append(
+            {
+                **where,
+                **size,
+                **both,
+                "harm": _finite_or_none(harm[number]),
+                "form_error": _finite_or_none(excess[number]),
+            }
+        )
     rows.sort(key=lambda row: -np.inf if row["harm"] is None else -row["harm"])
     values = of_worst_field(found, criterion)
     rms, strehl = found.rms_waves.max(1), found.strehl.min(1)
@@ -187,7 +195,7 @@ def record_of(
     }
 
 
-def _known(value: float) -> float | None:
+def _finite_or_none(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 

@@ -43,7 +43,7 @@ def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIB
     """
     if spectrum.kind == "lines":
         wavelength = np.array(spectrum.numbers) / NM_PER_UM
-        return wavelength, _normalised(matching(wavelength), spectrum)
+        return wavelength, _normalise(matching(wavelength), spectrum)
     low, high = max(limits_um[0], VISIBLE_UM[0]), min(limits_um[1], VISIBLE_UM[1])
     fine = low + (np.arange(max(1, round((high - low) / STEP_UM))) + 0.5) * STEP_UM
     light = relative_power(spectrum, fine)[:, None] * matching(fine)
@@ -53,10 +53,10 @@ def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIB
     parts = [part for part in np.split(np.arange(fine.size), edges) if part.size]
     sums = np.array([light[part].sum(0) for part in parts])
     centres = np.array([np.average(fine[part], weights=light[part].sum(1)) for part in parts])
-    return centres, _normalised(sums, spectrum)
+    return centres, _normalise(sums, spectrum)
 
 
-def _normalised(light: np.ndarray, spectrum: Spectrum) -> np.ndarray:
+def _normalise(light: np.ndarray, spectrum: Spectrum) -> np.ndarray:
     total = light[:, 1].sum()
     if not total > 1e-6:
         raise RequestError(

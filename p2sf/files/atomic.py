@@ -48,7 +48,7 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
     target = Path(path).resolve()
     part = target.with_name(f".{secrets.token_hex(6)}.part")
     try:
-        unnamed = _unnamed(target.parent)
+        unnamed = _nameless_file(target.parent)
         with unnamed or open(part, "xb") as handle:
             write(handle)
             handle.flush()
@@ -61,7 +61,7 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
             part.unlink(missing_ok=True)
 
 
-def _unnamed(folder: Path) -> BinaryIO | None:
+def _nameless_file(folder: Path) -> BinaryIO | None:
     """Return a new file without a name, which ends with its process; None where the system has no such files."""
     try:
         number = os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)

@@ -69,7 +69,7 @@ def _unambiguous(text: str, entries: list[CatalogueEntry]) -> CatalogueEntry:
         raise GlassError(
             'glass "{name}" is sold with different indices as {glasses}; write the one you mean',
             name=text,
-            glasses=tuple(map(_described, entries)),
+            glasses=tuple(map(_label_with_index, entries)),
         )
     return entries[0]
 
@@ -82,7 +82,7 @@ def _fingerprint(entry: CatalogueEntry) -> str | tuple[int, ...]:
     return tuple(round(float(refractive_index(entry.page, probe)) / SAME_INDEX) for probe in PROBES_UM)
 
 
-def _described(entry: CatalogueEntry) -> Message:
+def _label_with_index(entry: CatalogueEntry) -> Message:
     """Return a glass's label in quotation marks, with its nd where the data reach the d line."""
     low, high = entry.range_um
     if not low <= LINES_UM["d"] <= high:

@@ -20,7 +20,7 @@ def refractive_index(page: Page, wavelength_um: Values) -> np.ndarray:
     """Return n of one page of the database, in the shape of ``wavelength_um`` (µm, float or array)."""
     formula = FORMULAS.get(page.kind)
     if formula is None:
-        return np.asarray(tabulated(page.wavelengths_um, page.numbers, wavelength_um))
+        return np.asarray(interpolate_index(page.wavelengths_um, page.numbers, wavelength_um))
     index: np.ndarray = formula(page.numbers, wavelength_um)
     return index
 
@@ -96,7 +96,7 @@ def exotic(c: Coefficients, wavelength: Values) -> Values:
     return np.sqrt(c[0] + c[1] / (wavelength * wavelength - c[2]) + c[3] * shifted / (shifted * shifted + c[5]))
 
 
-def tabulated(wavelengths_um: Sequence[float], values: Sequence[float], wavelength: Values) -> Values:
+def interpolate_index(wavelengths_um: Sequence[float], values: Sequence[float], wavelength: Values) -> Values:
     """Return a table's n through the four nearest points in λ⁻², where a glass is nearly a straight line.
 
     ``wavelengths_um`` ascending. Straight lines in λ between makers' usual wavelengths err by up to 8e-4, this by

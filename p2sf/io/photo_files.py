@@ -71,7 +71,7 @@ def write_photo(
     values = np.squeeze(np.asarray(values, np.float32))
     values = srgb_from_linear(values) if encoding == "srgb" else values
     stored = values if depth == "float" else _whole(values, int(depth))
-    return write_beside(path, lambda handle: handle.write(_encoded(stored, ending)))
+    return write_beside(path, lambda handle: handle.write(_encode(stored, ending)))
 
 
 def check_ending(path: str | os.PathLike[str]) -> str:
@@ -93,7 +93,7 @@ def _whole(values: np.ndarray, bits: int) -> np.ndarray:
     return whole.astype(np.uint8 if bits == 8 else np.uint16)
 
 
-def _encoded(stored: np.ndarray, ending: str) -> bytes:
+def _encode(stored: np.ndarray, ending: str) -> bytes:
     if ending == ".png" and stored.dtype == np.uint16:
         return write_deep(stored)
     buffer = io.BytesIO()

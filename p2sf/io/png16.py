@@ -33,7 +33,7 @@ def read_deep(data: bytes, path: str | os.PathLike[str]) -> np.ndarray:
         # No more is unpacked than the header has announced.
         line = 2 * width * channels + 1
         raw = zlib.decompressobj().decompress(_body(data), height * line)
-        plain = unfiltered(np.frombuffer(raw, np.uint8).reshape(height, line), 2 * channels)
+        plain = reverse_filters(np.frombuffer(raw, np.uint8).reshape(height, line), 2 * channels)
     except OversizedError as error:
         raise RequestError(
             "{path} is too large a PNG ({why}); save it smaller", path=str(path), why=str(error)
@@ -74,7 +74,7 @@ def _body(data: bytes) -> bytes:
     return b"".join(parts)
 
 
-def unfiltered(raw: np.ndarray, step: int) -> np.ndarray:
+def reverse_filters(raw: np.ndarray, step: int) -> np.ndarray:
     """Return the bytes before filtering, (rows, width · step); each raw row begins with its filter's number.
 
     A byte depends on its neighbours on the left and above (ISO/IEC 15948, §9). Those of one diagonal do not depend on

@@ -36,18 +36,18 @@ def even_asphere(surface: Surface, terms: int = 12) -> EvenAsphere:
     if powers is not None and any(a for power, a in powers.items() if power % 2):
         raise GeometryError("the surface has odd powers of the radius, which no even terms describe; keep its shape")
     if powers is None or powers.get(2):
-        return _fitted(surface, terms)
+        return _fit_powers(surface, terms)
     top = max(powers, default=2)
     more = tuple(powers.get(k, 0.0) / shape.normalisation_mm**k for k in range(4, top + 1, 2))
-    return EvenAsphere(replace(surface, aspheric=_added(surface.aspheric, more), shape=None), 0.0)
+    return EvenAsphere(replace(surface, aspheric=_add_terms(surface.aspheric, more), shape=None), 0.0)
 
 
-def _added(one: tuple[float, ...], other: tuple[float, ...]) -> tuple[float, ...]:
+def _add_terms(one: tuple[float, ...], other: tuple[float, ...]) -> tuple[float, ...]:
     short, long = sorted((one, other), key=len)
     return tuple(a + b for a, b in zip((*short, *[0.0] * (len(long) - len(short))), long, strict=True))
 
 
-def _fitted(surface: Surface, terms: int) -> EvenAsphere:
+def _fit_powers(surface: Surface, terms: int) -> EvenAsphere:
     """Return the least-squares fit in Forbes's Qcon, whose terms are orthogonal, in powers of r."""
     curvature = surface.vertex_curvature
     rim = surface.semi_diameter

@@ -357,9 +357,9 @@ class Lens:
         found = []
         onward = along_z(0.0)
         for surface in self.surfaces:
-            found.append(_chained(onward, surface.before))
-            onward = _chained(along_z(0.0), surface.after).then(along_z(surface.thickness))
-        return *found, _chained(onward, self.sensor_before)
+            found.append(_chain(onward, surface.before))
+            onward = _chain(along_z(0.0), surface.after).then(along_z(surface.thickness))
+        return *found, _chain(onward, self.sensor_before)
 
     @cached_property
     def steps(self) -> tuple[float | None, ...]:
@@ -375,7 +375,7 @@ class Lens:
         return tuple(accumulate(self.motions, Motion.then))
 
 
-def _chained(motion: Motion, placements: tuple[Placement, ...]) -> Motion:
+def _chain(motion: Motion, placements: tuple[Placement, ...]) -> Motion:
     return reduce(Motion.then, (placement.motion for placement in placements), motion)
 
 

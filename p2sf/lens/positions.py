@@ -103,7 +103,7 @@ class Axis:
         raise RequestError(
             "{parameter} is {value}; give a number from {low:g} to {high:g}{unit}, or a column of the lens: {columns}",
             parameter=PARAMETER[self.kind],
-            value=shown(asked),
+            value=position_text(asked),
             low=self.low,
             high=self.high,
             unit=f" {self.unit}" if self.unit else "",
@@ -111,7 +111,7 @@ class Axis:
         )
 
 
-def shown(asked: float | str) -> str:
+def position_text(asked: float | str) -> str:
     """Return a position as a person may have written it."""
     return asked if isinstance(asked, str) else f"{asked:g}"
 
@@ -202,7 +202,7 @@ def with_positions(axes: Sequence[Axis], lenses: Sequence[Lens]) -> Lens:
 
 
 @lru_cache(maxsize=128)
-def interpolated(positions: Positions, place: tuple[float, ...]) -> Lens:
+def interpolate_lens(positions: Positions, place: tuple[float, ...]) -> Lens:
     """Return the plain lens with its rings at ``place``, one number for each axis, within its scale.
 
     In a column it is the column's own. Between columns every number that varies is a monotone cubic of the place
@@ -224,7 +224,7 @@ def _along(axis: Axis, lenses: tuple[Lens, ...], place: float) -> Lens:
     if curve is None:
         return near
     values = dict(zip(addresses, curve(place).tolist(), strict=True))
-    surfaces = tuple(_moved(surface, number, values) for number, surface in enumerate(near.surfaces))
+    surfaces = tuple(_with_values(surface, number, values) for number, surface in enumerate(near.surfaces))
     return replace(
         near,
         surfaces=surfaces,
@@ -263,7 +263,7 @@ def _numbers(lens: Lens) -> dict[Address, float]:
     return found
 
 
-def _moved(surface: Surface, number: int, values: dict[Address, float]) -> Surface:
+def _with_values(surface: Surface, number: int, values: dict[Address, float]) -> Surface:
     """Return a surface with those of the values that are its own."""
     own = {(name, place): value for (where, name, place), value in values.items() if where == number}
     changes: dict[str, object] = {}

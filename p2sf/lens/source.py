@@ -117,9 +117,11 @@ class Source:
         return x if off_axis else 0.0, y if off_axis != 90 else 0.0
 
     def __repr__(self) -> str:
-        place = f"depth_mm={_shown(self.depth_mm)}, field_deg={_shown(degrees_from_slope(self.field_slope))}"
+        place = (
+            f"depth_mm={_number_text(self.depth_mm)}, field_deg={_number_text(degrees_from_slope(self.field_slope))}"
+        )
         turned = f", azimuth_deg={self.azimuth_deg:.10g}" if self.azimuth_deg else ""
-        return f"Source({place}, wavelength_nm={_shown(self.wavelength_um * NM_PER_UM)}{turned})"
+        return f"Source({place}, wavelength_nm={_number_text(self.wavelength_um * NM_PER_UM)}{turned})"
 
 
 def source_at(depth_mm: float, slope_x: float, slope_y: float, wavelength_um: float) -> Source:
@@ -143,7 +145,7 @@ def _number(name: str, value: Any) -> Any:
     return in_own_unit(name, value) if name == "field_deg" else argument(name, value, float | np.ndarray | None)
 
 
-def _shown(value: float | np.ndarray) -> str:
+def _number_text(value: float | np.ndarray) -> str:
     return f"{value:.10g}" if np.ndim(value) == 0 else np.array2string(np.asarray(value), precision=6, threshold=6)
 
 

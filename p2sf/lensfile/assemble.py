@@ -43,12 +43,12 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
             most=MOST_SURFACES,
         )
     media = _media(raw, sources, notes, source)
-    lens = _located(lambda: _bare_lens(raw, media), raw, source, None)
-    lens = _located(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
-    lens = _located(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
-    lens = _located(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
+    lens = _with_line(lambda: _bare_lens(raw, media), raw, source, None)
+    lens = _with_line(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
+    lens = _with_line(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
+    lens = _with_line(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
     if not raw.sensor_stated:
-        lens = _located(lambda: _focused(lens, raw, notes), raw, source, None)
+        lens = _with_line(lambda: _at_paraxial_focus(lens, raw, notes), raw, source, None)
     _read_notes(lens, raw, notes)
     _note_vignetting(lens, raw, notes)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
@@ -75,7 +75,7 @@ def check_stop(raw: RawLens, source: LensText, line: int | None) -> None:
         )
 
 
-def _located(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int | None) -> Lens:
+def _with_line(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int | None) -> Lens:
     """Call ``make`` and attach a line number to its errors."""
     try:
         return make()
@@ -128,11 +128,11 @@ def _bare_lens(raw: RawLens, media: list[Medium]) -> Lens:
         source=raw.source,
         wavelengths_nm=wavelengths,
         object_medium=media[0],
-        sensor_before=_scaled(raw.sensor_before, raw.unit_mm),
+        sensor_before=_to_mm(raw.sensor_before, raw.unit_mm),
     )
 
 
-def _scaled(placements: tuple[Placement, ...], unit: float) -> tuple[Placement, ...]:
+def _to_mm(placements: tuple[Placement, ...], unit: float) -> tuple[Placement, ...]:
     return tuple(placement.scaled(unit) for placement in placements)
 
 
@@ -257,7 +257,7 @@ def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     return replace(lens, fields_deg=conjugates.degrees_of(slopes))
 
 
-def _focused(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+def _at_paraxial_focus(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     """Return the lens with its sensor at the paraxial focus for an object at infinity, for a file without one."""
     focus = conjugates.trace(lens, 1, lens.reference_wavelength_um).focus
     if not isfinite(focus):
@@ -276,7 +276,7 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         "{count} surfaces, {stop}, {aperture}; {wavelengths:g} nm; fields {angles:.4g}°",
         count=len(lens.surfaces),
         stop=stop,
-        aperture=_stated(lens.aperture),
+        aperture=_aperture_words(lens.aperture),
         wavelengths=lens.wavelengths_nm,
         angles=lens.fields_deg,
     )
@@ -324,7 +324,7 @@ def _note_vignetting(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         )
 
 
-def _stated(aperture: Aperture) -> Message:
+def _aperture_words(aperture: Aperture) -> Message:
     """Return the aperture in words."""
     match aperture.kind:
         case "f_number":

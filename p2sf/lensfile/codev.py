@@ -147,7 +147,9 @@ class CodeVReading:
     image: RawSurface | None = None
     current: RawSurface | None = None
     radii: bool | None = None  # None: the file does not say
-    numbered: dict[int, RawSurface] = field(default_factory=dict)  # whose shape is the number after S, by their id
+    surfaces_by_number: dict[int, RawSurface] = field(
+        default_factory=dict
+    )  # whose shape is the number after S, by their id
     fields: dict[str, list[float]] = field(default_factory=dict)
     special: dict[int, dict[str, float]] = field(default_factory=dict)
     special_kinds: dict[int, str] = field(default_factory=dict)
@@ -175,7 +177,7 @@ class CodeVReading:
         return [number(word, what, self.source, command.line) for word in command.words[:1000]]
 
 
-def curved(value: float, is_radius: bool) -> float:
+def to_curvature(value: float, is_radius: bool) -> float:
     """Return the curvature for a number that is a radius (0 for a plane) or the curvature itself."""
     return (1 / value if value else 0.0) if is_radius else value
 
@@ -272,7 +274,7 @@ def _aperture(reading: CodeVReading, command: CodeVCommand) -> None:
 
 def _wavelengths(reading: CodeVReading, command: CodeVCommand) -> None:
     before = [wavelength * NM_PER_UM for wavelength in reading.raw.wavelengths_um]
-    values = _listed(reading, command, "W", before, Message("wavelength"))
+    values = _split_values(reading, command, "W", before, Message("wavelength"))
     if not all(50 <= value <= 50_000 for value in values):
         raise reading.source.error("a wavelength is not that of light; give nanometres", command.line)
     reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
@@ -300,8 +302,8 @@ def _label(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) ->
 
 
 def _radius(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    surface.curvature = curved(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
-    reading.numbered.pop(id(surface), None)
+    surface.curvature = to_curvature(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
+    reading.surfaces_by_number.pop(id(surface), None)
 
 
 def _thickness(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
@@ -469,7 +471,7 @@ def _at_position(reading: CodeVReading, command: CodeVCommand, position: int, co
     ZOO THI S5 a b c is THI S5 b at the second position, and so is THI S5 Z2 b.
     """
     if command.name[:3] == "ZOO" and command.words:
-        return _zoomed(reading, command, position, count)
+        return _zoom_value(reading, command, position, count)
     where = next((k for k, word in enumerate(command.words[:2]) if re.fullmatch(r"Z\d+", word, re.I)), None)
     if where is None or reading.in_private or count == 1:
         return command
@@ -482,7 +484,7 @@ def _at_position(reading: CodeVReading, command: CodeVCommand, position: int, co
     return CodeVCommand(command.name, words, command.line)
 
 
-def _zoomed(reading: CodeVReading, command: CodeVCommand, position: int, count: int) -> CodeVCommand | None:
+def _zoom_value(reading: CodeVReading, command: CodeVCommand, position: int, count: int) -> CodeVCommand | None:
     name, *words = command.words
     qualifiers = [word for word in words[:1] if re.fullmatch(r"[SFW](O|I|\d+)", word, re.I)]
     values = words[len(qualifiers) :]
@@ -509,7 +511,7 @@ def _run(reading: CodeVReading, command: CodeVCommand) -> None:
 
 
 def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
-    command, surface = _addressed(reading, command)
+    command, surface = _split_qualifier(reading, command)
     if name in REFUSED:
         _refuse_unless_zero(reading, command, surface, REFUSED[name])
     elif name in ON_SURFACE:
@@ -522,13 +524,13 @@ def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
         IN_SYSTEM[name](reading, command)
     elif name[:1] in "XY" and name[1:] in FIELD_KINDS:
         listed = reading.fields.setdefault(name, [])
-        listed[:] = _listed(reading, command, "F", listed, Message("field"))
+        listed[:] = _split_values(reading, command, "F", listed, Message("field"))
         reading.raw.field_line = command.line
     else:
         note(reading.notes, reading.raw, name, command.words, surface.number if surface else None, command.line)
 
 
-def _listed(
+def _split_values(
     reading: CodeVReading, command: CodeVCommand, letter: str, before: list[float], what: Message
 ) -> list[float]:
     """Return the numbers of a command, or those before it with another number for the one it names, as in YAN F2 5."""
@@ -545,15 +547,15 @@ def _listed(
     return [*before[: place - 1], reading.number(command, 1, what), *before[place:]]
 
 
-def _addressed(reading: CodeVReading, command: CodeVCommand) -> tuple[CodeVCommand, RawSurface | None]:
+def _split_qualifier(reading: CodeVReading, command: CodeVCommand) -> tuple[CodeVCommand, RawSurface | None]:
     """Return the command without its surface qualifier (S3, SI, SO), and the surface it applies to."""
     if command.words and re.fullmatch(r"S(O|I|S|\d+)", command.words[0], re.I):
-        surface = _named(reading, command.words[0][1:].upper(), command)
+        surface = _find_surface(reading, command.words[0][1:].upper(), command)
         return CodeVCommand(command.name, command.words[1:], command.line), surface
     return command, reading.current
 
 
-def _named(reading: CodeVReading, name: str, command: CodeVCommand) -> RawSurface | None:
+def _find_surface(reading: CodeVReading, name: str, command: CodeVCommand) -> RawSurface | None:
     if name in ("I", "S"):
         return reading.image if name == "I" else reading.current
     place = 0 if name == "O" else int(name[:6])
@@ -606,8 +608,8 @@ def _surface(reading: CodeVReading, command: CodeVCommand) -> None:
         surface = RawSurface(len(reading.surfaces), command.line)
         reading.surfaces.append(surface)
     reading.current = surface
-    surface.curvature = curved(reading.number(command, 0, Message("radius"), 0.0), bool(reading.radii))
-    reading.numbered[id(surface)] = surface
+    surface.curvature = to_curvature(reading.number(command, 0, Message("radius"), 0.0), bool(reading.radii))
+    reading.surfaces_by_number[id(surface)] = surface
     surface.thickness = distance(reading, command, 1, surface)
     for word in command.words[2:]:
         read_glass(reading, CodeVCommand("GLA", (word,), command.line), surface)
@@ -670,7 +672,7 @@ def _breaks(reading: CodeVReading, surface: RawSurface, numbers: dict[str, float
 
 def _tell_radii(reading: CodeVReading) -> None:
     """Take the numbers of a file without RDM as radii where a surface would else be curved too strongly for a lens."""
-    numbered = [surface for surface in reading.numbered.values() if surface.curvature]
+    numbered = [surface for surface in reading.surfaces_by_number.values() if surface.curvature]
     strongest = max(numbered, key=lambda surface: abs(surface.curvature), default=None)
     if strongest is None or abs(strongest.curvature) * SMALLEST_LENS_MM < reading.raw.unit_mm:
         return

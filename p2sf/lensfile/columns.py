@@ -18,7 +18,7 @@ from typing import Any
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Lens
 from p2sf.lens.positions import Axis, Kind, with_positions
-from p2sf.lensfile.toml_table import Constraint, Table, shown
+from p2sf.lensfile.toml_table import Constraint, Table, shorten
 from p2sf.messages import Message
 
 KINDS: tuple[Kind, ...] = ("zoom", "focus")
@@ -49,13 +49,13 @@ def read_columns(top: Table, read: Callable[[Table], Lens]) -> Lens:
 def _axis(top: Table, kind: Kind) -> Axis:
     values = top.values[kind]
     if not isinstance(values, dict):
-        top.fail("{name} is {found}; write a table [{name}] with its columns", kind, name=kind, found=shown(values))
+        top.fail("{name} is {found}; write a table [{name}] with its columns", kind, name=kind, found=shorten(values))
     table = Table(top.path, top.text, values, kind)
     table.check_keys(AXIS)
     names = values.get("columns")
     if not isinstance(names, list) or len(names) < 2 or not all(isinstance(name, str) and name for name in names):
         table.fail(
-            'columns is {found}; write at least two names, as in ["wide", "tele"]', "columns", found=shown(names)
+            'columns is {found}; write at least two names, as in ["wide", "tele"]', "columns", found=shorten(names)
         )
     evenly = tuple(number / (len(names) - 1) for number in range(len(names)))
     try:
@@ -66,17 +66,17 @@ def _axis(top: Table, kind: Kind) -> Axis:
 
 def _column(top: Table, values: dict[str, Any], axes: tuple[Axis, ...], column: Column) -> dict[str, Any]:
     """Return the file's values in one column: an entry with a list of values has the one of this column."""
-    found = _resolved(top, values, axes, column)
+    found = _resolve_column(top, values, axes, column)
     if isinstance(values.get("aperture"), dict):
-        found["aperture"] = _resolved(Table(top.path, top.text, values["aperture"], "aperture"), {}, axes, column)
+        found["aperture"] = _resolve_column(Table(top.path, top.text, values["aperture"], "aperture"), {}, axes, column)
     rows = values.get("surface")
     if isinstance(rows, list) and all(isinstance(row, dict) for row in rows):
         tables = [Table(top.path, top.text, row, "surface", number) for number, row in enumerate(rows, 1)]
-        found["surface"] = [_resolved(table, {}, axes, column) for table in tables]
+        found["surface"] = [_resolve_column(table, {}, axes, column) for table in tables]
     return found
 
 
-def _resolved(table: Table, values: dict[str, Any], axes: tuple[Axis, ...], column: Column) -> dict[str, Any]:
+def _resolve_column(table: Table, values: dict[str, Any], axes: tuple[Axis, ...], column: Column) -> dict[str, Any]:
     return {key: _value(table, key, value, axes, column) for key, value in (values or table.values).items()}
 
 
@@ -110,7 +110,7 @@ def _item(table: Table, key: str, values: Any, axis: Axis, column: Column) -> An
             "{name} is {found}; write one value for each of the {count} columns of {kind}",
             key,
             name=key,
-            found=shown(values),
+            found=shorten(values),
             count=len(axis.columns),
             kind=axis.kind,
         )
@@ -128,7 +128,7 @@ def axis_text(axis: Axis, quoted: Callable[[str], str], numbers: Callable[[Seque
     return f"\n[{axis.kind}]\ncolumns = [{names}]\nat = {numbers(axis.at)}\n{unit}"
 
 
-def joined(axes: tuple[Axis, ...], key: str, values: Sequence[str]) -> str:
+def join_columns(axes: tuple[Axis, ...], key: str, values: Sequence[str]) -> str:
     """Return the TOML of one entry from its value in every combination of columns: itself where all are equal.
 
     LensFileError for an entry that only some columns have.
@@ -140,21 +140,21 @@ def joined(axes: tuple[Axis, ...], key: str, values: Sequence[str]) -> str:
     stride = prod(len(axis.columns) for axis in axes[1:])
     rows = [values[start : start + stride] for start in range(0, len(values), stride)]
     if len(axes) == 1:
-        return _listed(values) if key in DEPTH else _table(axes[0], values)
+        return _list_toml(values) if key in DEPTH else _table(axes[0], values)
     if all(len(set(row)) == 1 for row in rows):
         return _table(axes[0], [row[0] for row in rows])
     if len(set(map(tuple, rows))) == 1:
         return _table(axes[1], rows[0])
     if key in DEPTH:
-        return _listed(list(map(_listed, rows)))
+        return _list_toml(list(map(_list_toml, rows)))
     return _table(axes[0], [_table(axes[1], row) for row in rows])
 
 
 def _table(axis: Axis, values: Sequence[str]) -> str:
-    return f"{{ {axis.kind} = {_listed(values)} }}"
+    return f"{{ {axis.kind} = {_list_toml(values)} }}"
 
 
-def _listed(values: Sequence[str]) -> str:
+def _list_toml(values: Sequence[str]) -> str:
     return f"[{', '.join(values)}]"
 
 

@@ -53,7 +53,7 @@ def assemble_all(stated: Sequence[Configuration], sources: GlassSources, notes: 
             most=MOST_COLUMNS,
         )
         stated = stated[:MOST_COLUMNS]
-    lenses = [_assembled(each, number, sources, notes, source) for number, each in enumerate(stated, 1)]
+    lenses = [_assemble_one(each, number, sources, notes, source) for number, each in enumerate(stated, 1)]
     if len(set(lenses)) == 1:
         return lenses[0]
     zooms, focuses = _rings([each.object_mm for each in stated])
@@ -83,7 +83,7 @@ READ = {
 }
 
 
-def _assembled(stated: Configuration, number: int, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
+def _assemble_one(stated: Configuration, number: int, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
     """Return the lens of one configuration; of all but the first only notes that a person has to see are kept."""
     own = notes if number == 1 else Notebook()
     lens = assemble(stated.raw, sources, own, source)

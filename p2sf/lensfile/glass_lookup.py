@@ -169,14 +169,14 @@ def _exact(glass: RawGlass, sources: GlassSources) -> Medium | None:
         or _from_makers(glass.name, glass.makers)
         or _silica(glass.name)
         or _from_pages(glass)
-        or (None if _known(glass.makers) else _sold_by_anyone(glass))
+        or (None if _builtin_makers(glass.makers) else _sold_by_anyone(glass))
     )
 
 
 def _from_catalogues(glass: RawGlass, catalogues: tuple[Catalogue, ...]) -> FormulaGlass | None:
     """Return the glass from the user's AGF files: those that the file names, in its order, or all."""
     ordered = [c for maker in glass.makers for c in catalogues if _same_maker(maker, c.name)]
-    if not ordered and not _known(glass.makers):
+    if not ordered and not _builtin_makers(glass.makers):
         ordered = list(catalogues)
     for catalogue in ordered:
         found = catalogue.glasses.get(glass.name.upper()) or _by_key(catalogue).get(key(glass.name))
@@ -220,13 +220,13 @@ def _shelf() -> dict[str, dict[str, str]]:
     return table
 
 
-def _known(makers: tuple[str, ...]) -> list[str]:
+def _builtin_makers(makers: tuple[str, ...]) -> list[str]:
     """Return the makers of the built-in table among those that a file names, in its order."""
     return [maker for named in makers for maker in _shelf() if _same_maker(named, maker)]
 
 
 def _from_makers(name: str, makers: tuple[str, ...]) -> Medium | None:
-    for maker in _known(makers):
+    for maker in _builtin_makers(makers):
         label = _shelf()[maker].get(key(name))
         if label:
             return _refractive(label)
@@ -307,7 +307,7 @@ def _offers(glass: RawGlass) -> list[Substitute]:
 
 def _equivalents(glass: RawGlass) -> list[str]:
     """Return the labels of glasses of the same name, then of the same stem; named makers come first."""
-    makers = [m for m in dict.fromkeys([*_known(glass.makers), *USUAL_MAKERS, *_shelf()]) if m not in NO_GLASS]
+    makers = [m for m in dict.fromkeys([*_builtin_makers(glass.makers), *USUAL_MAKERS, *_shelf()]) if m not in NO_GLASS]
     same = [_shelf()[maker][key(glass.name)] for maker in makers if key(glass.name) in _shelf()[maker]]
     follows = [label for maker in makers for label in _stems(maker).get(stem(glass.name), ())]
     return list(dict.fromkeys([*same, *follows]))

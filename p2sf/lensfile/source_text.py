@@ -170,7 +170,7 @@ def read_text(path: str | os.PathLike) -> str:
     Raises LensFileError for a file that is missing, unreadable, empty, huge or not UTF-8.
     """
     try:
-        return _decoded(_bytes(Path(path)), path)
+        return _decode(_bytes(Path(path)), path)
     except FileNotFoundError:
         raise LensFileError("there is no such file; check the path", path) from None
     except IsADirectoryError:
@@ -190,7 +190,7 @@ def _bytes(path: Path) -> bytes:
         return file.read(LARGEST_FILE + 1)
 
 
-def _decoded(data: bytes, path: str | os.PathLike) -> str:
+def _decode(data: bytes, path: str | os.PathLike) -> str:
     if len(data) > LARGEST_FILE:
         raise LensFileError("the file is larger than {size} bytes; this is not a lens file", path, size=LARGEST_FILE)
     try:

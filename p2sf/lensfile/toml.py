@@ -59,12 +59,12 @@ from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_absorption, with_mask
 from p2sf.lens.positions import KEPT, Axis, alone
 from p2sf.lensfile.columns import KINDS as RINGS
-from p2sf.lensfile.columns import axis_text, columns_of, joined, read_columns
+from p2sf.lensfile.columns import axis_text, columns_of, join_columns, read_columns
 from p2sf.lensfile.source_text import digits, read_text, write_text
 from p2sf.lensfile.toml_mask import mask_lines, read_mask
-from p2sf.lensfile.toml_placement import misaligned, placements_text, read_placements
+from p2sf.lensfile.toml_placement import apply_misalignments, placements_text, read_placements
 from p2sf.lensfile.toml_surface import OPENING, medium_text, read_surface, surface_lines
-from p2sf.lensfile.toml_table import Constraint, Table, find_line, list_text, shown, text_of
+from p2sf.lensfile.toml_table import Constraint, Table, find_line, list_text, shorten, text_of
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns
 from p2sf.pupil.mask import PupilMask
@@ -91,9 +91,9 @@ def lens_to_toml(lens: Lens) -> str:
     lens = lens if as_in_columns(lens) else alone(lens)
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
     same = {name: getattr(lens, name) for name in KEPT}
-    head = _joined(axes, [_head(replace(column, **same)) for column in columns])
+    head = _join_lines(axes, [_head(replace(column, **same)) for column in columns])
     rings = "".join(axis_text(axis, text_of, list_text) for axis in axes)
-    opening = joined(axes, lens.aperture.kind, [digits(column.aperture.value) for column in columns])
+    opening = join_columns(axes, lens.aperture.kind, [digits(column.aperture.value) for column in columns])
     aperture = f"\n[aperture]\n{lens.aperture.kind} = {opening}\n"
     surfaces = [_surface_text(lens, columns, number) for number in range(1, len(lens.surfaces) + 1)]
     pupil = "".join(str(_Line(*line)) for line in mask_lines(lens.mask))
@@ -118,16 +118,18 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
     )
 
 
-def _joined(axes: tuple[Axis, ...], columns: list[tuple[_Line, ...]]) -> str:
+def _join_lines(axes: tuple[Axis, ...], columns: list[tuple[_Line, ...]]) -> str:
     """Return the text of lines that every column has, each with its value, or with one for each column."""
     rows = zip(*columns, strict=True)
-    return "".join(str(replace(row[0], value=joined(axes, row[0].key, [line.value for line in row]))) for row in rows)
+    return "".join(
+        str(replace(row[0], value=join_columns(axes, row[0].key, [line.value for line in row]))) for row in rows
+    )
 
 
 def _surface_text(lens: Lens, columns: tuple[Lens, ...], number: int) -> str:
     note = " the stop" if number == lens.stop_surface else " the sensor follows" if number == len(lens.surfaces) else ""
     axes = lens.positions.axes if lens.positions else ()
-    return f"\n[[surface]]  # {number}{note}\n" + _joined(axes, [_lines(c.surfaces[number - 1]) for c in columns])
+    return f"\n[[surface]]  # {number}{note}\n" + _join_lines(axes, [_lines(c.surfaces[number - 1]) for c in columns])
 
 
 def _lines(surface: Surface) -> tuple[_Line, ...]:
@@ -175,7 +177,7 @@ def _plain(top: Table) -> Lens:
     texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
     lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
     lens = with_absorption(lens, top.flag("absorption"))
-    lens = _placed(top, lens, scale)
+    lens = _with_placements(top, lens, scale)
     _check_wavelengths(top, lens)
     return lens
 
@@ -232,7 +234,7 @@ def _aperture(top: Table, scale: float) -> Aperture:
         top.fail(
             "aperture is {found}; write [aperture] and one of {names}",
             "aperture",
-            found=shown(values),
+            found=shorten(values),
             names=APERTURES,
         )
     table = Table(top.path, top.text, values, "aperture")
@@ -246,7 +248,7 @@ def _aperture(top: Table, scale: float) -> Aperture:
 def _mask(top: Table) -> PupilMask:
     values = top.values.get("pupil", {})
     if not isinstance(values, dict):
-        top.fail("pupil is {found}; write [pupil] and what stands in the stop", "pupil", found=shown(values))
+        top.fail("pupil is {found}; write [pupil] and what stands in the stop", "pupil", found=shorten(values))
     return read_mask(Table(top.path, top.text, values, "pupil"), TOP)
 
 
@@ -271,11 +273,11 @@ def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: 
         raise LensFileError(error.message, top.path) from None
 
 
-def _placed(top: Table, lens: Lens, scale: float) -> Lens:
+def _with_placements(top: Table, lens: Lens, scale: float) -> Lens:
     """Return the lens with its sensor and its pieces placed as the file says."""
     sensor = read_placements(top, "sensor_before", scale)
     try:
-        return misaligned(top, replace(lens, sensor_before=sensor) if sensor else lens, scale)
+        return apply_misalignments(top, replace(lens, sensor_before=sensor) if sensor else lens, scale)
     except GeometryError as error:
         top.fail(error.message, "sensor_before")
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.source_text import digits
-from p2sf.lensfile.toml_table import Constraint, Table, shown
+from p2sf.lensfile.toml_table import Constraint, Table, shorten
 from p2sf.messages import Message
 from p2sf.pupil.mask import PupilMap, PupilMask
 
@@ -50,7 +50,7 @@ def _map(table: Table, key: str) -> PupilMap:
     except P2SFError as error:
         table.fail(error.message, key)
     except (ValueError, TypeError):
-        table.fail("{name} is {found}; write a square list of rows of numbers", key, name=key, found=shown(rows))
+        table.fail("{name} is {found}; write a square list of rows of numbers", key, name=key, found=shorten(rows))
 
 
 def _map_of_file(table: Table, key: str, scale: float) -> PupilMap:
@@ -81,7 +81,7 @@ def mask_lines(mask: PupilMask) -> Iterator[tuple[str, str, str]]:
     usual = PupilMask()
     for key in (*NUMBERS, *COUNTS):
         value = getattr(mask, key)
-        yield key, _written(value), _written(getattr(usual, key))
+        yield key, _format_number(value), _format_number(getattr(usual, key))
     yield "zernike_um", _list(mask.zernike_um), "[]"
     for key in MAPS:
         found = getattr(mask, key)
@@ -89,7 +89,7 @@ def mask_lines(mask: PupilMask) -> Iterator[tuple[str, str, str]]:
         yield key, f"[{', '.join(map(_list, rows))}]", "[]"
 
 
-def _written(value: float) -> str:
+def _format_number(value: float) -> str:
     return repr(int(value)) if isinstance(value, int | np.integer) else digits(value)
 
 

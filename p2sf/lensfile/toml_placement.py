@@ -10,7 +10,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
 from p2sf.lensfile.source_text import digits
-from p2sf.lensfile.toml_table import Constraint, Table, shown
+from p2sf.lensfile.toml_table import Constraint, Table, shorten
 from p2sf.messages import Message
 
 PLACEMENT = ("decentre", "tilt_deg", "tilt_first", "pivot")
@@ -29,12 +29,12 @@ def read_placements(table: Table, key: str, scale: float) -> tuple[Placement, ..
             "{name} is {found}; write a list of tables, each with decentre or tilt_deg",
             key,
             name=key,
-            found=shown(rows),
+            found=shorten(rows),
         )
     return tuple(_placement(replace(table, values=row, within=key), scale, PLACEMENT) for row in rows)
 
 
-def misaligned(top: Table, lens: Lens, scale: float) -> Lens:
+def apply_misalignments(top: Table, lens: Lens, scale: float) -> Lens:
     """Return the lens with the pieces of its [[misaligned]] tables moved, the later ones on top of the earlier."""
     rows = top.values.get("misaligned", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
@@ -47,7 +47,7 @@ def misaligned(top: Table, lens: Lens, scale: float) -> Lens:
             table.fail(
                 "surfaces is {found}; write the first and the last, as in [3, 4]",
                 "surfaces",
-                found=shown(list(numbers)),
+                found=shorten(list(numbers)),
             )
         try:
             lens = displaced(lens, int(numbers[0]), int(numbers[-1]), placement)

@@ -108,7 +108,7 @@ class Table:
         if value is None:
             return None
         if not isinstance(value, dict):
-            self.fail("{name} is {found}; write {{ key = value, … }}", key, name=key, found=shown(value))
+            self.fail("{name} is {found}; write {{ key = value, … }}", key, name=key, found=shorten(value))
         return replace(self, values=value, within=key)
 
     def check_keys(self, known: Iterable[str], elsewhere: Iterable[str] = ()) -> None:
@@ -128,7 +128,7 @@ class Table:
         """Return a text."""
         value = self.values.get(key, default)
         if not isinstance(value, str):
-            self.fail("{name} is {found}; write a text in quotation marks", key, name=key, found=shown(value))
+            self.fail("{name} is {found}; write a text in quotation marks", key, name=key, found=shorten(value))
         return value
 
     def number(self, key: str, rule: Constraint, default: float | None = None) -> float:
@@ -137,27 +137,29 @@ class Table:
             return default
         if key not in self.values:
             self.fail("{name} is missing; {remedy}", name=key, remedy=rule.remedy)
-        return self._checked(key, self.values[key], rule)
+        return self._check(key, self.values[key], rule)
 
     def numbers(self, key: str, rule: Constraint, default: tuple[float, ...]) -> tuple[float, ...]:
         """Return a list of numbers that keep the rule."""
         value = self.values.get(key, default)
         if not isinstance(value, list | tuple):
-            self.fail("{name} is {found}; write a list of numbers as in [1.0, 2.0]", key, name=key, found=shown(value))
-        return tuple(self._checked(key, item, rule) for item in value)
+            self.fail(
+                "{name} is {found}; write a list of numbers as in [1.0, 2.0]", key, name=key, found=shorten(value)
+            )
+        return tuple(self._check(key, item, rule) for item in value)
 
     def count(self, key: str) -> int | None:
         """Return a whole number, or None where the key is absent."""
         value = self.values.get(key)
         if value is not None and (isinstance(value, bool) or not isinstance(value, int)):
-            self.fail("{name} is {found}; write a whole number", key, name=key, found=shown(value))
+            self.fail("{name} is {found}; write a whole number", key, name=key, found=shorten(value))
         return value
 
     def flag(self, key: str) -> bool:
         """Return true or false; false where the key is absent."""
         value = self.values.get(key, False)
         if not isinstance(value, bool):
-            self.fail("{name} is {found}; write true or false", key, name=key, found=shown(value))
+            self.fail("{name} is {found}; write true or false", key, name=key, found=shorten(value))
         return value
 
     def medium(self, key: str) -> Medium:
@@ -167,11 +169,11 @@ class Table:
         except GlassError as error:
             self.fail(error.message, key)
 
-    def _checked(self, key: str, value: object, rule: Constraint) -> float:
+    def _check(self, key: str, value: object, rule: Constraint) -> float:
         number = as_float(value)
         if not rule.holds(number):
             remedy = quoted_number(value) or rule.remedy
-            self.fail("{name} is {found}; {remedy}", key, name=key, found=shown(value), remedy=remedy)
+            self.fail("{name} is {found}; {remedy}", key, name=key, found=shorten(value), remedy=remedy)
         return number
 
 
@@ -203,7 +205,7 @@ def as_float(value: object) -> float:
     return float(value) if isinstance(value, float) or abs(value) < 1e300 else nan
 
 
-def shown(value: object) -> str:
+def shorten(value: object) -> str:
     """Return a value as the file writes it, shortened to 60 characters."""
     text = f'"{value}"' if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
     return text if len(text) <= 60 else text[:57] + "..."

@@ -120,7 +120,7 @@ class Frame:
         return variance
 
     @property
-    def saturated(self) -> np.ndarray:
+    def saturated_pixels(self) -> np.ndarray:
         """Return which pixels have reached full scale, (rows, columns)."""
         full: np.ndarray = np.greater_equal(self.values, self.noise.full_scale)
         return full
@@ -128,13 +128,13 @@ class Frame:
     @property
     def usable(self) -> np.ndarray:
         """Return which pixels count, (rows, columns)."""
-        good: np.ndarray = np.isfinite(self.values) & ~self.saturated
+        good: np.ndarray = np.isfinite(self.values) & ~self.saturated_pixels
         if self.bad is not None:
             good &= ~self.bad
         return good
 
 
-def calibrated(values: np.ndarray, dark: np.ndarray | None = None, flat: np.ndarray | None = None) -> np.ndarray:
+def calibrate(values: np.ndarray, dark: np.ndarray | None = None, flat: np.ndarray | None = None) -> np.ndarray:
     """Return (values − dark)/(flat − dark), the flat field's mean taken as 1; NaN where the flat field is dark.
 
     Raises RequestError for fields of another shape.

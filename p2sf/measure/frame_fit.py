@@ -19,7 +19,7 @@ from p2sf.measure.point_fit import MOST_CHI2, chi2_warning, fit_point, most_chi2
 from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.pupil_nodes import has_twin
-from p2sf.measure.starting_values import blurred, frame_starts, landings, ray_moments, seen, significant
+from p2sf.measure.starting_values import blur, frame_starts, landings, locate, ray_moments, significant
 from p2sf.messages import Message
 from p2sf.threads import for_each, mapped, one_blas_thread
 
@@ -237,7 +237,7 @@ class PointSum:
 
     def start(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> np.ndarray:
         """Return x, y, light and background to start from: where the centroids of picture and model agree."""
-        found = seen(point.picture, model.optics)
+        found = locate(point.picture, model.optics)
         light = self.light(values, 0.0, 0.0)
         across, up = ((np.arange(n) - n // 2) * model.optics.pixel_um for n in light.shape[::-1])
         total = light.sum()
@@ -282,14 +282,14 @@ class PointSum:
         kept = inside & bright[rows * inside, columns * inside]
         forms = ray_moments(rays, np.where(kept if kept.any() else True, weight, 0.0))
         variance = np.where(self.good, self.root, np.inf) ** -2.0
-        found = seen(PointPicture(light, variance, good=self.good), model.optics)
+        found = locate(PointPicture(light, variance, good=self.good), model.optics)
         return forms, found.moments_um2 - np.einsum("cij,i,j->c", forms, whole, whole)
 
     def unlikeness(self, point: FramePoint, model: FrameModel, values: np.ndarray) -> float:
         """Return the sum of squares over the noise, light a little blurred, with place, light and background fitted."""
         light = self.light(values, *self.start(point, model, values)[:2])
-        columns = np.stack([blurred(light * self.root).ravel(), blurred(self.root).ravel()], 1)
-        wanted = blurred(self.data * self.root).ravel()
+        columns = np.stack([blur(light * self.root).ravel(), blur(self.root).ravel()], 1)
+        wanted = blur(self.data * self.root).ravel()
         rest = wanted - columns @ np.linalg.lstsq(columns, wanted, rcond=None)[0]
         return float(rest @ rest)
 
@@ -327,13 +327,13 @@ def fit_frame(
         raise RequestError("there is no usable point in the frame; look at what its points are flagged for")
     sums = _set_up(points, model, share_of(progress, 0.0, SET_UP), cancelled)
     if start is not None or model.lens is None:
-        guess = _suggested(points, model) if start is None else start
-        return _descended(points, model, sums, guess, STEPS, share_of(progress, SET_UP, 1.0), cancelled)
-    first = _focused(sums, points, model)
-    near = _descended(points, model, sums, first, STEPS, share_of(progress, SET_UP, NEAR), cancelled)
+        guess = _start_from_points(points, model) if start is None else start
+        return _descend(points, model, sums, guess, STEPS, share_of(progress, SET_UP, 1.0), cancelled)
+    first = _start_in_focus(sums, points, model)
+    near = _descend(points, model, sums, first, STEPS, share_of(progress, SET_UP, NEAR), cancelled)
     if near.explains:
         return near
-    found = _searched(points, model, sums, share_of(progress, NEAR, 1.0), cancelled)
+    found = _search(points, model, sums, share_of(progress, NEAR, 1.0), cancelled)
     return min(near, found, key=lambda one: one.chi2)
 
 
@@ -362,7 +362,7 @@ def _parts(sums: Sequence[PointSum], values: np.ndarray, own: np.ndarray) -> lis
     return mapped(lambda pair: pair[0].residuals(values, pair[1]), zip(sums, own, strict=True))
 
 
-def _descended(
+def _descend(
     points: Sequence[FramePoint],
     model: FrameModel,
     sums: Sequence[PointSum],
@@ -397,7 +397,7 @@ def _descended(
     return _result(points, model, sums, values, own, parts)
 
 
-def _focused(sums: Sequence[PointSum], points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
+def _start_in_focus(sums: Sequence[PointSum], points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
     """Return values of a model with a lens: 0, but for the sensor's shift that makes some points most alike.
 
     From the lens as designed, the least sum of squares is a mere half wave of defocus away from another minimum.
@@ -428,7 +428,7 @@ class _Search:
         cancelled: Callable[[], bool] | None,
     ):
         self.sums, self.points, self.model, self.cancelled = sums, points, model, cancelled
-        self.seen = [seen(point.picture, model.optics) for point in points]
+        self.seen = [locate(point.picture, model.optics) for point in points]
         blur = np.maximum(np.max([one.blur_per_unit for one in sums], axis=0), 1e-12)
         self.scale = np.where(model.prior > 0, 1 / np.sqrt(np.maximum(model.prior, 1e-12)), START_WAVES / blur)
         self.tried: list[tuple[float, np.ndarray]] = []
@@ -463,7 +463,7 @@ class _Search:
         return [values for _, values in best]
 
 
-def _searched(
+def _search(
     points: Sequence[FramePoint],
     model: FrameModel,
     sums: Sequence[PointSum],
@@ -483,7 +483,7 @@ def _searched(
         best = _deepest(search, best, share_of(progress, half, SEARCHED))
     if len(some) == len(points):
         return best
-    return _descended(points, model, sums, best.values, STEPS, share_of(progress, SEARCHED, 1.0), cancelled)
+    return _descend(points, model, sums, best.values, STEPS, share_of(progress, SEARCHED, 1.0), cancelled)
 
 
 def _deepest(search: _Search, best: FrameFit | None, progress: Tell) -> FrameFit:
@@ -491,7 +491,7 @@ def _deepest(search: _Search, best: FrameFit | None, progress: Tell) -> FrameFit
     for count, start in enumerate(search.taken(FOLLOWED)):
         if progress:
             progress(count / FOLLOWED)
-        found = _descended(search.points, search.model, search.sums, start, STEPS, None, search.cancelled)
+        found = _descend(search.points, search.model, search.sums, start, STEPS, None, search.cancelled)
         if best is None or found.chi2 < best.chi2:
             best = found
         if best.explains or (best.reliable and search.model.errors):
@@ -500,7 +500,7 @@ def _deepest(search: _Search, best: FrameFit | None, progress: Tell) -> FrameFit
     return best
 
 
-def _suggested(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
+def _start_from_points(points: Sequence[FramePoint], model: FrameModel) -> np.ndarray:
     """Return values of a model without a lens that fits of a few single points, far apart, suggest.
 
     Pictures of one point at several focus positions are fitted together. At one focus, each point's even terms may have

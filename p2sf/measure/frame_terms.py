@@ -12,10 +12,10 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.measure.lens_pupil import clear_part
-from p2sf.measure.perturbation import perturbation, perturbed, unit_of
+from p2sf.measure.perturbation import perturb, perturbation, unit_of
 from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PointPicture
-from p2sf.measure.pupil_model import turned
+from p2sf.measure.pupil_model import rotate
 from p2sf.measure.pupil_nodes import PupilNodes, counts_for, lens_nodes, paraxial_nodes
 from p2sf.paraxial.pupils import with_fixed_stop
 from p2sf.paraxial.seidel import coefficients
@@ -194,14 +194,14 @@ class FrameModel:
         if self.lens is not None:
             return self._of_lens(colour, place, azimuth, counts)
         nodes = paraxial_nodes(counts, colour.cycles, colour.mask, colour.wavelength_um)
-        across, along = turned(nodes.xi, nodes.eta, azimuth)
+        across, along = rotate(nodes.xi, nodes.eta, azimuth)
         focus = (across**2 + along**2) * (colour.na**2 / (2 * colour.wavelength_um))
 
         def waves(ratio: float) -> np.ndarray:
             phases = np.zeros_like(focus), ratio**2 * focus
             return self._with_terms(colour, nodes, phases, place, (across, along))
 
-        return self._made(nodes, waves)
+        return self._point_pupil(nodes, waves)
 
     def _of_lens(
         self, colour: PictureOptics, place: tuple[float, float, float], azimuth: float, counts: tuple[int, int]
@@ -219,7 +219,7 @@ class FrameModel:
         about = dict(zip(self.unknowns, self.about, strict=False))
         values = np.array([about.get(name, 0.0) for name in self.errors])
         points = (source, self.source(height, azimuth)) if self.errors else ()
-        errors = [perturbed(lens, one, tuple(self.errors.values()), tuple(values.tolist())) for one in points]
+        errors = [perturb(lens, one, tuple(self.errors.values()), tuple(values.tolist())) for one in points]
 
         def waves(ratio: float) -> np.ndarray:
             wide = replace(nodes, **{name: ratio * getattr(nodes, name) for name in ("xi", "eta", "fx", "fy")})
@@ -231,7 +231,7 @@ class FrameModel:
             phases = phase + change - values @ slopes, focus
             return self._with_terms(colour, nodes, phases, place, (nodes.xi, nodes.eta), slopes)
 
-        made = self._made(nodes, waves)
+        made = self._point_pupil(nodes, waves)
         if not errors:
             return made
         landed = errors[1]
@@ -239,7 +239,7 @@ class FrameModel:
         landing = np.array([each.get(name, np.zeros(2)) for name in self.unknowns])
         return replace(made, landing_um=(landed.landing_um - values @ landed.landing_slopes, landing))
 
-    def _made(self, nodes: PupilNodes, waves: Callable[[float], np.ndarray]) -> PointPupil:
+    def _point_pupil(self, nodes: PupilNodes, waves: Callable[[float], np.ndarray]) -> PointPupil:
         """Return a pupil of phase, focus and terms, (2 + unknowns, nodes), that ``waves`` gives for a stop's radius."""
         here, series = waves(1.0), None
         if F_NUMBER in self.unknowns:

@@ -57,18 +57,18 @@ def read_listing(path: str | os.PathLike[str]) -> Listing:
         raise RequestError(
             "{path} cannot be read, {reason}; check the name", path=str(path), reason=str(error.strerror).lower()
         ) from error
-    return listing_of(_decoded(data), str(path))
+    return listing_of(_decode(data), str(path))
 
 
 def listing_of(text: str, path: str) -> Listing:
     """Return the listing in a text, from ``path``. Raises RequestError."""
-    head, table = _parted(text)
+    head, table = _split_table(text)
     kind = "wavefront" if "Wavefront" in head else "psf" if "PSF" in head else ""
     if not kind or table.size == 0:
-        raise _damaged(path)
+        raise _damage_error(path)
     place = re.search(rf"({NUMBER})\s*(\S*m\w*)\s+at\s+({NUMBER})\s*,\s*({NUMBER})", head)
     if place is None or place[2] not in UNITS_UM:
-        raise _damaged(path)
+        raise _damage_error(path)
     wavelength = float(place[1]) * UNITS_UM[place[2]]
     rows, columns = table.shape
     size = re.search(rf"{'Pupil' if kind == 'wavefront' else 'Image'} grid size:\s*(\d+)\s*by\s*(\d+)", head)
@@ -83,7 +83,7 @@ def listing_of(text: str, path: str) -> Listing:
     spacing = re.search(rf"Data spacing is\s+({NUMBER})\s*(\S+?)\.?\s*$", head, re.MULTILINE)
     pitch = float(spacing[1]) * UNITS_UM.get(spacing[2], 1.0) if spacing else None
     if (kind == "psf" and not pitch) or not np.isfinite(table).all() or wavelength <= 0:
-        raise _damaged(path)
+        raise _damage_error(path)
     return Listing(
         kind,
         table[::-1],  # the first row of a listing is the highest
@@ -92,13 +92,13 @@ def listing_of(text: str, path: str) -> Listing:
         pitch,
         (rows // 2, columns // 2),
         _chief(head),
-        _stated(head, r"Strehl ratio:\s*"),
-        _stated(head, r"Peak to valley =\s*"),
-        _stated(head, r"RMS =\s*"),
+        _number_before(head, r"Strehl ratio:\s*"),
+        _number_before(head, r"Peak to valley =\s*"),
+        _number_before(head, r"RMS =\s*"),
     )
 
 
-def _decoded(data: bytes) -> str:
+def _decode(data: bytes) -> str:
     """Return a text in UTF-16 or UTF-8 by its byte-order mark, in UTF-8 or Latin-1 without one."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", errors="replace")
@@ -108,7 +108,7 @@ def _decoded(data: bytes) -> str:
         return data.decode("latin-1")
 
 
-def _parted(text: str) -> tuple[str, np.ndarray]:
+def _split_table(text: str) -> tuple[str, np.ndarray]:
     """Return the head of a listing, and its table, (rows, columns); an empty one where rows differ in length."""
     head: list[str] = []
     rows: list[list[float]] = []
@@ -125,7 +125,7 @@ def _parted(text: str) -> tuple[str, np.ndarray]:
     return "\n".join(head), np.array(rows) if same else np.empty((0, 0))
 
 
-def _stated(head: str, before: str) -> float | None:
+def _number_before(head: str, before: str) -> float | None:
     found = re.search(rf"{before}({NUMBER})", head)
     return float(found[1]) if found else None
 
@@ -136,7 +136,7 @@ def _chief(head: str) -> tuple[float, float] | None:
     return (float(found[1]), float(found[2])) if found else None
 
 
-def _damaged(path: str) -> RequestError:
+def _damage_error(path: str) -> RequestError:
     return RequestError(
         "{path} is not a listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio",
         path=path,

@@ -33,7 +33,7 @@ from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, window_half, window_of
 from p2sf.measure.pupil_model import SIX, pupil_model
-from p2sf.measure.starting_values import seen
+from p2sf.measure.starting_values import locate
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 from p2sf.parameters import check_finite
@@ -101,7 +101,7 @@ class Measurement:
         return out
 
 
-def measured(
+def measure_frame(
     frames: Sequence[Frame],
     optics: PictureOptics,
     *,
@@ -219,7 +219,7 @@ class _Taken:
             self.pictures = []
         try:
             for one in self.pictures:
-                seen(one, optics)
+                locate(one, optics)
         except RequestError as error:
             self.pictures, self.failure = [], error.message
 
@@ -265,7 +265,7 @@ def _whole(
         about = replace(design, about=tuple(found.values.tolist())) if nonlinear else design
         before = found
         told = share_of(progress, done, done := (1 + done) / 2)  # how many will follow is not known
-        found = fit_frame(placed if known else _replaced(before), about, before.values, told, cancelled)
+        found = fit_frame(placed if known else _at_chief_rays(before), about, before.values, told, cancelled)
         if found.explains or found.chi2 > SETTLED * before.chi2:
             break
     return found
@@ -314,12 +314,12 @@ def _single(one: _Taken, whole: FrameFit | None, design: FrameModel, model: str)
         half_um = max(pictures[0].values.shape) / 2 * optics.pixel_um
         source = design.source(one.height_mm, one.azimuth)
         own = designed_pupil(design.lens, source, pupil_model(model), optics.cycles, half_um, design.clip)
-    near = _expected(whole, one, design) if model == SIX else None
+    near = _expected_coefficients(whole, one, design) if model == SIX else None
     azimuth = 0.0 if model != SIX and abs(one.azimuth) < STRAIGHT else float(np.rad2deg(one.azimuth))
     return fit_point(pictures, optics, model, azimuth, near=near, design=own)
 
 
-def _replaced(whole: FrameFit) -> list[FramePoint]:
+def _at_chief_rays(whole: FrameFit) -> list[FramePoint]:
     """Return the points of a fit where their chief rays would land, as it found, if the lens had no errors."""
     pairs = zip(whole.points, (whole.frames[:, :2] - whole.landed_um) / UM_PER_MM, strict=True)
     return [replace(point, x_mm=point.x_mm + x, y_mm=point.y_mm + y) for point, (x, y) in pairs]
@@ -345,7 +345,7 @@ def _departure(whole: FrameFit, one: _Taken) -> PointFit:
     )
 
 
-def _expected(whole: FrameFit | None, one: _Taken, design: FrameModel) -> np.ndarray | None:
+def _expected_coefficients(whole: FrameFit | None, one: _Taken, design: FrameModel) -> np.ndarray | None:
     """Return W40, W31, W22 and W20 + Wd that frame and lens suggest for a point: all points then take the same twin."""
     if whole is None:
         return design.six_of_lens(one.height_mm) if design.lens is not None else None
@@ -422,7 +422,7 @@ class MeasurementComparison:
     rows: tuple[ComparedNumber, ...]
 
 
-def compared(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> MeasurementComparison:
+def compare_measurements(first: str | os.PathLike[str], second: str | os.PathLike[str]) -> MeasurementComparison:
     """Return two files of `write_measurement` beside each other; of points' numbers the means, and the RMS of sigmas.
 
     Raises RequestError for other files, and where they have no number in common.

@@ -15,7 +15,7 @@ from p2sf.conventions import protected
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.measure.pupil_model import turned
+from p2sf.measure.pupil_model import rotate
 from p2sf.measure.pupil_nodes import PupilNodes
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.pupil.zernike import basis
@@ -78,32 +78,34 @@ class Perturbed:
 
 
 @lru_cache(maxsize=16)
-def perturbed(lens: Lens, source: Source, errors: tuple[Tolerance, ...], values: tuple[float, ...]) -> Perturbed:
+def perturb(lens: Lens, source: Source, errors: tuple[Tolerance, ...], values: tuple[float, ...]) -> Perturbed:
     """Return what errors of these ``values`` do to a point's wavefront, by exact rays, and its derivatives.
 
     Those are central differences about the lens with these errors. Raises GeometryError where a ray does not reach the
     sensor.
     """
     at = np.array(values)
-    still, here = (_seen(lens, source, errors, some) for some in (np.zeros(at.size), at))
+    still, here = (_trace_errors(lens, source, errors, some) for some in (np.zeros(at.size), at))
     slopes = []
     for k, error in enumerate(errors):
         step = np.zeros(at.size)
         step[k] = error.amount
-        more, less = (_seen(lens, source, errors, at + sign * step) for sign in (1, -1))
+        more, less = (_trace_errors(lens, source, errors, at + sign * step) for sign in (1, -1))
         slopes.append([(a - b) / (2 * error.amount) for a, b in zip(more, less, strict=True)])
     waves, landing = (np.array(column) for column in zip(*slopes, strict=True))
     return Perturbed(here[0] - still[0], waves, here[1] - still[1], landing)
 
 
-def _seen(lens: Lens, source: Source, errors: Sequence[Tolerance], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _trace_errors(
+    lens: Lens, source: Source, errors: Sequence[Tolerance], values: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return W of the lens with errors, (terms,), and where its chief ray lands along the sensor's axes, µm."""
     xi, eta, weight = whole_disc(*RAYS)
     built = build(lens, errors, values.tolist())
     found = reaching(built, source_of_build(lens, built, source), xi, eta)
     # The way back from the field's axes to the sensor's.
     across, along = found.chief_um
-    x, y = turned(across, along, -float(np.deg2rad(source.azimuth_deg)))
+    x, y = rotate(across, along, -float(np.deg2rad(source.azimuth_deg)))
     return -_ray_terms() @ (weight * found.phase), np.array([x, y])  # W has the other sign than the phase of rays
 
 

@@ -10,7 +10,7 @@ from p2sf.errors import RequestError
 from p2sf.measure.lens_pupil import DesignedPupil
 from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.point_problem import PER_FRAME, PointPicture, Problem
-from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model, turned
+from p2sf.measure.pupil_model import SIX, PupilModel, pupil_model, rotate
 from p2sf.measure.pupil_nodes import has_twin
 from p2sf.measure.starting_values import Start, starts
 from p2sf.messages import Message
@@ -109,8 +109,8 @@ class PointFit:
         waves, across, along = self.model.split(self.numbers)
         fx, fy = xi, eta
         if self.model.mapped:
-            odd, even = self.model.maps(*turned(xi, eta, self.azimuth))
-            fx, fy = turned(across @ odd, along @ even, -self.azimuth)  # back to the sensor's axes
+            odd, even = self.model.maps(*rotate(xi, eta, self.azimuth))
+            fx, fy = rotate(across @ odd, along @ even, -self.azimuth)  # back to the sensor's axes
         x, y = self.frames[0, :2] * self.optics.cycles
         found: np.ndarray = waves @ self.model.waves(xi, eta, self.azimuth) - fx * x - fy * y
         return found
@@ -179,17 +179,17 @@ def _six(
         expected = np.concatenate([near, every[0].frames.ravel()])
         expected[5::PER_FRAME] += (near[1] - every[0].waves[1]) * np.cos(azimuth) / optics.cycles
         expected[4::PER_FRAME] += (near[1] - every[0].waves[1]) * np.sin(azimuth) / optics.cycles
-        minima.append(_descended(fine, expected, loss))
+        minima.append(_descend(fine, expected, loss))
     for some in (slice(0, TRIED[0]), slice(*TRIED)):
-        rough = [_descended(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
+        rough = [_descend(coarse, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
         rough.sort(key=_cost)
-        minima += [_descended(fine, minimum.unknowns, loss) for minimum in _distinct(rough, 4)[:KEPT]]
+        minima += [_descend(fine, minimum.unknowns, loss) for minimum in _distinct(rough, 4)[:KEPT]]
         minima.sort(key=_cost)
         if 2 * minima[0].cost < fine.freedom * most_chi2(fine.freedom):
             break
     else:
         if len(pictures) > 1:
-            minima += [_descended(fine, start, loss) for start in _from_each(pictures, optics, azimuth, loss, every[0])]
+            minima += [_descend(fine, start, loss) for start in _from_each(pictures, optics, azimuth, loss, every[0])]
             minima.sort(key=_cost)
     return _distinct(minima, 4, SAME_WAVES)
 
@@ -227,7 +227,7 @@ def _distinct(minima: Sequence[_Minimum], waves: int, apart: float = COARSE_WAVE
     return out
 
 
-def _descended(
+def _descend(
     problem: Problem, unknowns: np.ndarray, loss: Loss, steps: int = FINE_STEPS, rtol: float = FINE_RTOL
 ) -> _Minimum:
     """Return the minimum that Levenberg's and Marquardt's method in a trust region reaches (Moré 1978)."""
@@ -259,15 +259,15 @@ def _with_map(problem: Problem, loss: Loss, design: DesignedPupil | None) -> lis
     if design is not None:
         frames = every[0].frames.copy()
         frames[:, :2] = _along(azimuth, -design.tilt / optics.cycles)
-        return [_descended(problem, np.concatenate([design.numbers, frames.ravel()]), loss, rtol=MAP_RTOL)]
+        return [_descend(problem, np.concatenate([design.numbers, frames.ravel()]), loss, rtol=MAP_RTOL)]
     out: list[_Minimum] = []
     for some in (slice(0, WIDE[0]), slice(*WIDE)):
-        near = [_descended(six, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
+        near = [_descend(six, _unknowns(start), loss, COARSE_STEPS, COARSE_RTOL) for start in every[some]]
         began = [_with_waves(m, optics.cycles, waves, azimuth) for m in _distinct(sorted(near, key=_cost), 4)]
-        near = [_descended(free, start, loss, WAVES_STEPS, COARSE_RTOL) for start in began]
+        near = [_descend(free, start, loss, WAVES_STEPS, COARSE_RTOL) for start in began]
         for minimum in _distinct(sorted(near, key=_cost), count)[:FOLLOWED]:
             start = np.concatenate([minimum.unknowns[:count], model.paraxial_map, minimum.unknowns[count:]])
-            out.append(_descended(problem, start, loss, rtol=MAP_RTOL))
+            out.append(_descend(problem, start, loss, rtol=MAP_RTOL))
             if 2 * out[-1].cost < problem.freedom * most_chi2(problem.freedom):
                 return sorted(out, key=_cost)
     return sorted(out, key=_cost)

@@ -12,7 +12,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
-from p2sf.measure.pupil_model import turned
+from p2sf.measure.pupil_model import rotate
 from p2sf.measure.pupil_nodes import PupilNodes
 from p2sf.measure.scattered_sum import ScatteredNodes
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -111,15 +111,15 @@ class PixelSum:
     def fields(self, phase: np.ndarray, terms: np.ndarray) -> np.ndarray:
         """Return Σ w·exp(i2π·phase)·(1, terms…)·wave, (y points, 1 + terms, x points); ``terms`` (terms, nodes)."""
         amplitude = wave(phase) * self.nodes.weight.astype(np.float32)
-        return self.waves.summed(np.concatenate([amplitude[None], amplitude * terms]))
+        return self.waves.transform(np.concatenate([amplitude[None], amplitude * terms]))
 
     def many(self, pupils: np.ndarray) -> np.ndarray:
         """Return the light of many fields exp(i2π·phase), (pupils, nodes), as (pupils, y, x)."""
-        field = self.waves.summed(pupils * self.nodes.weight.astype(np.float32))
-        light: np.ndarray = self.scale * self.binned(field.real**2 + field.imag**2)
+        field = self.waves.transform(pupils * self.nodes.weight.astype(np.float32))
+        light: np.ndarray = self.scale * self.mean_per_pixel(field.real**2 + field.imag**2)
         return light
 
-    def binned(self, light: np.ndarray) -> np.ndarray:
+    def mean_per_pixel(self, light: np.ndarray) -> np.ndarray:
         """Return the mean over each pixel of (y points, planes, x points): (planes, y, x)."""
         parts, planes = self.share.size, light.shape[1]
         if parts == 1:
@@ -132,7 +132,7 @@ class PixelSum:
     def light(self, phase: np.ndarray) -> np.ndarray:
         """Return the share of all light on each pixel, (y, x)."""
         field = self.fields(phase, np.empty((0, *phase.shape), np.float32))
-        light: np.ndarray = self.binned(field.real**2 + field.imag**2)[0].astype(float)
+        light: np.ndarray = self.mean_per_pixel(field.real**2 + field.imag**2)[0].astype(float)
         return self.scale * light
 
     def light_and_slopes(
@@ -158,10 +158,10 @@ class PixelSum:
         (across, along), end = maps, field.shape[1]
         if across or along:
             x, y = (self.x - place[0])[None, None], (self.y - place[1])[:, None, None]
-            aside, out = turned(x.astype(np.float32), y.astype(np.float32), azimuth)
+            aside, out = rotate(x.astype(np.float32), y.astype(np.float32), azimuth)
             slopes[:, end - across - along : end - along] *= aside
             slopes[:, end - along :] *= out
-        found = self.scale * self.binned(slopes).astype(float)
+        found = self.scale * self.mean_per_pixel(slopes).astype(float)
         return found[0], found[1:]
 
 

@@ -80,7 +80,7 @@ def find_points(frame: Frame, optics: PictureOptics | None = None) -> list[Found
     labels, _ = _labels(frame)
     boxes = ndimage.find_objects(labels)
     most = (LONE,) if optics is None else _most_light(optics)
-    measured = (_measured(frame, box, labels[box] == k, most) for k, box in enumerate(boxes, 1) if box is not None)
+    measured = (_measure_point(frame, box, labels[box] == k, most) for k, box in enumerate(boxes, 1) if box is not None)
     points = [point for point in measured if point is not None]
     if not points:
         raise RequestError(
@@ -88,7 +88,7 @@ def find_points(frame: Frame, optics: PictureOptics | None = None) -> list[Found
             noise=frame.background_noise,
         )
     points.sort(key=lambda point: -point.flux)
-    return _flagged(frame, points)
+    return _flag(frame, points)
 
 
 def _of_psf(frame: Frame) -> FoundPoint:
@@ -131,7 +131,9 @@ def _most_light(optics: PictureOptics) -> tuple[float, ...]:
     return shares[0], shares[1], shares[2], shares[2]
 
 
-def _measured(frame: Frame, box: tuple[slice, slice], pixels: np.ndarray, most: Sequence[float]) -> FoundPoint | None:
+def _measure_point(
+    frame: Frame, box: tuple[slice, slice], pixels: np.ndarray, most: Sequence[float]
+) -> FoundPoint | None:
     """Return one point from its pixels in a box of the frame; None for too few of them.
 
     ``most``: the shares of light that no point has in one pixel, in two and so on.
@@ -146,11 +148,11 @@ def _measured(frame: Frame, box: tuple[slice, slice], pixels: np.ndarray, most: 
     row, column = (float(axis @ light / light.sum()) for axis in (rows, columns))
     x, y = frame.geometry.place_of(row, column)
     half = int(np.ceil(max(np.abs(rows - row).max(), np.abs(columns - column).max())))
-    flags = (SATURATED,) if frame.saturated[rows, columns].any() else ()
+    flags = (SATURATED,) if frame.saturated_pixels[rows, columns].any() else ()
     return FoundPoint(row, column, x, y, float(light.sum()), float(light.max()), half, flags)
 
 
-def _flagged(frame: Frame, points: Sequence[FoundPoint]) -> list[FoundPoint]:
+def _flag(frame: Frame, points: Sequence[FoundPoint]) -> list[FoundPoint]:
     """Return points with what speaks against them; those far fainter than the others are flagged too."""
     light, half = (float(np.median([getattr(point, name) for point in points])) for name in ("flux", "half"))
     places = np.array([(point.row, point.column) for point in points])

@@ -81,7 +81,7 @@ class PupilModel:
         The azimuth counts from +η towards +ξ. Those of "seidel" are ρ⁴, ρ³cos θ, ρ²cos² θ and ρ² (Pieroni et al. 2015),
         the others Zernike's of unit mean square (Noll 1976, eq. 1).
         """
-        u, v = turned(xi, eta, azimuth)
+        u, v = rotate(xi, eta, azimuth)
         if self.six:
             square = u * u + v * v
             return np.stack([square * square, square * v, v * v, square])
@@ -131,7 +131,7 @@ def pupil_model(name: str) -> PupilModel:
     return PupilModel(name, *MODELS[name])
 
 
-def turned(xi: np.ndarray, eta: np.ndarray, azimuth: float) -> tuple[np.ndarray, np.ndarray]:
+def rotate(xi: np.ndarray, eta: np.ndarray, azimuth: float) -> tuple[np.ndarray, np.ndarray]:
     """Return pupil coordinates across and along a field at ``azimuth``, radians from +η towards +ξ."""
     if not azimuth:
         return xi, eta

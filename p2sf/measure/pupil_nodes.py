@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.measure.pupil_model import PupilModel, turned
+from p2sf.measure.pupil_model import PupilModel, rotate
 from p2sf.psf.plane_waves import Counts
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
@@ -45,7 +45,7 @@ def open_nodes(mask: PupilMask, counts: Counts, clear: ClearNodes | None, azimut
     if clear is None:
         return mask_nodes(mask, *counts).unfolded()
     whole = clear.unfolded()
-    xi, eta = turned(whole.xi, whole.eta, -azimuth)
+    xi, eta = rotate(whole.xi, whole.eta, -azimuth)
     return replace(whole, xi=xi, eta=eta)
 
 
@@ -71,10 +71,10 @@ def mapped_nodes(
     azimuth: float = 0.0,
 ) -> PupilNodes:
     """Return open nodes with the pupil map of a model's numbers, ξ and η along the axes of its field."""
-    xi, eta = turned(nodes.xi, nodes.eta, azimuth)
+    xi, eta = rotate(nodes.xi, nodes.eta, azimuth)
     _, across, along = model.split(numbers)
     odd, even = model.maps(xi, eta)
-    frequencies = turned(cycles * (across @ odd), cycles * (along @ even), -azimuth)
+    frequencies = rotate(cycles * (across @ odd), cycles * (along @ even), -azimuth)
     return _waves_at(nodes, (xi, eta), frequencies, 1.0, wavelength_um)
 
 
@@ -85,10 +85,10 @@ def lens_nodes(found: FittedPencil, azimuth: float, counts: Counts, clear: Clear
     frequencies run the other way than those of W (`conventions`).
     """
     nodes = open_nodes(found.mask, counts, clear, azimuth)
-    xi, eta = turned(nodes.xi, nodes.eta, azimuth)
+    xi, eta = rotate(nodes.xi, nodes.eta, azimuth)
     _, across, along = found.at(xi, eta)
     return _waves_at(
-        nodes, (xi, eta), turned(-across, -along, -azimuth), found.amplitude_at(xi, eta), found.wavelength_um
+        nodes, (xi, eta), rotate(-across, -along, -azimuth), found.amplitude_at(xi, eta), found.wavelength_um
     )
 
 

@@ -14,7 +14,7 @@ from p2sf.files.raster_size import OversizedError, check_samples
 from p2sf.io.fits_psf import read_psf_fits
 from p2sf.io.photo_files import READABLE, read_photo
 from p2sf.io.psf_files import read_psf
-from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
+from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import read_listing
 from p2sf.messages import Message
 from p2sf.parameters import check_positive
@@ -72,7 +72,7 @@ def read_frame(
     check_positive("pixel_um", pitch)
     saturated = found.values >= min(found.full, noise.full_scale if noise else np.inf)
     fields = [None if other is None else read_counts(other, channel, encoding).values for other in (dark, flat)]
-    counts = calibrated(found.values, *fields)
+    counts = calibrate(found.values, *fields)
     kept = noise or Noise()
     read_noise = kept.read_noise
     if found.psf and read_noise is None and counts.max() > 0:

@@ -33,7 +33,7 @@ class ScatteredNodes:
         ends = np.arange(fx.size + 1) * WIDTH**2
         self.matrix = csc_array((shares.ravel(), cells.ravel(), ends), shape=(self.shape[0] * self.shape[1], fx.size))
 
-    def summed(self, values: np.ndarray) -> np.ndarray:
+    def transform(self, values: np.ndarray) -> np.ndarray:
         """Return the sums of plane waves with these values, (terms, nodes), as (y, terms, x)."""
         parts = np.ascontiguousarray(values.T, np.complex64).view(np.float32)  # a real matrix times real columns
         laid = (self.matrix @ parts).view(np.complex64).reshape(*self.shape, -1)

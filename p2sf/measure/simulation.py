@@ -75,7 +75,7 @@ def simulated_frame(
         placed = with_sensor(lens, lens.sensor_mm + shift_mm)
         found = fit(placed, seen.source(0.0, float(np.hypot(x, y)), wave), residual_waves=RESIDUAL_WAVES)
         _add(values, geometry, found, (x, y), exposure)
-    return Frame(_exposed(values, exposure), geometry)
+    return Frame(_expose(values, exposure), geometry)
 
 
 def _add(
@@ -116,7 +116,7 @@ def lens_light(
     return PixelSum(nodes, (2 * half + 1,) * 2, optics, optics.parts + FINER).light(phase)
 
 
-def _exposed(light: np.ndarray, exposure: Exposure) -> np.ndarray:
+def _expose(light: np.ndarray, exposure: Exposure) -> np.ndarray:
     """Return counts of some light: shot noise, background, read noise, saturation."""
     random = np.random.default_rng(exposure.seed)
     counts = light + exposure.background
@@ -127,6 +127,6 @@ def _exposed(light: np.ndarray, exposure: Exposure) -> np.ndarray:
     return clipped
 
 
-def refocused(exposure: Exposure, sensor_shift_um: float) -> Exposure:
+def refocus(exposure: Exposure, sensor_shift_um: float) -> Exposure:
     """Return the exposure with the sensor shifted further, and other noise."""
     return replace(exposure, sensor_shift_um=exposure.sensor_shift_um + sensor_shift_um, seed=exposure.seed + 1)

@@ -65,7 +65,7 @@ class Start:
     frames: np.ndarray
 
 
-def seen(picture: PointPicture, optics: PictureOptics) -> Seen:
+def locate(picture: PointPicture, optics: PictureOptics) -> Seen:
     """Return where a picture's light is. Raises RequestError where nothing exceeds the noise."""
     good = without_spikes(picture, optics)
     border = np.zeros(good.shape, bool)
@@ -92,11 +92,11 @@ def seen(picture: PointPicture, optics: PictureOptics) -> Seen:
 def significant(light: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """Return where light, a little blurred, exceeds the noise, (y, x)."""
     # Averaging over a Gaussian of this width leaves 1/(2√π·width) of white noise.
-    bright: np.ndarray = blurred(light) > SIGNIFICANT * noise / (2 * np.sqrt(np.pi) * BLUR_PIXELS)
+    bright: np.ndarray = blur(light) > SIGNIFICANT * noise / (2 * np.sqrt(np.pi) * BLUR_PIXELS)
     return bright
 
 
-def blurred(picture: np.ndarray) -> np.ndarray:
+def blur(picture: np.ndarray) -> np.ndarray:
     """Return a picture (y, x), a little blurred."""
     down, across = (blurring(count, BLUR_PIXELS) for count in picture.shape)
     out: np.ndarray = down @ picture @ across.T
@@ -137,7 +137,7 @@ def blurring(count: int, width: float) -> np.ndarray:
 
 def starts(pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: float, keep: int) -> list[Start]:
     """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError."""
-    found = [seen(picture, optics) for picture in pictures]
+    found = [locate(picture, optics) for picture in pictures]
     waves = candidates(found, pictures, optics, azimuth)
     mean, _ = slope_moments(azimuth, optics.mask)
     offset = waves @ mean.T / optics.cycles  # the centroid of light is −⟨∇W⟩·λ/NA

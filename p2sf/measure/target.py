@@ -209,7 +209,7 @@ def match_target(found_mm: np.ndarray, target: Target, expected: np.ndarray, kno
     least = max(FEWEST, min(z.size, CERTAIN), ceil(SHARE * z.size))
     step = _step(w)
     tried = _best_first(z, w, step, known_scale) if z.size >= FEWEST else []
-    placings = [_refined(z, w, NEAR * step, a, b, mirrored) for a, b, mirrored in tried]
+    placings = [_refine(z, w, NEAR * step, a, b, mirrored) for a, b, mirrored in tried]
     most = max((one.count for one in placings), default=0)
     if most < least:
         raise RequestError(
@@ -319,12 +319,12 @@ def _counts(every: np.ndarray, z: np.ndarray, tree: "KDTree", step: float) -> np
     return count
 
 
-def _refined(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, mirrored: bool) -> _Placing:
+def _refine(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, mirrored: bool) -> _Placing:
     """Return a placing fitted to all points that lie ``near`` one of the target, in turns with which these are."""
     places = -w.conj() if mirrored else w
     square, k, before = np.abs(places) ** 2 / (np.abs(places) ** 2).max(), 0.0, None
     for _ in range(STEPS):
-        which = _assigned(z, a * places * (1 + k * square) + b, near * abs(a))
+        which = _assign(z, a * places * (1 + k * square) + b, near * abs(a))
         if before is not None and np.array_equal(which, before):
             break
         here, there = np.flatnonzero(which >= 0), which[which >= 0]
@@ -346,7 +346,7 @@ def _refined(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, 
     return _Placing(complex(a), complex(b), mirrored, k, which, rms, int(inside.sum()))
 
 
-def _assigned(z: np.ndarray, places: np.ndarray, near: float) -> np.ndarray:
+def _assign(z: np.ndarray, places: np.ndarray, near: float) -> np.ndarray:
     """Return the place nearest each point, −1 where none is ``near``; of points with one place only the nearest."""
     from scipy.spatial import KDTree
 

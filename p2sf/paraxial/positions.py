@@ -9,7 +9,7 @@ from math import isfinite
 from p2sf.arguments import checked
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
-from p2sf.lens.positions import KEPT, PARAMETER, Axis, Kind, Positions, interpolated, shown
+from p2sf.lens.positions import KEPT, PARAMETER, Axis, Kind, Positions, interpolate_lens, position_text
 from p2sf.paraxial.first_order import basis_rays
 
 RTOL = 1e-12  # of a ring's travel
@@ -50,7 +50,7 @@ def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float |
             raise RequestError(
                 "{parameter} is {value}, but the lens has no such ring; leave it out",
                 parameter=PARAMETER[kind],
-                value=shown(value),
+                value=position_text(value),
             )
     if positions is None:
         return lens
@@ -69,9 +69,9 @@ def _called(lens: Lens, other: Lens) -> Lens:
 @lru_cache(maxsize=128)
 def _placed(positions: Positions, place: tuple[float, ...]) -> Lens:
     """Return the lens with its rings at ``place``, one number for each axis, within its scale."""
-    lens, axis = interpolated(positions, place), positions.axes[0]
+    lens, axis = interpolate_lens(positions, place), positions.axes[0]
     if axis.kind == "zoom" and place[0] not in axis.at:
-        lens = _refocused(lens, axis, place[0], [interpolated(positions, (at, *place[1:])) for at in axis.at])
+        lens = _refocused(lens, axis, place[0], [interpolate_lens(positions, (at, *place[1:])) for at in axis.at])
     return replace(lens, positions=replace(positions, place=place))
 
 

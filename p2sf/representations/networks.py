@@ -15,12 +15,12 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.representations.pictures import BUDGETS, SMALL_BUDGET, best_grids, principal, scores_of, stored
+from p2sf.representations.pictures import BUDGETS, SMALL_BUDGET, best_grids, principal, quantise, scores_of
 from p2sf.representations.representation import (
     ExactPsfs,
     Representation,
     clipped_to_unit_sum,
-    mirrored,
+    mirror_halves,
     right_half,
 )
 from p2sf.representations.space import LensSpace, SpacePoints
@@ -96,7 +96,7 @@ Batch = tuple[np.ndarray, np.ndarray, np.ndarray]
 Batches = Iterator[Batch]
 
 
-def trained(weights: Weights, batches: Batches, steps: int) -> Weights:
+def train(weights: Weights, batches: Batches, steps: int) -> Weights:
     """Return the weights after ``steps`` of Adam, the rate falling to nothing along half a cosine."""
     first, second = ([np.zeros_like(w) for w in weights] for _ in range(2))
     for step, batch in zip(range(1, steps + 1), batches, strict=False):
@@ -174,7 +174,7 @@ def _blur_field(
             yield from (batch(drawn, chance) for drawn in np.split(found, DRAWN))
 
     weights = started_weights([5, *[size.units] * size.layers, 1], generator)
-    kept, nbytes = _in_half_precision(trained(weights, batches(), size.steps))
+    kept, nbytes = _in_half_precision(train(weights, batches(), size.steps))
     seconds = len(points) * exact.seconds + process_time() - started
     layers = f"{size.layers} layers of {size.units} sines"
     words = f"place and pixel to intensity, {layers}, 16 bits, {size.steps} steps of Adam"
@@ -185,7 +185,7 @@ def _blur_field(
 def _field_psf(space: LensSpace, weights: Weights, points: SpacePoints) -> np.ndarray:
     pixels, places = _pixels(space), _places(points.cube)
     roots = [outputs_of(weights, np.concatenate([np.tile(p, (len(pixels), 1)), pixels], 1))[:, 0] for p in places]
-    return clipped_to_unit_sum(mirrored(np.square(np.maximum(roots, 0)), space.window.pixels))
+    return clipped_to_unit_sum(mirror_halves(np.square(np.maximum(roots, 0)), space.window.pixels))
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +202,7 @@ def _score_network(space: LensSpace, lessons: Lessons, size: ScoreSize) -> Repre
     """Return a network of place that gives the scores of principal components."""
     started = process_time()
     generator = np.random.default_rng(SEED)
-    basis, nbytes = stored(lessons.components[: size.rank + 1], 8)
+    basis, nbytes = quantise(lessons.components[: size.rank + 1], 8)
     scores = scores_of(lessons.pictures, basis).astype(np.float32)
     scale = float(np.sqrt(np.square(scores).sum(1).mean()))
     # Relative errors of a picture are to count alike for all.
@@ -216,7 +216,7 @@ def _score_network(space: LensSpace, lessons: Lessons, size: ScoreSize) -> Repre
             yield places[which], scores[which] / scale, share[which]
 
     weights = started_weights([3, *[size.units] * size.layers, size.rank], generator)
-    weights = trained(weights, batches(), size.steps)
+    weights = train(weights, batches(), size.steps)
     weights[-2:] = [scale * w for w in weights[-2:]]
     kept, own = _in_half_precision(weights)
     seconds = lessons.seconds + process_time() - started
@@ -229,4 +229,4 @@ def _score_network(space: LensSpace, lessons: Lessons, size: ScoreSize) -> Repre
 
 def _score_psf(space: LensSpace, halves: np.ndarray, weights: Weights, points: SpacePoints) -> np.ndarray:
     found = halves[0] + outputs_of(weights, _places(points.cube)) @ halves[1:]
-    return clipped_to_unit_sum(mirrored(found, space.window.pixels))
+    return clipped_to_unit_sum(mirror_halves(found, space.window.pixels))

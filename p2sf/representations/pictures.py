@@ -12,7 +12,7 @@ from p2sf.representations.representation import (
     ExactPsfs,
     Representation,
     clipped_to_unit_sum,
-    mirrored,
+    mirror_halves,
     right_half,
 )
 from p2sf.representations.space import LensSpace, SpacePoints, axis_nodes
@@ -74,16 +74,16 @@ def grid_representations(space: LensSpace, exact: ExactPsfs, quick: bool = False
     """Yield grids of PSFs of growing size with every rule of interpolation."""
     grids = best_grids(space, exact, SMALL_BUDGET if quick else BUDGETS[-1])
     for counts, rule in product(grids[-1:] if quick else grids, RULES):
-        kept, nbytes = stored(exact.at(space.grid(counts)), 8)
+        kept, nbytes = quantise(exact.at(space.grid(counts)), 8)
         table = right_half(kept)
-        psf = partial(_interpolated, space, counts, rule, table)
+        psf = partial(_interpolate, space, counts, rule, table)
         words = f"{' × '.join(map(str, counts))} nodes, roots of half pictures in 8 bits, {rule}"
         yield Representation("PSF grid", words, table.size, nbytes, len(table) * exact.seconds, psf)
 
 
-def _interpolated(space: LensSpace, counts: Counts, rule: Rule, table: np.ndarray, points: SpacePoints) -> np.ndarray:
+def _interpolate(space: LensSpace, counts: Counts, rule: Rule, table: np.ndarray, points: SpacePoints) -> np.ndarray:
     weights = node_weights(counts, rule, points.cube).astype(np.float32)
-    return clipped_to_unit_sum(mirrored(weights @ table, space.window.pixels))
+    return clipped_to_unit_sum(mirror_halves(weights @ table, space.window.pixels))
 
 
 def pca_representations(space: LensSpace, exact: ExactPsfs, quick: bool = False) -> Iterator[Representation]:
@@ -116,17 +116,17 @@ def _components(
     space: LensSpace, counts: Counts, pictures: np.ndarray, basis: np.ndarray, seconds: float
 ) -> Representation:
     started = process_time()
-    kept, nbytes = stored(basis, 8)
+    kept, nbytes = quantise(basis, 8)
     scores = scores_of(pictures, kept).astype(np.float16)
     seconds += process_time() - started
     grid = " × ".join(map(str, counts))
     words = f"rank {len(basis) - 1}, roots of half pictures in 8 bits, scores on {grid} nodes, cubic"
-    psf = partial(_composed, space, counts, right_half(kept), scores.astype(np.float32))
+    psf = partial(_compose, space, counts, right_half(kept), scores.astype(np.float32))
     numbers = right_half(kept).size + scores.size
     return Representation("PCA", words, numbers, nbytes + scores.nbytes, seconds, psf)
 
 
-def stored(pictures: np.ndarray, bits: int) -> tuple[np.ndarray, int]:
+def quantise(pictures: np.ndarray, bits: int) -> tuple[np.ndarray, int]:
     """Return pictures (n, y, x) as ``bits`` keep the roots of their values, and the bytes that half of each takes.
 
     Steps that are even in the root follow the skirts, which even steps in the value would lose. Signs are kept, and
@@ -149,9 +149,9 @@ def scores_of(pictures: np.ndarray, kept: np.ndarray) -> np.ndarray:
     return found
 
 
-def _composed(
+def _compose(
     space: LensSpace, counts: Counts, halves: np.ndarray, scores: np.ndarray, points: SpacePoints
 ) -> np.ndarray:
     weights = node_weights(counts, "cubic", points.cube).astype(np.float32)
     found = halves[0] + (weights @ scores) @ halves[1:]
-    return clipped_to_unit_sum(mirrored(found, space.window.pixels))
+    return clipped_to_unit_sum(mirror_halves(found, space.window.pixels))

@@ -13,7 +13,7 @@ from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import FittedPencil, fit, levels
 from p2sf.representations.fits import ADAPTIVE_WAVES
-from p2sf.representations.pictures import STEPS, stored
+from p2sf.representations.pictures import STEPS, quantise
 from p2sf.representations.rays import ray_representations
 from p2sf.representations.representation import ExactPsfs, Representation, right_half
 from p2sf.representations.shapes import SHAPES, fitted_shape, shape_values
@@ -53,11 +53,11 @@ def _fits(space: LensSpace, source: Source) -> Iterator[Representation]:
         seconds = process_time() - started
         words = f"{found.numbers} numbers"
         yield Representation(
-            name, words, found.numbers, VALUE_BYTES * found.numbers, seconds, partial(_summed, space, found)
+            name, words, found.numbers, VALUE_BYTES * found.numbers, seconds, partial(_sum_waves, space, found)
         )
 
 
-def _summed(space: LensSpace, found: FittedPencil, points: SpacePoints) -> np.ndarray:
+def _sum_waves(space: LensSpace, found: FittedPencil, points: SpacePoints) -> np.ndarray:
     return space.window.light(summed(found, *space.window.fine)[0])[None]
 
 
@@ -69,7 +69,7 @@ def _wavefronts(space: LensSpace, source: Source) -> Iterator[Representation]:
         found = pencil_of(numbers, order, source.wavelength_um)
         words = f"{len(terms(order))} terms up to order {order} and {MAP} of the pupil's ellipse"
         yield Representation(
-            "Zernike grid", words, numbers.size, numbers.nbytes, seconds, partial(_summed, space, found)
+            "Zernike grid", words, numbers.size, numbers.nbytes, seconds, partial(_sum_waves, space, found)
         )
 
 
@@ -87,7 +87,7 @@ def _shapes(space: LensSpace, picture: np.ndarray) -> Iterator[Representation]:
 
 def _pictures(picture: np.ndarray) -> Iterator[Representation]:
     for bits in STEPS:
-        kept, nbytes = stored(picture, bits)
+        kept, nbytes = quantise(picture, bits)
 
         def psf(points: SpacePoints, kept: np.ndarray = kept) -> np.ndarray:
             unit: np.ndarray = kept / kept.sum()

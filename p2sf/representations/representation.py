@@ -82,7 +82,7 @@ def right_half(pictures: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(half).reshape(len(pictures), -1)
 
 
-def mirrored(halves: np.ndarray, pixels: int) -> np.ndarray:
+def mirror_halves(halves: np.ndarray, pixels: int) -> np.ndarray:
     """Return pictures (n, pixels, pixels) from what `right_half` keeps of them."""
     half = halves.reshape(len(halves), pixels, pixels // 2 + 1)
     column = np.abs(np.arange(pixels) - pixels // 2)

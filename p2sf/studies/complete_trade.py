@@ -122,7 +122,7 @@ def _silent(words: str) -> None:
     pass
 
 
-def compared(lens: Lens, quick: bool = False, progress: Progress = _silent) -> LensTrade:
+def compare_representations(lens: Lens, quick: bool = False, progress: Progress = _silent) -> LensTrade:
     """Return the complete trade of one lens, on one thread; ``quick``: one setting of each family, fewer points.
 
     ``progress`` is told what comes next. Raises GeometryError for a lens that has no space to compare in.
@@ -168,12 +168,12 @@ def _rows(
     for name, family in _families(space, exact, quick).items():
         progress(name)
         try:
-            rows += [measured(made, truth) for made in family()]
+            rows += [measure_representation(made, truth) for made in family()]
         except P2SFError as error:
             refused.append((name, str(error)))
     progress("rays")
     # Rays are the truth of all others; theirs is a Huygens sum of more nodes.
-    rows += [measured(made, probed) for made in ray_representations(space)]
+    rows += [measure_representation(made, probed) for made in ray_representations(space)]
     return rows, refused
 
 
@@ -185,7 +185,7 @@ def _singles(space: LensSpace, exact: ExactPsfs, quick: bool) -> Iterator[tuple[
         truth = truth_of(point, exact.at(point).astype(float))
         made = point_representations(space, exact, point)
         field = float(degrees_from_slope(point.field_slope[0]))
-        yield field, tuple(measured(one, truth) for one in made if one.family != REFERENCE)
+        yield field, tuple(measure_representation(one, truth) for one in made if one.family != REFERENCE)
 
 
 def truth_of(points: SpacePoints, pictures: np.ndarray) -> Truth:
@@ -193,12 +193,12 @@ def truth_of(points: SpacePoints, pictures: np.ndarray) -> Truth:
     return Truth(points, pictures, _radius_80(pictures))
 
 
-def measured(made: Representation, truth: Truth) -> Row:
+def measure_representation(made: Representation, truth: Truth) -> Row:
     """Return what a representation costs, and its errors."""
     points, wanted = truth.points, truth.pictures
-    found, batch = _timed(lambda: made.psf(points))
+    found, batch = _time_call(lambda: made.psf(points))
     singles = [points[k : k + 1] for k in range(min(SINGLES, len(points)))]
-    single = float(np.median([_timed(partial(made.psf, one))[1] for one in singles]))
+    single = float(np.median([_time_call(partial(made.psf, one))[1] for one in singles]))
     l2 = _relative_l2(found, wanted)
     worst = int(l2.argmax())
     place = points.depth_mm[worst], degrees_from_slope(points.field_slope[worst]), points.wavelength_um[worst]
@@ -220,7 +220,7 @@ def measured(made: Representation, truth: Truth) -> Row:
     )
 
 
-def _timed(work: Callable[[], np.ndarray]) -> tuple[np.ndarray, float]:
+def _time_call(work: Callable[[], np.ndarray]) -> tuple[np.ndarray, float]:
     """Return the result and the mean CPU seconds of a call, of so many that a clock can tell; the first one counts."""
     started, calls = process_time(), 0
     while True:

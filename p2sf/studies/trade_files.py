@@ -11,7 +11,7 @@ from typing import Any
 from p2sf.errors import RequestError
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
-from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, compared
+from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, compare_representations
 
 SHIPPED = Path(__file__).with_name("complete_trade.json")
 DIGITS = 3  # of measured numbers: times and errors are not known better
@@ -124,10 +124,10 @@ def kept_or_compared(
 ) -> LensTrade:
     """Return the trade of a lens from a folder where an earlier run left it, or compare it and leave it there."""
     if folder is None:
-        return compared(lens, quick, progress)
+        return compare_representations(lens, quick, progress)
     path = folder / f"{lens.name}.json"
     if path.exists():
         return load_trades(path)[0]
-    found = compared(lens, quick, progress)
+    found = compare_representations(lens, quick, progress)
     save_trades(path, [found])
     return found

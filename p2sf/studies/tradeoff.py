@@ -136,7 +136,7 @@ def tradeoff(
         if not rows:
             # Untimed, since a first call loads libraries and tables; the reference has just had its own.
             for way in _ways(set(methods) - {REFERENCE}):
-                _made(lens, source, window, reference, *way)
+                _point_of_trade(lens, source, window, reference, *way)
         rows += [_row(lens, source, window, place, reference, *way) for way in _ways(methods)]
     return rows
 
@@ -165,9 +165,9 @@ def _row(
 ) -> MethodCost:
     @using_threads(1)  # or another thread's block would count as memory too
     def once() -> Psf:
-        return _made(lens, source, window, reference, method, quality)
+        return _point_of_trade(lens, source, window, reference, method, quality)
 
-    psf, seconds = _timed(once)
+    psf, seconds = _time_call(once)
     depth_mm, field_deg, wavelength_nm = place
     return MethodCost(
         method=method,
@@ -186,13 +186,15 @@ def _row(
     )
 
 
-def _made(lens: Lens, source: Source, window: tuple[int, float], reference: Psf, method: str, quality: str) -> Psf:
+def _point_of_trade(
+    lens: Lens, source: Source, window: tuple[int, float], reference: Psf, method: str, quality: str
+) -> Psf:
     if not method_of(method).pupil:
         return gaussian_psf(reference)
     return render(lens, source, method, *window, quality=quality)
 
 
-def _timed(once: Callable[[], Psf]) -> tuple[Psf, float]:
+def _time_call(once: Callable[[], Psf]) -> tuple[Psf, float]:
     """Return the result and the median CPU seconds of a call; wall-clock times depend on what else the machine does."""
     seconds: list[float] = []
     while True:

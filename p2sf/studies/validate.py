@@ -99,7 +99,7 @@ class Comparison:
 
 
 @cache
-def published() -> tuple[Published, ...]:
+def published_figures() -> tuple[Published, ...]:
     """Return the published figures in the order of the file."""
     tables = tomllib.loads(DATA.read_text(encoding="utf-8"))["figure"]
     return tuple(Published(**{**table, "indices": tuple(table.get("indices", ()))}) for table in tables)
@@ -114,7 +114,7 @@ def compare(figure: Published) -> Comparison:
 
 def validation() -> tuple[Comparison, ...]:
     """Return every published figure beside this program's own."""
-    return tuple(map(compare, published()))
+    return tuple(map(compare, published_figures()))
 
 
 def lens_of(figure: Published) -> Lens:
@@ -223,9 +223,9 @@ def lines(rows: tuple[Comparison, ...]) -> list[tuple[str, ...]]:
         (
             row.published.quantity,
             row.published.lens,
-            _written(row.published.value, row.published),
+            _format_figure(row.published.value, row.published),
             f"{row.published.source} ({KINDS[row.published.kind]})",
-            "–" if row.ours is None else _written(row.ours, row.published),
+            "–" if row.ours is None else _format_figure(row.ours, row.published),
             "–" if row.difference is None else f"{row.difference:.0e}",
             f"{row.published.tolerance:.0e}",
             row.verdict,
@@ -242,7 +242,7 @@ def reasons(rows: tuple[Comparison, ...]) -> dict[str, str]:
     return {why: ", ".join(f"{size:.0e}" for size in sorted(sizes)) for why, sizes in found.items()}
 
 
-def _written(value: float, figure: Published) -> str:
+def _format_figure(value: float, figure: Published) -> str:
     """Return a value to the digit that the tolerance decides, with its unit."""
     return f"{value:.{max(-floor(log10(figure.tolerance)), 0)}f} {figure.unit}".strip()
 

@@ -11,7 +11,7 @@ from PIL import Image
 
 from p2sf.errors import ExportError, P2SFError, RequestError
 from p2sf.io.photo_files import photo_shape, read_photo, write_photo
-from p2sf.io.png16 import BAND, read_deep, unfiltered, write_deep
+from p2sf.io.png16 import BAND, read_deep, reverse_filters, write_deep
 from p2sf.io.transfer import linear_from_srgb, srgb_from_linear
 
 
@@ -74,7 +74,7 @@ def test_filters_are_undone_byte_by_byte(rows, columns, step):
             guess = (0, left, above[x], (left + above[x]) // 2, paeth(left, above[x], corner))[kind]
             out.append((value - guess) % 256)
         raw.append([kind, *out])
-    assert (unfiltered(np.array(raw, np.uint8), step) == plain).all()
+    assert (reverse_filters(np.array(raw, np.uint8), step) == plain).all()
 
 
 def claimed(width: int, height: int, deep: bool) -> bytes:

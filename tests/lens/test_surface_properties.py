@@ -22,7 +22,7 @@ from p2sf.lens import (
 )
 from p2sf.lens.lens import scaled, seen_from
 from p2sf.lens.misalignment import straightened
-from p2sf.lens.positions import Axis, interpolated, steps_between, with_positions
+from p2sf.lens.positions import Axis, interpolate_lens, steps_between, with_positions
 from p2sf.lens.properties import BY_NAME, CODE_V, EVERY, ISET, PROPERTIES, TOML, ZEMAX, words_of
 from p2sf.lens.shape_types import SHAPES
 from p2sf.lens.shapes import Shape
@@ -176,7 +176,7 @@ def test_a_shape_that_is_not_of_revolution_is_refused_with_one_sentence():
 def test_between_two_columns_of_a_zoom_it_is_interpolated_or_named(name):
     low, high = ends = replace(sample(name), **{name: default(name)}), sample(name)
     zoom = with_positions((Axis("zoom", ("wide", "tele"), (0.0, 1.0)),), tuple(map(lens_of, ends)))
-    between = interpolated(zoom.positions, (0.4,))
+    between = interpolate_lens(zoom.positions, (0.4,))
     found = getattr(between.surfaces[0], name)
     moved = replace(between, positions=replace(zoom.positions, place=(0.4,)))
     named = [message.values["what"] for message in steps_between(moved)]

@@ -65,7 +65,7 @@ def test_without_files_that_have_no_name_a_file_is_still_whole(tmp_path, monkeyp
         handle.write(b"half")
         raise OSError("none here")
 
-    monkeypatch.setattr("p2sf.files.atomic._unnamed", lambda folder: None)
+    monkeypatch.setattr("p2sf.files.atomic._nameless_file", lambda folder: None)
     write_whole(tmp_path / "a", lambda handle: handle.write(b"whole"))
     with pytest.raises(OSError, match="none here"):
         write_whole(tmp_path / "a", refuse)

@@ -16,11 +16,11 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml import read_toml
 from p2sf.measure.as_built import left_out, lens_as_built, write_as_built
-from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrated
+from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.frame_fit import FrameFit, PointSum, fit_frame
 from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
 from p2sf.measure.listings import listing_of, read_listing
-from p2sf.measure.measurement import measured, read_measurement, write_measurement
+from p2sf.measure.measurement import measure_frame, read_measurement, write_measurement
 from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import find_points, in_grid, window_half, window_of
@@ -158,7 +158,7 @@ def test_points_that_overlap_are_flagged_and_not_used(triplet):
     places = np.append(grid_of_points(3, 2, 1.5, 0.9), [(0.375 - 11 * PITCH / 1000, 0.0), (0.375, 0.0)], axis=0)
     frame = simulated_frame(triplet, places, FrameGeometry(380, 560, PITCH), Exposure(sensor_shift_um=60.0))
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    found = measured([frame], optics, lens=triplet, unknowns=("sensor_shift_um",), singly=False)
+    found = measure_frame([frame], optics, lens=triplet, unknowns=("sensor_shift_um",), singly=False)
     overlapping = [point for point in found.points if abs(point.y_mm) < 0.1]
     assert overlapping and all(point.flags for point in overlapping)
     assert len(found.whole.points) == 6 and min(abs(point.y_mm) for point in found.whole.points) > 0.4
@@ -167,7 +167,7 @@ def test_points_that_overlap_are_flagged_and_not_used(triplet):
 def test_a_frame_gives_back_how_the_sensor_stands(triplet, frame):
     """Five standard deviations, of some 0.2 µm and 0.01°."""
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    found = measured([frame], optics, lens=triplet, unknowns=FOCUS, singly=False).whole
+    found = measure_frame([frame], optics, lens=triplet, unknowns=FOCUS, singly=False).whole
     assert found.model.unknowns == (*FOCUS, "f_number")
     assert np.abs((found.values - [25.0, 0.1, -0.05, 0.0]) / found.errors).max() < 5
     assert (found.errors < [0.5, 0.01, 0.02, 0.3]).all()
@@ -179,7 +179,7 @@ def test_a_sensor_far_from_where_the_design_has_it_is_found(triplet):
     """0.9 waves of defocus: from the lens as designed, the nearest minimum is another one, of 4 times the noise."""
     exposure = Exposure(sensor_shift_um=-60.0)
     taken = simulated_frame(triplet, grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, PITCH), exposure)
-    whole = measured([taken], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).whole
+    whole = measure_frame([taken], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).whole
     assert abs(whole.values[0] + 60) < 4 * whole.errors[0] < 4 and whole.chi2 < 1.2
 
 
@@ -271,10 +271,10 @@ def test_a_frame_at_two_focus_positions_has_no_twin():
 def test_a_measurement_is_cancelled_reported_and_written(triplet, frame, tmp_path):
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
     with pytest.raises(Cancelled):
-        measured([frame], optics, cancelled=lambda: True)
+        measure_frame([frame], optics, cancelled=lambda: True)
     shares = []
     cut = Frame(frame.values[:, 420:840], FrameGeometry(680, 420, PITCH))
-    found = measured([cut], optics, progress=shares.append)
+    found = measure_frame([cut], optics, progress=shares.append)
     assert found.used == 3 and found.whole is None and shares == sorted(shares)
     arrays, meta = read_measurement(write_measurement(found, tmp_path / "coefficients.npz"))
     assert meta["names"] == ["W40", "W31", "W22", "W20 + Wd"] and arrays["numbers"].shape == (3, 4)
@@ -288,11 +288,11 @@ def test_dark_and_flat_fields_leave_the_light():
     rng = np.random.default_rng(0)
     light, dark, gain = rng.uniform(100, 200, (8, 9)), rng.uniform(5, 9, (8, 9)), rng.uniform(0.8, 1.2, (8, 9))
     gain /= gain.mean()
-    assert calibrated(light * gain + dark, dark, 5000 * gain + dark) == pytest.approx(light)
+    assert calibrate(light * gain + dark, dark, 5000 * gain + dark) == pytest.approx(light)
     with pytest.raises(RequestError, match="flat field has shape"):
-        calibrated(light, dark[1:])
+        calibrate(light, dark[1:])
     with pytest.raises(RequestError, match="not brighter"):
-        calibrated(light, dark, dark - 1)
+        calibrate(light, dark, dark - 1)
 
 
 def test_noise_is_estimated_beside_points(frame):
@@ -344,10 +344,10 @@ def test_pixels_of_a_psf_are_read_as_pixels(ending, tmp_path, triplet):
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
     own = coefficients(triplet, np.inf, 0.0, triplet.reference_wavelength_um)
 
-    (fit,) = measured([frame], optics).fits
+    (fit,) = measure_frame([frame], optics).fits
     assert min(abs(numbers[0] - own.w40) for numbers in (fit.numbers, *fit.others)) < 0.03
     if ending != "npz":  # once is enough for what would go wrong
-        (fit,) = measured([replace(frame, integrated=False)], optics).fits
+        (fit,) = measure_frame([replace(frame, integrated=False)], optics).fits
         assert min(abs(numbers[0] - own.w40) for numbers in (fit.numbers, *fit.others)) > 0.1
 
 
@@ -355,7 +355,7 @@ def test_a_psf_lies_where_its_field_lands(triplet):
     """50 mm times the tangent of 10°, and 0.4 % of distortion."""
     made = render_integrated(triplet, Source(field_deg=10.0, wavelength_nm=550.0), "fitted", 41, PITCH)
     frame = Frame(made.values[::-1], FrameGeometry(41, 41, PITCH), Noise(read_noise=1e-5), psf=True, field_deg=10.0)
-    (point,) = measured([frame], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).points
+    (point,) = measure_frame([frame], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).points
     assert point.x_mm == 0.0 and point.y_mm == pytest.approx(50 * np.tan(np.deg2rad(10.0)), rel=0.01)
 
 
@@ -379,7 +379,7 @@ def test_a_point_that_one_focus_has_lost_is_left_out(triplet):
     row, column = geometry.pixel_at(*places[0])
     second.values[row - 30 : row + 31, column - 30 : column + 31] = 50.0
     optics = lens_optics(triplet, np.inf, 0.55, PITCH)
-    found = measured([first, second], optics, focus_um=(0.0, 20.0), lens=triplet, unknowns=FOCUS[:1], singly=False)
+    found = measure_frame([first, second], optics, focus_um=(0.0, 20.0), lens=triplet, unknowns=FOCUS[:1], singly=False)
     assert sum(why is not None for why in found.failures) == 1 and len(found.whole.points) == 10
     assert abs(found.whole.values[0]) < 5 * found.whole.errors[0] < 5
 
@@ -394,7 +394,7 @@ def test_points_are_found_above_the_noise_there_is(frame):
 def test_noise_that_is_less_than_stated_is_said(triplet, frame):
     optics = lens_optics(triplet, np.inf, 0.55, PITCH)
     stated = replace(frame, noise=Noise(read_noise=20.0))
-    (why,) = measured([stated], optics, lens=triplet, unknowns=FOCUS[:1], singly=False).warnings
+    (why,) = measure_frame([stated], optics, lens=triplet, unknowns=FOCUS[:1], singly=False).warnings
     assert why.values["chi2"] == pytest.approx(0.25 * 1.2, rel=0.2)  # (10/20)², and what the tilt leaves
 
 

@@ -10,7 +10,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_terms import lens_optics
 from p2sf.measure.lens_pupil import clear_part
-from p2sf.measure.measurement import measured
+from p2sf.measure.measurement import measure_frame
 from p2sf.measure.point_fit import fit_point
 from p2sf.measure.point_model import PictureOptics, PixelSum
 from p2sf.measure.point_problem import PointPicture, Problem
@@ -182,7 +182,7 @@ def test_a_frame_through_an_iris_gives_back_how_the_sensor_stands():
     exposure, unknowns = Exposure(sensor_shift_um=30.0, tilt_deg=(0.2, 0.0)), ("sensor_shift_um", "tilt_x_deg")
     frame = simulated_frame(lens, grid_of_points(5, 1, 1.8, 0.0), geometry, exposure)
     found, wrong = (
-        measured(
+        measure_frame(
             [frame],
             lens_optics(one, np.inf, one.reference_wavelength_um, 3.45),
             lens=one,

@@ -14,8 +14,8 @@ from p2sf.measure.as_built import lens_as_built
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.frame_fit import FrameFit, fit_frame
 from p2sf.measure.frame_terms import FrameModel, lens_optics
-from p2sf.measure.measurement import measured, read_measurement, write_measurement
-from p2sf.measure.perturbation import perturbation, perturbed
+from p2sf.measure.measurement import measure_frame, read_measurement, write_measurement
+from p2sf.measure.perturbation import perturb, perturbation
 from p2sf.measure.pupil_nodes import paraxial_nodes
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.measure.starting_values import landings, ray_moments
@@ -44,7 +44,7 @@ def test_a_decentred_element_is_told_by_a_picture_of_huygens_sums(triplet):
     frame = huygens_frame(built, slopes, FrameGeometry(1800, 1800, PITCH))
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
     unknowns = ("sensor_shift_um", "decentre_x:3-4", "decentre_y:3-4")
-    whole = measured([frame], optics, lens=triplet, unknowns=unknowns, singly=False).whole
+    whole = measure_frame([frame], optics, lens=triplet, unknowns=unknowns, singly=False).whole
     assert np.abs((whole.values - [10.0, 0.012, -0.02, 0.0]) / whole.errors).max() < 5
     assert (whole.errors < [0.5, 5e-4, 5e-4, 0.3]).all() and not whole.warnings
     assert [whole.model.unit(name) for name in unknowns] == ["µm", "mm", "mm"]
@@ -65,7 +65,7 @@ def test_light_of_two_wavelengths_is_that_of_huygens_sums_in_each(triplet):
     frame = huygens_frame(built, cross_of_points(4.0) / 50, FrameGeometry(2600, 2600, PITCH), light=light)
     optics = replace(lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH), light=light)
     unknowns = ("sensor_shift_um", "decentre_y:3-4")
-    whole = measured([frame], optics, lens=triplet, unknowns=unknowns, singly=False).whole
+    whole = measure_frame([frame], optics, lens=triplet, unknowns=unknowns, singly=False).whole
     assert whole.explains and np.abs((whole.values - [20.0, -0.05, 0.0]) / whole.errors).max() < 5
 
 
@@ -108,7 +108,7 @@ def test_a_frame_that_nothing_explains_has_reasons_and_no_numbers(triplet, tmp_p
     """Pictures at f/4, taken for f/5, which is said to be exact."""
     taken = simulated_frame(triplet, grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, PITCH), Exposure())
     other = with_f_number(triplet, 5.0)
-    found = measured(
+    found = measure_frame(
         [taken], lens_optics(other, np.inf, 0.55, PITCH), lens=other, unknowns=("tilt_x_deg",), f_number_error=0
     )
     assert not found.whole.reliable and found.whole.chi2 > 3
@@ -126,14 +126,14 @@ def test_a_single_point_that_nothing_explains_has_reasons_and_no_numbers(triplet
     """A point taken twice, the sensor moved by 5 pixels between: no wavefront of four coefficients makes two points."""
     once = simulated_frame(triplet, np.array([[0.0, 0.0]]), FrameGeometry(80, 80, PITCH), Exposure(read_noise=2.0))
     twice = replace(once, values=once.values + np.roll(once.values, 5, axis=1))
-    found = measured([twice], lens_optics(triplet, np.inf, 0.55, PITCH))
+    found = measure_frame([twice], lens_optics(triplet, np.inf, 0.55, PITCH))
     (fit,) = found.fits
     assert fit.chi2 > 3 and not fit.reliable and [why.values["chi2"] for why in fit.warnings] == [fit.chi2]
     (point,) = record(found)["points"]
     assert point["numbers"] is None and point["warnings"] and not point_rows(found, 0, None)
     arrays, _ = read_measurement(write_measurement(found, tmp_path / "found.npz"))
     assert np.isnan(arrays["numbers"]).all() and arrays["chi2"] == [fit.chi2]
-    (exact,) = measured([replace(twice, psf=True)], lens_optics(triplet, np.inf, 0.55, PITCH)).fits
+    (exact,) = measure_frame([replace(twice, psf=True)], lens_optics(triplet, np.inf, 0.55, PITCH)).fits
     assert exact.chi2 > 3 and exact.reliable  # of a computed PSF, whose noise is assumed, it says nothing
 
 
@@ -165,7 +165,7 @@ def test_an_error_means_the_same_at_an_f_number_as_at_the_radius_of_its_stop(tri
     """What an error does to a point's wavefront, and the lens as built, whose stop keeps its radius."""
     error = perturbation(name, len(triplet.surfaces))
     stopped = replace(triplet, aperture=Aperture("stop_semi_diameter", float(stop_rim(triplet))))
-    at_number, at_radius = (perturbed(each, Source(field_deg=10), (error,), (0.05,)) for each in (triplet, stopped))
+    at_number, at_radius = (perturb(each, Source(field_deg=10), (error,), (0.05,)) for each in (triplet, stopped))
     for one, other in zip(vars(at_number).values(), vars(at_radius).values(), strict=True):
         assert one == pytest.approx(other, rel=1e-9, abs=1e-12)
     model = FrameModel(lens_optics(triplet, np.inf, 0.5876, PITCH), 1.0, (name,), triplet)
@@ -180,5 +180,5 @@ def test_a_point_at_a_finite_depth_lands_where_rays_from_that_place_do():
     source, centre = Source(RELAYS_MM["telecentric_relay"], field_deg=max(lens.fields_deg)), np.zeros(1)
     seen = (reference.perturbed(lens, source, error, amount) for amount in (0.0, 0.2))
     still, moved = (one.traced(one.aimed(centre, centre))[0][:, 0] for one in seen)
-    found = perturbed(lens, source, (error,), (0.2,)).landing_um
+    found = perturb(lens, source, (error,), (0.2,)).landing_um
     assert found == pytest.approx(1000 * (moved - still), abs=1e-4)

@@ -11,7 +11,7 @@ from p2sf.camera import Request, set_up
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
-from p2sf.lens.positions import Axis, Positions, interpolated, steps_between, with_positions
+from p2sf.lens.positions import Axis, Positions, interpolate_lens, steps_between, with_positions
 from p2sf.lensfile.toml import lens_to_toml, parse_toml
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.lens_checks import lens_checks
@@ -57,7 +57,7 @@ def fritsch_butland(x, y, at):
 
 @pytest.mark.parametrize("focal", [30.1, 34.0, 39.9, 47.0, 59.0])
 def test_between_columns_lie_monotone_cubics(focal):
-    found = interpolated(ZOOM.positions, (focal,))
+    found = interpolate_lens(ZOOM.positions, (focal,))
     for number, index in ((2, 0), (4, 1)):
         nodes = [spaces(at)[index] for at in FOCAL]
         expected = fritsch_butland(np.array(FOCAL), np.array(nodes), focal)
@@ -83,7 +83,7 @@ def test_spaces_and_fields_are_monotone_between_columns_and_pass_through_them():
 def test_a_zoom_keeps_its_focus_between_columns(focal):
     """The cubics alone leave the image up to 0.7 mm from the sensor; its columns are focused at infinity."""
     found = lens_at(ZOOM, zoom=focal)
-    assert found.surfaces[:-1] == interpolated(ZOOM.positions, (focal,)).surfaces[:-1]
+    assert found.surfaces[:-1] == interpolate_lens(ZOOM.positions, (focal,)).surfaces[:-1]
     # Images of the columns are on their sensors to some roundings of 80 mm.
     assert found.sensor_mm == pytest.approx(float(image_distance(found, inf, 0.5875618)), abs=1e-11)
     # By hand: two thin groups this far apart.

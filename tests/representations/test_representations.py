@@ -14,14 +14,14 @@ from p2sf.raytrace.fit import levels
 from p2sf.representations import pictures
 from p2sf.representations.coefficients import coefficient_representations
 from p2sf.representations.fits import _cut, importance
-from p2sf.representations.networks import LEARNING_RATE, gradient_of, outputs_of, started_weights, trained
+from p2sf.representations.networks import LEARNING_RATE, gradient_of, outputs_of, started_weights, train
 from p2sf.representations.pictures import (
     best_grids,
     grid_representations,
     pca_representations,
     principal,
+    quantise,
     scores_of,
-    stored,
 )
 from p2sf.representations.rays import prescription_numbers
 from p2sf.representations.representation import ExactPsfs, traced_picture
@@ -117,7 +117,7 @@ def test_a_grid_is_right_at_its_own_nodes_and_keeps_its_budget(space, exact, coa
 def test_few_bits_keep_the_root_to_half_a_step():
     drawn = np.random.default_rng(5).standard_normal((3, 16, 16))
     for bits, steps in ((8, 127), (16, 32767)):
-        kept, nbytes = stored(drawn, bits)
+        kept, nbytes = quantise(drawn, bits)
         top = np.abs(drawn).max((1, 2), keepdims=True)
         roots = [np.sign(x) * np.sqrt(np.abs(x) / top) for x in (kept, drawn)]
         assert np.abs(roots[0] - roots[1]).max() <= 0.5 / steps + 1e-6
@@ -171,7 +171,7 @@ def test_the_first_step_of_adam_is_as_long_as_its_rate():
     weights = started_weights([2, 3, 1], generator)
     before = [w.copy() for w in weights]
     slopes = gradient_of(weights, *batch)
-    trained(weights, iter([batch] * 2), 2)  # half the rate at half the way, nothing at its end
+    train(weights, iter([batch] * 2), 2)  # half the rate at half the way, nothing at its end
     for one, other, slope in zip(weights, before, slopes, strict=True):
         assert one - other == pytest.approx(-LEARNING_RATE / 2 * np.sign(slope), rel=1e-3)
 
@@ -183,7 +183,7 @@ def test_adam_learns_a_smooth_function():
     batch = (x, x**2, np.full((64, 1), 1 / 64, np.float32))
     weights = started_weights([1, 8, 1], generator)
     before = np.square(outputs_of(weights, x) - x**2).mean()
-    assert np.square(outputs_of(trained(weights, iter([batch] * 600), 600), x) - x**2).mean() < 0.01 * before
+    assert np.square(outputs_of(train(weights, iter([batch] * 600), 600), x) - x**2).mean() < 0.01 * before
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.traced import traced_psf
 from p2sf.representations.interpolation import node_weights
-from p2sf.representations.representation import mirrored, right_half
+from p2sf.representations.representation import mirror_halves, right_half
 from p2sf.representations.space import DEFOCUS_WAVES, Window, lens_space
 
 
@@ -79,8 +79,8 @@ def test_an_even_picture_is_its_right_half():
     picture = np.random.default_rng(1).random((3, 8, 8))
     even = (picture + np.roll(picture[..., ::-1], 1, axis=-1)) / 2
     assert right_half(even).shape == (3, 8 * 5)
-    np.testing.assert_allclose(mirrored(right_half(even), 8)[..., 1:], even[..., 1:])
-    assert mirrored(right_half(even), 8)[..., 0] == pytest.approx(even[..., 0])
+    np.testing.assert_allclose(mirror_halves(right_half(even), 8)[..., 1:], even[..., 1:])
+    assert mirror_halves(right_half(even), 8)[..., 0] == pytest.approx(even[..., 0])
 
 
 @pytest.mark.parametrize(("rule", "degree"), [("nearest", 0), ("linear", 1), ("cubic", 3)])

@@ -12,7 +12,7 @@ from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.representations.representation import Representation
 from p2sf.representations.space import SpacePoints
 from p2sf.studies import complete_trade as study
-from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, measured, truth_of
+from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, measure_representation, truth_of
 from p2sf.studies.sampling import sampling_map
 from p2sf.studies.trade_files import load_trades, record, save_trades, trades_of
 from p2sf.studies.trade_fronts import batch_us, equal_bytes, error, front, nbytes, within
@@ -33,7 +33,7 @@ def made(pictures):
 
 
 def test_a_perfect_representation_has_no_error():
-    row = measured(made(blur(4.0)), truth_of(points(), blur(4.0)))
+    row = measure_representation(made(blur(4.0)), truth_of(points(), blur(4.0)))
     for errors in (row.one_less_r2, row.relative_l2, row.mtf, row.r80):
         assert errors.worst == 0
     assert row.batch_us > 0 and row.single_us > 0 and row.points == 4 and row.nbytes == 12
@@ -42,7 +42,7 @@ def test_a_perfect_representation_has_no_error():
 def test_errors_are_those_of_plain_formulas():
     """Gaussians of σ 4 and 4.4: R80 in their ratio, contrast exp(−2π²σ²ν²), R² and L2 by the library's functions."""
     wide, narrow = blur(4.4), blur(4.0)
-    row = measured(made(wide), truth_of(points(), narrow))
+    row = measure_representation(made(wide), truth_of(points(), narrow))
     assert row.r80.median == pytest.approx(0.1, abs=0.01)
     frequency = np.arange(17) / 32
     contrast = [np.exp(-2 * (np.pi * sigma * frequency) ** 2) for sigma in (4.4, 4.0)]
@@ -54,7 +54,7 @@ def test_errors_are_those_of_plain_formulas():
 def test_the_worst_point_is_named_and_most_keep_the_rest():
     pictures = np.concatenate([blur(4.0, 19), blur(6.0, 1)])
     place = replace(points(20), depth_mm=np.arange(20) + 1.0)
-    row = measured(made(pictures), truth_of(place, blur(4.0, 20)))
+    row = measure_representation(made(pictures), truth_of(place, blur(4.0, 20)))
     assert row.worst_at[0] == 20 and row.relative_l2.worst > 0.1 and row.relative_l2.median == 0
     assert row.worst_at[2] == pytest.approx(500)
 

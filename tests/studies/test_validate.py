@@ -8,11 +8,21 @@ import pytest
 from p2sf.cli import main
 from p2sf.lens.lens import with_aim
 from p2sf.studies import validate
-from p2sf.studies.validate import AGREES, DIFFERS, KINDS, MEASURES, compare, lens_of, markdown, published, validation
+from p2sf.studies.validate import (
+    AGREES,
+    DIFFERS,
+    KINDS,
+    MEASURES,
+    compare,
+    lens_of,
+    markdown,
+    published_figures,
+    validation,
+)
 from p2sf_explorer.handbook.pages import page
 
-FIGURES = {f"{figure.lens}, {figure.quantity}, {figure.source}": figure for figure in published()}
-OPTICSTUDIO = [figure for figure in published() if figure.source.startswith("Ansys") and figure.measure]
+FIGURES = {f"{figure.lens}, {figure.quantity}, {figure.source}": figure for figure in published_figures()}
+OPTICSTUDIO = [figure for figure in published_figures() if figure.source.startswith("Ansys") and figure.measure]
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -26,7 +36,7 @@ def test_the_figures_asked_for_are_in_the_table():
     assert [figure.value for figure in OPTICSTUDIO if not figure.file] == [49.99978307143194, 0.2364, 1.2182]
     telescope = [figure.value for figure in OPTICSTUDIO if figure.file]
     assert telescope == [0.098, 0.691, 1.8841, 0.214, 1.5983, 0.044, 1.6847, 0.073]
-    assert sum(figure.kind == "paper" for figure in published()) == 4
+    assert sum(figure.kind == "paper" for figure in published_figures()) == 4
 
 
 @pytest.mark.slow

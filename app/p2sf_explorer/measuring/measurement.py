@@ -16,7 +16,7 @@ from p2sf.lens.lens import Lens
 from p2sf.measure.as_built import CERTAIN
 from p2sf.measure.frame_fit import FrameFit
 from p2sf.measure.frame_terms import F_NUMBER, lens_optics
-from p2sf.measure.measurement import Measurement, measured
+from p2sf.measure.measurement import Measurement, measure_frame
 from p2sf.measure.point_fit import PointFit
 from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.points import window_of
@@ -132,7 +132,9 @@ def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: C
     optics = scale(asked, frame.geometry.pixel_um)
     lens = asked.lens if asked.beside else None
     depth = asked.depth_mm if asked.beside else inf
-    return measured([frame], optics, lens=lens, depth_mm=depth, clip=asked.clip, progress=progress, cancelled=cancelled)
+    return measure_frame(
+        [frame], optics, lens=lens, depth_mm=depth, clip=asked.clip, progress=progress, cancelled=cancelled
+    )
 
 
 def encoding_words(found: Measurement) -> str:

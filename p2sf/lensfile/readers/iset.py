@@ -37,7 +37,7 @@ KEYS = (
 
 def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of an ISET .json file; LensFileError with its line for what is missing or not centred."""
-    top = _parsed(source)
+    top = _parse(source)
     if not isinstance(top, dict) or not isinstance(top.get("surfaces"), list):
         older = isinstance(top, dict) and "surfaceArray" in top
         remedy = (
@@ -57,7 +57,7 @@ def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> 
         _add(raw, _surface(values, place + 1, line, source, notes), _is_stop(values), notes, source)
     if top.get("microlens"):
         notes.add("caution", "the microlens array is left out; the picture is that of the lens before it")
-    return _done(raw, sources, notes, source)
+    return _finish(raw, sources, notes, source)
 
 
 def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
@@ -78,10 +78,10 @@ def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> L
         surface = _surface(values, len(raw.surfaces) + 1, line, source, notes)
         _add(raw, surface, _is_stop(values), notes, source)
     notes.add("read", "the fourth column as the rim's diameter")
-    return _done(raw, sources, notes, source)
+    return _finish(raw, sources, notes, source)
 
 
-def _parsed(source: LensText) -> Any:
+def _parse(source: LensText) -> Any:
     try:
         return json.loads(source.text)
     except json.JSONDecodeError as failure:
@@ -210,7 +210,7 @@ def _add(raw: RawLens, surface: RawSurface, is_stop: bool, notes: Notebook, sour
     raw.surfaces.append(surface)
 
 
-def _done(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
+def _finish(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> Lens:
     if raw.surfaces and raw.surfaces[-1].thickness:
         raw.sensor_stated = True
         notes.add("read", "the last thickness as the distance to the sensor")
