@@ -33,12 +33,12 @@ def test_the_worst_state_and_what_one_version_refuses_are_named():
 
 
 def test_what_differs_on_purpose_stands_apart(monkeypatch):
-    monkeypatch.setattr(golden, "DELIBERATE", {("PSF", "x"): "better"})
-    before = {("PSF fitted", "a"): {"x": np.array(1.0), "y": np.array(1.0)}}
-    now = {("PSF fitted", "a"): {"x": np.array(1.5), "y": np.array(1.5)}}
+    monkeypatch.setattr(golden, "DELIBERATE", {("PSF", "x"): (0.4, "better")})
+    before = {("PSF fitted", "a"): {"x": np.array(1.0), "y": np.array(1.0), "far x": np.array(1.0)}}
+    now = {("PSF fitted", "a"): {"x": np.array(1.5), "y": np.array(1.5), "far x": np.array(2.0)}}
     table, deliberate, _ = golden.compared(now, before)
-    assert table["PSF fitted"].where == "a: y" and deliberate["better"].where == "PSF fitted, a: x"
-    assert table["PSF fitted"].figures == deliberate["better"].figures == 1
+    assert table["PSF fitted"].where == "a: far x" and deliberate["better"].where == "PSF fitted, a: x"
+    assert table["PSF fitted"].figures == 2 and deliberate["better"].figures == 1
 
 
 def test_a_state_gives_figures():
