@@ -455,14 +455,14 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     # Of rays the density is the light, of waves the amplitude.
     light = np.where(whole, density * np.square(mask.amplitude(xi * inside, eta * inside)), 0.0)
     landing_x, landing_y = -slope_x / pupil.half_x, -slope_y / pupil.half_y
-    spot, waves = (_moments(landing_x, landing_y, part) for part in (light, light * density))
+    spot, waves = (_moments(landing_x, landing_y, part, pupil.even) for part in (light, light * density))
     return replace(pupil, centroid_um=waves.y_um, centroid_x_um=waves.x_um, spot=spot)
 
 
-def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray) -> RayMoments:
-    """Return the moments of light that lands at x and y."""
+def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray, even: bool) -> RayMoments:
+    """Return the moments of light that lands at x and y; of an ``even`` pupil it is as much on either side of x = 0."""
     share = light / light.sum()
-    aside, centre = float((share * x).sum()), float((share * y).sum())
+    aside, centre = 0.0 if even else float((share * x).sum()), float((share * y).sum())
     square = float((share * ((x - aside) ** 2 + (y - centre) ** 2)).sum())
     return RayMoments(aside, centre, float(np.sqrt(square)))
 
@@ -512,7 +512,7 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     light = share * nodes.weight
     landing_x, landing_y = (-slope / size for slope, size in zip(least.slopes(phase), half, strict=True))
     # Of rays weight·dξdη is the light, of waves D²df = D·weight·dξdη.
-    spot, waves = (_moments(landing_x, landing_y, part) for part in (light, light * true))
+    spot, waves = (_moments(landing_x, landing_y, part, nodes.even) for part in (light, light * true))
     thin = light * true @ (least.values(density) / true - 1) ** 2 / (light @ true)
     # An error of the amplitude changes the field as a phase of 1/2π of it does.
     residual = float(np.sqrt((share @ miss**2 / share.sum() + thin / (2 * np.pi) ** 2) / least.freedom))
