@@ -24,10 +24,10 @@ if TYPE_CHECKING:
         zernike,
     )
     from p2sf.camera import Camera
-    from p2sf.database_files.building import build_database
+    from p2sf.database.files.building import build_database
     from p2sf.errors import P2SFError, P2SFWarning
+    from p2sf.export.psf_cube import open_database
     from p2sf.image.picture import form_image
-    from p2sf.interchange.psf_cube import open_database
     from p2sf.io.psf_plot import draw_psf
     from p2sf.lens.lens import Lens, with_absorption, with_mask
     from p2sf.lens.source import Source
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from p2sf.psf.from_opd import psf_of_opd
     from p2sf.psf.result import Psf
     from p2sf.pupil.mask import PupilMap, PupilMask
-    from p2sf.scene.plan import plan
+    from p2sf.scene.planning.plan import plan
     from p2sf.scene.scene import Scene
     from p2sf.scene.sensor import Sensor
     from p2sf.studies.tradeoff import tradeoff
@@ -83,11 +83,11 @@ _ELSEWHERE = {
     "Scene": "p2sf.scene.scene",
     "Sensor": "p2sf.scene.sensor",
     "Source": "p2sf.lens.source",
-    "build_database": "p2sf.database_files.building",
+    "build_database": "p2sf.database.files.building",
     "form_image": "p2sf.image.picture",
     "lens_at": "p2sf.paraxial.positions",
-    "open_database": "p2sf.interchange.psf_cube",
-    "plan": "p2sf.scene.plan",
+    "open_database": "p2sf.export.psf_cube",
+    "plan": "p2sf.scene.planning.plan",
     "tradeoff": "p2sf.studies.tradeoff",
     "with_absorption": "p2sf.lens.lens",
     "with_mask": "p2sf.lens.lens",

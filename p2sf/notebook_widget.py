@@ -13,7 +13,7 @@ import numpy as np
 from p2sf.errors import P2SFError
 from p2sf.io.psf_plot import edges_um, relative
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.quantities import OF_THE_SOURCE, Quantity
 from p2sf_explorer.compute.setup import default_state, prescription, ranges

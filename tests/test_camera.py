@@ -24,7 +24,7 @@ from p2sf_explorer.state.limits import RANGES, SLIDERS
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import Optics, State, changed, entry, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_dict, state_to_json
-from tests.support.zooms import focusing_zoom
+from tests.support.lenses.zooms import focusing_zoom
 
 LENS = find_lens("achromat_f6")
 SOURCE = p2sf.Source(5000, field_deg=1)

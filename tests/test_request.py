@@ -17,7 +17,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf.raytrace.zernike_fit import pupil_opd
 from p2sf_explorer.state.scales import Vergence
-from tests.support.mirrors import mirror
+from tests.support.lenses.mirrors import mirror
 from tests.support.reference import prescription_lens
 
 ROUND_OFF = 1e-12  # a few operations in float64

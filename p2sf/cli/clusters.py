@@ -30,7 +30,7 @@ def cluster(address: str | None = None, /, *, as_json: Json = False) -> None:
     """
     if address is None:
         return _tell_how(as_json)
-    from p2sf.database_files.stack_cluster import check_versions, connected, worker_versions
+    from p2sf.database.files.stack_cluster import check_versions, connected, worker_versions
 
     with connected(address) as client:
         versions = worker_versions(client, address)
@@ -43,7 +43,7 @@ def cluster(address: str | None = None, /, *, as_json: Json = False) -> None:
 
 
 def _tell_how(as_json: bool) -> None:
-    from p2sf.database_files.stack_cluster import SCHEDULER, WORKER
+    from p2sf.database.files.stack_cluster import SCHEDULER, WORKER
 
     lines = {"scheduler": SCHEDULER, "worker": WORKER.format(address=ADDRESS)}
     if as_json:

@@ -16,10 +16,10 @@ from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space
 from p2sf.database.accuracy import DatabaseAccuracy, accuracy, build_by, check_kind
+from p2sf.database.files import load_database, provenance, save_database
+from p2sf.database.files.place import is_stack, place_of, size_bytes
+from p2sf.database.files.provenance import axis_names
 from p2sf.database.render import Database, Sampling
-from p2sf.database_files import load_database, provenance, save_database
-from p2sf.database_files.place import is_stack, place_of, size_bytes
-from p2sf.database_files.provenance import axis_names
 from p2sf.errors import RequestError
 from p2sf.files.writing import check_ending, check_place, plain
 from p2sf.lens.lens import Lens
@@ -189,7 +189,7 @@ def _check_output(output: str, stack: bool) -> None:
 
 def _write_stack(database: Database, lens: Lens, output: str, kind: DatabaseKind) -> None:
     """Fill a stack, with a line of progress on a terminal."""
-    from p2sf.database_files.stack_write import StackProgress, StackStatus, write_stack
+    from p2sf.database.files.stack_write import StackProgress, StackStatus, write_stack
 
     def tell(now: StackStatus) -> None:
         line = f"{now.done} of {now.total} chunks, {now.psfs_per_second:.0f} PSFs/s, {now.seconds_left:.0f} s left"
@@ -206,7 +206,7 @@ def info(file: str, /, *, as_json: Json = False) -> None:
     """Show what a database or a stack holds, where it comes from, and how exact it is."""
     held: dict[str, Any] = {}
     if is_stack(file):
-        from p2sf.database_files.stack import open_stack
+        from p2sf.database.files.stack import open_stack
 
         stack = open_stack(file)
         stored = stack.stored

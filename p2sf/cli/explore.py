@@ -20,6 +20,6 @@ def explore(what: What = None, /) -> int:
             "the explorer needs {packages}, not installed here; run pip install 'p2sf[app]'",
             packages=both if len(missing) > 1 else missing[0],
         )
-    from p2sf_explorer.__main__ import main
+    from p2sf_explorer.application.main import main
 
     return int(main([what] if what else []))

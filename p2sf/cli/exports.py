@@ -8,8 +8,8 @@ from cyclopts import Parameter
 
 from p2sf.cli.options import Json, Whole, check_output, check_samples
 from p2sf.cli.screen import print_json, warn
+from p2sf.database.files.place import is_url
 from p2sf.database.render import Sampling
-from p2sf.database_files.place import is_url
 from p2sf.files.writing import plain
 
 # The first ending of a format is the one a file gets when no --output is given.
@@ -52,7 +52,7 @@ def export(
     beside = Path(file.rpartition("/")[2] if is_url(file) else file)
     target = output or beside.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)
-    from p2sf.interchange import open_database
+    from p2sf.export import open_database
 
     known = open_database(file).accuracy
     if as_json:
@@ -64,26 +64,26 @@ def export(
 
 
 def _iset(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.interchange import IsetOptions, open_database, write_iset
+    from p2sf.export import IsetOptions, open_database, write_iset
 
     options = IsetOptions(picture.depth_mm, picture.pixels or IsetOptions().pixels, picture.pixel_um)
     write_iset(open_database(file), target, options)
 
 
 def _fits(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.interchange import open_cube, write_fits
+    from p2sf.export import open_cube, write_fits
 
     write_fits(open_cube(file, _sampling(picture)), target)
 
 
 def _tiff(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.interchange import open_cube, write_tiff
+    from p2sf.export import open_cube, write_tiff
 
     write_tiff(open_cube(file, _sampling(picture)), target)
 
 
 def _csv(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.interchange import open_database, write_csv
+    from p2sf.export import open_database, write_csv
 
     write_csv(open_database(file), target)
 

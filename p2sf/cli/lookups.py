@@ -10,8 +10,8 @@ from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database import ExactDatabase
 from p2sf.database.accuracy import DatabaseAccuracy
+from p2sf.database.files import Stored
 from p2sf.database.render import pixels_psf
-from p2sf.database_files import Stored
 from p2sf.errors import RequestError
 from p2sf.files.writing import plain
 from p2sf.lens.source import Source
@@ -49,7 +49,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
 
     Raises RequestError for what only the lens could answer, DatabaseError outside what the database covers.
     """
-    from p2sf.interchange import open_database
+    from p2sf.export import open_database
 
     stored = open_database(name)
     for parameter in stated(request):

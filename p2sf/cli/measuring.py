@@ -17,9 +17,11 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import left_out, write_as_built
+from p2sf.measure.fitting.frame_fit import FrameFit
+from p2sf.measure.fitting.frame_terms import F_NUMBER_ERROR, FIELD, FOCUS, lens_optics
+from p2sf.measure.fitting.point_fit import PointFit
+from p2sf.measure.fitting.point_model import PictureOptics
 from p2sf.measure.frame import Frame, Noise
-from p2sf.measure.frame_fit import FrameFit
-from p2sf.measure.frame_terms import F_NUMBER_ERROR, FIELD, FOCUS, lens_optics
 from p2sf.measure.measurement import (
     Measurement,
     MeasurementComparison,
@@ -27,8 +29,6 @@ from p2sf.measure.measurement import (
     measure_frame,
     write_measurement,
 )
-from p2sf.measure.point_fit import PointFit
-from p2sf.measure.point_model import PictureOptics
 from p2sf.measure.reading import read_frame
 from p2sf.measure.target import TargetMatch, read_target
 from p2sf.messages import Message

@@ -15,9 +15,9 @@ from p2sf.cli.options import check_output
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
+from p2sf.export.psf_set import PIXEL_UM, PIXELS, PixelGrid, PsfSet, SetAxes, axes_of, left_out, psf_set
+from p2sf.export.psf_set_files import WRITERS, table, write_psf_set
 from p2sf.image import Progress
-from p2sf.interchange.psf_set import PIXEL_UM, PIXELS, PixelGrid, PsfSet, SetAxes, axes_of, left_out, psf_set
-from p2sf.interchange.psf_set_files import WRITERS, table, write_psf_set
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_angle, check_positive

@@ -20,7 +20,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.scene import Plan, Scene, plan, read_scene, verify
-from p2sf.scene.table import plan_facts, plan_rows, plan_sentences
+from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from p2sf.image.overlap import overlap_add
 from p2sf.image.progress import Progress
 from p2sf.messages import Alternatives
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
-from p2sf.scene.plan import Plan
+from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
 from p2sf.threads import mapped, one_blas_thread
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.scene.pricing import computed_counts
+from p2sf.scene.planning.pricing import computed_counts
 from p2sf.threads import for_each
 
 # Kernels of how many nodes are asked for at once: first, to see how large they are; then so many pixels, or nodes.

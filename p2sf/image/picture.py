@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import checked, real_array
 from p2sf.image.form import Forming
 from p2sf.image.form import form_image as form
-from p2sf.scene.plan import Plan
+from p2sf.scene.planning.plan import Plan
 from p2sf.threads import using_threads
 
 

@@ -15,10 +15,10 @@ from p2sf.pixel_kernels.channel import Light
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.pixel_kernels.pupil_stack import PixelPupil
 from p2sf.raytrace.fit import levels_for
-from p2sf.scene.bounds import check_colours
-from p2sf.scene.cost import Cost
 from p2sf.scene.field_area import field_area
-from p2sf.scene.plan import Plan
+from p2sf.scene.planning.bounds import check_colours
+from p2sf.scene.planning.cost import Cost
+from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduced

@@ -55,7 +55,7 @@ def describe(setup: Setup) -> dict:
 
 def lens_hash(lens: Lens) -> str:
     """Return the SHA-256 of the lens written as TOML: two equal prescriptions have one hash."""
-    from p2sf.lensfile.toml import lens_to_toml
+    from p2sf.lensfile.toml.lens import lens_to_toml
 
     return hashlib.sha256(lens_to_toml(lens).encode()).hexdigest()
 

@@ -14,6 +14,7 @@ from p2sf.arguments import check_fields, checked
 from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium, transmittance_of
+from p2sf.html import html_table
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.properties import BY_NAME, PROPERTIES, turned_breaks
@@ -21,7 +22,6 @@ from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
-from p2sf.notebook import html_table
 from p2sf.pupil.basis import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 

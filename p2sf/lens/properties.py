@@ -1,6 +1,6 @@
 """One table of what a surface has: how each property turns, scales and reads, and which files and sums know it.
 
-`p2sf.lensfile.toml_surface` adds to each how a lens file in TOML states it. A test compares both with the fields of
+`p2sf.lensfile.toml.surface` adds to each how a lens file in TOML states it. A test compares both with the fields of
 `Surface` and with the columns of the table of surfaces, so that nothing of a new property is forgotten in silence.
 """
 

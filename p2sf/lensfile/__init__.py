@@ -5,7 +5,7 @@ format of its ending, `agf.read_agf` reads a glass catalogue; these modules load
 """
 
 from p2sf.lensfile.library import find_lens, lenses_folder, load_lens, shipped_lenses
-from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml, write_toml
 
 __all__ = [
     "find_lens",

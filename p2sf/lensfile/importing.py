@@ -9,17 +9,17 @@ from pathlib import Path
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.agf import Catalogue, read_agf
-from p2sf.lensfile.codev import read_codev
+from p2sf.lensfile.formats.codev import read_codev
+from p2sf.lensfile.formats.csv_table import read_table
+from p2sf.lensfile.formats.iset import read_iset_dat, read_iset_json
+from p2sf.lensfile.formats.optical_bench import read_optical_bench
+from p2sf.lensfile.formats.oslo import read_oslo
+from p2sf.lensfile.formats.ray_optics import read_ray_optics
+from p2sf.lensfile.formats.zemax import read_zemax
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.readers.csv_table import read_table
-from p2sf.lensfile.readers.iset import read_iset_dat, read_iset_json
-from p2sf.lensfile.readers.optical_bench import read_optical_bench
-from p2sf.lensfile.readers.oslo import read_oslo
-from p2sf.lensfile.readers.ray_optics import read_ray_optics
 from p2sf.lensfile.report import ImportReport, Notebook
 from p2sf.lensfile.source_text import LensText, read_source
-from p2sf.lensfile.toml import parse_toml
-from p2sf.lensfile.zemax import read_zemax
+from p2sf.lensfile.toml.lens import parse_toml
 
 
 @dataclass(frozen=True)

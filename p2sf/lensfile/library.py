@@ -7,7 +7,7 @@ from pathlib import Path
 
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.toml.lens import read_toml
 from p2sf.messages import Alternatives
 
 SUFFIX = ".toml"

@@ -18,15 +18,15 @@ from p2sf.lens.properties import ISET, PROPERTIES, ZEMAX
 from p2sf.lens.shapes import Qbfs
 from p2sf.lens.tilts import break_rows
 from p2sf.lensfile.agf import FormulaGlass, nd_and_vd
-from p2sf.lensfile.codev_writing import lens_to_seq
-from p2sf.lensfile.columns import columns_of
 from p2sf.lensfile.conjugates import FAR, limiting_rim, trace
+from p2sf.lensfile.formats.codev_writing import lens_to_seq
+from p2sf.lensfile.formats.zemax import FREEFORMS
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits, write_text
 from p2sf.lensfile.surface_endings import check_endings
-from p2sf.lensfile.toml import lens_to_toml
-from p2sf.lensfile.zemax import FREEFORMS
+from p2sf.lensfile.toml.columns import columns_of
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.positions import as_in_columns, focused_vergence
 

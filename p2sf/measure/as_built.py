@@ -8,14 +8,14 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM, slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database_files import save_database
+from p2sf.database.files import save_database
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.misalignment import with_tilted_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.writing import write_lens
-from p2sf.measure.frame_fit import FrameFit
-from p2sf.measure.frame_terms import FIELD
+from p2sf.measure.fitting.frame_fit import FrameFit
+from p2sf.measure.fitting.frame_terms import FIELD
 from p2sf.messages import Message
 from p2sf.tolerance.errors_of_build import build
 

@@ -16,9 +16,8 @@ from p2sf.errors import Cancelled, P2SFError, RequestError
 from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
-from p2sf.measure.frame import Frame
-from p2sf.measure.frame_fit import FrameFit, Tell, fit_frame, share_of
-from p2sf.measure.frame_terms import (
+from p2sf.measure.fitting.frame_fit import FrameFit, Tell, fit_frame, share_of
+from p2sf.measure.fitting.frame_terms import (
     F_NUMBER,
     F_NUMBER_ERROR,
     FIELD,
@@ -27,13 +26,14 @@ from p2sf.measure.frame_terms import (
     FramePoint,
     six_of_unknowns,
 )
-from p2sf.measure.lens_pupil import designed_pupil
-from p2sf.measure.point_fit import PointFit, chi2_warning, fit_point, no_numbers
-from p2sf.measure.point_model import PictureOptics
-from p2sf.measure.point_problem import PointPicture
+from p2sf.measure.fitting.lens_pupil import designed_pupil
+from p2sf.measure.fitting.point_fit import PointFit, chi2_warning, fit_point, no_numbers
+from p2sf.measure.fitting.point_model import PictureOptics
+from p2sf.measure.fitting.point_problem import PointPicture
+from p2sf.measure.fitting.pupil_model import SIX, pupil_model
+from p2sf.measure.fitting.starting_values import locate
+from p2sf.measure.frame import Frame
 from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, window_half, window_of
-from p2sf.measure.pupil_model import SIX, pupil_model
-from p2sf.measure.starting_values import locate
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 from p2sf.parameters import check_finite

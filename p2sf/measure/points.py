@@ -12,10 +12,10 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.errors import RequestError
+from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
+from p2sf.measure.fitting.point_problem import PointPicture
+from p2sf.measure.fitting.pupil_nodes import counts_for, paraxial_nodes
 from p2sf.measure.frame import Frame
-from p2sf.measure.point_model import PictureOptics, PixelSum
-from p2sf.measure.point_problem import PointPicture
-from p2sf.measure.pupil_nodes import counts_for, paraxial_nodes
 from p2sf.messages import Message
 
 SMOOTH_PIXELS = 1.0

@@ -11,10 +11,10 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
+from p2sf.measure.fitting.frame_terms import chief_rays
+from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
+from p2sf.measure.fitting.pupil_nodes import counts_for, lens_nodes
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.measure.frame_terms import chief_rays
-from p2sf.measure.point_model import PictureOptics, PixelSum
-from p2sf.measure.pupil_nodes import counts_for, lens_nodes
 from p2sf.raytrace.fit import FittedPencil, fit
 
 RESIDUAL_WAVES = 2e-4  # of the fit to rays

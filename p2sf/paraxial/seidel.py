@@ -15,11 +15,11 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.errors import GeometryError
+from p2sf.html import cell, html_table
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.properties import PROPERTIES
 from p2sf.lens.shapes import Diffraction
 from p2sf.messages import Message, ParameterName
-from p2sf.notebook import cell, html_table
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 

@@ -4,9 +4,9 @@ from math import inf, prod
 
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.methods import Method, PsfRequest, method_of
-from p2sf.psf.plane_waves import counts_for, window_reach_um
 from p2sf.psf.seidel_stack import as_fit
 from p2sf.psf.smooth_pupil import all_reach
+from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.seen_mask import mask_seen

@@ -10,9 +10,9 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
-from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import predicted_error
 from p2sf.psf.result import Psf
+from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.pupil.basis import at_nodes
 from p2sf.pupil.interpolation import on_disc
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes

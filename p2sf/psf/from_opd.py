@@ -17,9 +17,9 @@ from p2sf.psf import pixel_integrals
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.peak import peak_on_demand
 from p2sf.psf.picture import Origin, psf_from_intensity, resolved
-from p2sf.psf.plane_waves import Waves
 from p2sf.psf.result import Psf, warned
 from p2sf.psf.seidel import check_samples
+from p2sf.psf.sums.plane_waves import Waves
 from p2sf.pupil.quadrature import cell_areas
 from p2sf.pupil.transform import matrix_dft
 from p2sf.threads import one_blas_thread

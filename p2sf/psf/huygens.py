@@ -21,7 +21,6 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.peak import peak_on_demand
 from p2sf.psf.picture import Origin, Window, psf_from_intensity, resolved
-from p2sf.psf.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.psf.prediction import EDGE_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.smooth_pupil import (
@@ -33,6 +32,7 @@ from p2sf.psf.smooth_pupil import (
     interpolated_waves,
     smooth_blur_um2,
 )
+from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import protected
 from p2sf.errors import SamplingError
-from p2sf.psf._seidel_sum import unfolded
+from p2sf.psf.sums.seidel_sum import unfolded
 from p2sf.pupil.phasors import cosine_sine
 
 Precision = type[np.float32] | type[np.float64]

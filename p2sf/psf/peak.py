@@ -16,7 +16,7 @@ from math import ceil, cos, hypot, pi, sqrt
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.psf.plane_waves import Waves
+from p2sf.psf.sums.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 
 FINE = 6  # samples per period of the pupil's highest frequency where the picture is looked at on a grid of its own

@@ -9,8 +9,8 @@ import numpy as np
 from p2sf.conventions import centred_axis
 from p2sf.messages import Message
 from p2sf.psf.peak import Peak, peak_on_demand
-from p2sf.psf.plane_waves import Waves
 from p2sf.psf.result import Psf
+from p2sf.psf.sums.plane_waves import Waves
 
 Window = tuple[int, float]
 """Pixels on a side, µm per pixel."""

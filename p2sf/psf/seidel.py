@@ -12,12 +12,12 @@ from p2sf.errors import GeometryError, SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
-from p2sf.psf._seidel_sum import wave_number
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
 from p2sf.psf.peak import peak_of, sampled_peak
-from p2sf.psf.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
+from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
+from p2sf.psf.sums.seidel_sum import wave_number
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for

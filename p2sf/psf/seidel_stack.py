@@ -18,14 +18,14 @@ from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of
-from p2sf.psf._seidel_sum import (
+from p2sf.psf.fitted import summed
+from p2sf.psf.sums.seidel_sum import (
     BATCH,
     batch_intensities,
     groups,
     shape_terms,
     wave_number,
 )
-from p2sf.psf.fitted import summed
 from p2sf.pupil.basis import PupilBasis
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.quadrature import (

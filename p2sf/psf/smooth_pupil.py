@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.plane_waves import Counts, Waves, pupil_amplitude
+from p2sf.psf.sums.plane_waves import Counts, Waves, pupil_amplitude
 from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.interpolation import interpolate_pupil, on_disc
 from p2sf.pupil.quadrature import disc_axes, disc_nodes

@@ -22,10 +22,10 @@ from p2sf.psf.huygens import (
     waves_reaching,
 )
 from p2sf.psf.picture import Origin, psf_of_waves, resolved
-from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.smooth_pupil import all_reach, interpolated_waves
+from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.threads import one_blas_thread
 

@@ -1,9 +1,9 @@
 """What a scene requires of a lens model, and a plan that models no more than that."""
 
 from p2sf.scene.files import read_scene
-from p2sf.scene.plan import Decision, Plan, plan
+from p2sf.scene.planning.plan import Decision, Plan, plan
+from p2sf.scene.planning.verify import Verdict, verify
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
-from p2sf.scene.verify import Verdict, verify
 
 __all__ = ["Channel", "Decision", "Plan", "Scene", "Sensor", "Verdict", "plan", "read_scene", "verify"]

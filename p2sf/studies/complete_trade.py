@@ -18,16 +18,16 @@ from p2sf.lens.lens import Lens
 from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.methods import REFERENCE
 from p2sf.psf.result import Psf
-from p2sf.representations.coefficients import coefficient_representations
-from p2sf.representations.fits import fitted_representations
-from p2sf.representations.networks import network_representations
-from p2sf.representations.pictures import grid_representations, pca_representations
-from p2sf.representations.points import point_representations
-from p2sf.representations.rays import ray_representations
-from p2sf.representations.representation import ExactPsfs, Representation, huygens_picture
-from p2sf.representations.shapes import shape_representations
-from p2sf.representations.space import LensSpace, SpacePoints, lens_space
-from p2sf.representations.zernike_grid import zernike_representations
+from p2sf.studies.representations.coefficients import coefficient_representations
+from p2sf.studies.representations.fits import fitted_representations
+from p2sf.studies.representations.networks import network_representations
+from p2sf.studies.representations.pictures import grid_representations, pca_representations
+from p2sf.studies.representations.points import point_representations
+from p2sf.studies.representations.rays import ray_representations
+from p2sf.studies.representations.representation import ExactPsfs, Representation, huygens_picture
+from p2sf.studies.representations.shapes import shape_representations
+from p2sf.studies.representations.space import LensSpace, SpacePoints, lens_space
+from p2sf.studies.representations.zernike_grid import zernike_representations
 
 TESTED, TESTED_QUICK, SEED = 40, 12, 2026
 PROBED, PROBE_TOLERANCE = 3, 1e-6  # of them, by a Huygens sum that agrees so well with the one before

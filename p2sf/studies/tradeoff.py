@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import checked, number_list
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, set_up_source, with_camera
 from p2sf.conventions import NM_PER_UM
+from p2sf.html import html_table
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.metrics.compare import Errors, compare
-from p2sf.notebook import html_table
 from p2sf.parameters import check_angle
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.gaussian_fit import gaussian_psf

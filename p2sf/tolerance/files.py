@@ -27,7 +27,7 @@ from typing import Any, cast
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.source_text import read_text
-from p2sf.lensfile.toml_table import Constraint, Table
+from p2sf.lensfile.toml.table import Constraint, Table
 from p2sf.messages import Message
 from p2sf.tolerance.errors_of_build import GRADES, MOVES, Grade, Kind, Tolerance, usual_tolerances
 

@@ -24,10 +24,10 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import basis_rays
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf._seidel_sum import kernels_for, shape_terms
 from p2sf.psf.huygens import first_counts, huygens_psf
-from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.seidel import seidel_psf
+from p2sf.psf.sums.plane_waves import window_reach_um
+from p2sf.psf.sums.seidel_sum import kernels_for, shape_terms
 from p2sf.pupil.quadrature import disc_nodes, grid_rows
 from p2sf.raytrace.aiming import PupilRays, pupil_rays
 from p2sf.threads import using_threads

@@ -23,9 +23,9 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fit, fitted_intensity, fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import whole_pixel_um
-from p2sf.psf.plane_waves import counts_for, window_reach_um
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.seidel_stack import as_fit
+from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import CLEAR, PupilMap, PupilMask
 from p2sf.raytrace.seen_mask import mask_seen

@@ -13,9 +13,9 @@ import numpy as np
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, depth_nodes
+from p2sf.database.files import save_database
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import database_psf
-from p2sf.database_files import save_database
 from p2sf.image import form_image
 from p2sf.lens.lens import Lens, with_f_number
 from p2sf.lens.misalignment import displaced

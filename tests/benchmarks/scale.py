@@ -22,11 +22,11 @@ import numpy as np
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.cost import products
+from p2sf.database.files import database_bytes
+from p2sf.database.files.place import size_bytes
+from p2sf.database.files.stack import Stack
+from p2sf.database.files.stack_write import StackProgress, chunk_costs, psf_count, write_chunk, write_stack
 from p2sf.database.render import Sampling
-from p2sf.database_files import database_bytes
-from p2sf.database_files.place import size_bytes
-from p2sf.database_files.stack import Stack
-from p2sf.database_files.stack_write import StackProgress, chunk_costs, psf_count, write_chunk, write_stack
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.pixel_integrals import critical_pixel_um

@@ -32,12 +32,12 @@ from threadpoolctl import threadpool_limits
 from p2sf_explorer.charts.theme import configure_plots, screen_scale
 from p2sf_explorer.compute.quantities import OF_THE_LENS
 from p2sf_explorer.compute.setup import prescription, ranges, with_lens
-from p2sf_explorer.shell import window as shell
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.build_errors import with_error
 from p2sf_explorer.state.state import State, changed, new_state
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.window import window as shell
+from p2sf_explorer.window.window import MainWindow
 
 SIZES = (1440, 900), (3840, 2160)
 METHODS = "seidel", "auto"
@@ -67,11 +67,11 @@ PARTS = {  # what is timed by ``--split``: the name that calls it, and what it i
     "p2sf_explorer.compute.live:pupil_of": "compute: pupil",
     "p2sf_explorer.compute.live:dominant": "compute: headline",
     "p2sf_explorer.compute.live:warnings": "compute: warnings",
-    "p2sf_explorer.matrix.pictures:pencil": "compute: aiming and tracing",
-    "p2sf_explorer.matrix.pictures:preview_psf": "matrix: sum of waves",
-    "p2sf_explorer.matrix.pictures:too_coarse": "matrix: fit",
-    "p2sf_explorer.matrix.pictures:radius_figure": "matrix: figures",
-    "p2sf_explorer.matrix.pictures:paraxial_setup": "compute: first order",
+    "p2sf_explorer.compute.matrix.pictures:pencil": "compute: aiming and tracing",
+    "p2sf_explorer.compute.matrix.pictures:preview_psf": "matrix: sum of waves",
+    "p2sf_explorer.compute.matrix.pictures:too_coarse": "matrix: fit",
+    "p2sf_explorer.compute.matrix.pictures:radius_figure": "matrix: figures",
+    "p2sf_explorer.compute.matrix.pictures:paraxial_setup": "compute: first order",
 }
 
 

@@ -18,8 +18,8 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.window.window import MainWindow
 
 FRAMES = 200
 FRAME_MS, START_S = 16.0, 2.5
@@ -93,7 +93,7 @@ start = perf_counter()
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.window.window import MainWindow
 configure_plots()
 window = MainWindow()
 window.show()

@@ -14,8 +14,8 @@ from threadpoolctl import threadpool_limits
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
 from p2sf.database.departure import scattered
+from p2sf.database.files import database_bytes
 from p2sf.database.render import Sampling, rendered
-from p2sf.database_files import database_bytes
 from p2sf.lensfile.library import find_lens
 from p2sf.threads import using_threads
 

@@ -16,8 +16,8 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.window.window import MainWindow
 
 EDITS, EDIT_MS = 60, 30.0
 

@@ -21,7 +21,7 @@ MADE = """
 import json, resource, sys, time
 from p2sf.image import Progress
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.results.image import pixels, planned, question
+from p2sf_explorer.compute.views.image import pixels, planned, question
 from p2sf_explorer.state.state import new_state
 
 asked = question(live(new_state(photo_source=sys.argv[1], photo_pixel_um=None, photo_full=True)))

@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-from p2sf.database_files.stack import open_stack
+from p2sf.database.files.stack import open_stack
 
 ROOT = Path(__file__).parents[2]
 GIB_IN_KIB = 1 << 20

@@ -79,7 +79,7 @@ def opened():
         from app.window import Window
     else:
         from p2sf_explorer.charts.theme import configure_plots
-        from p2sf_explorer.shell.window import MainWindow as Window
+        from p2sf_explorer.window.window import MainWindow as Window
         from p2sf_explorer.state.state import new_state as fresh
     app = QApplication([])
     app.setStyle("Fusion")

@@ -9,7 +9,7 @@ import pytest
 
 from p2sf.cli import COMMANDS
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from tests.conftest import sentence
 
 ROOT = Path(__file__).parents[2]

@@ -13,7 +13,7 @@ from p2sf.cli import COMMANDS, main
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import shipped_lenses
-from p2sf.lensfile.toml import write_toml
+from p2sf.lensfile.toml.lens import write_toml
 from p2sf.version import commit_of
 from tests.support.reference import LENSES, prescription_lens, reference
 

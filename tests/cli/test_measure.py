@@ -9,7 +9,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.toml.lens import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from p2sf.cli import main
-from p2sf_explorer.exporting.set_request import first_texts
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.window.commands.set_request import first_texts
 
 AXES = ("--depths-mm", "5000:inf:2", "--fields-deg", "0:8:3", "--wavelengths-nm", "486,588", "--f-number", "8")
 

@@ -18,15 +18,15 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.spot import spot
 from p2sf.scene import Sensor, read_scene
-from tests.support.lens_files import read, read_file
-from tests.support.simple_lenses import twice_telecentric
+from tests.support.lenses.lens_files import read, read_file
+from tests.support.lenses.simple_lenses import twice_telecentric
 
 TRIPLET, DOUBLET, BENCH = "triplet.json", "doublet.seq", "bench.txt"
 GLASS = ConstantIndex(1.5)
@@ -108,7 +108,7 @@ def test_the_window_without_its_libraries_says_what_to_install(monkeypatch, refu
 
 def test_the_window_opens_what_it_is_given(monkeypatch):
     opened = []
-    monkeypatch.setattr("p2sf_explorer.__main__.main", lambda argv: opened.append(argv) or 0)
+    monkeypatch.setattr("p2sf_explorer.application.main.main", lambda argv: opened.append(argv) or 0)
     assert main(["explore", "tessar"]) == main(["explore"]) == 0
     assert opened == [["tessar"], []]
 

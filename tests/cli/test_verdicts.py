@@ -8,7 +8,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points
-from tests.support.lens_files import FOLDER, text_of
+from tests.support.lenses.lens_files import FOLDER, text_of
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ import p2sf
 from p2sf.conventions import slope_from_degrees
 from p2sf.database.accuracy import TOLERANCE, accuracy, build_by
 from p2sf.database.build import build_database
+from p2sf.database.files.npz import database_bytes, database_from_bytes
 from p2sf.database.render import database_psf
 from p2sf.database.space import Space
-from p2sf.database_files.npz import database_bytes, database_from_bytes
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.compare import r_squared

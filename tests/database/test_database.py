@@ -13,8 +13,8 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
 from tests.benchmarks.interpolants import points_in, space_for
-from tests.support.dispersive_lenses import bent_lens, dispersive_lens
-from tests.support.mirrors import aplanatic, mangin, telescope, two_mirrors
+from tests.support.lenses.dispersive_lenses import bent_lens, dispersive_lens
+from tests.support.lenses.mirrors import aplanatic, mangin, telescope, two_mirrors
 from tests.support.reference import LENSES
 
 FIELDS = np.tan(np.deg2rad(np.linspace(0, 14, 21)))

@@ -5,10 +5,10 @@ import pytest
 
 from p2sf.database import Space, depth_nodes
 from p2sf.database.departure import departures
+from p2sf.database.files import load_database, save_database
 from p2sf.database.fitted import FieldLine, powers, split
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted, held_out, ray_error
 from p2sf.database.render import Sampling, database_psf, rendered
-from p2sf.database_files import load_database, save_database
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source

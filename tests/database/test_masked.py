@@ -10,14 +10,14 @@ import pytest
 import p2sf
 from p2sf.conventions import centred_axis
 from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
+from p2sf.database.files import Stored, database_bytes, database_from_bytes, provenance, same_database
+from p2sf.database.files.npz import MARK
+from p2sf.database.files.sealed import opened, sealed
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, database_psf, rendered
-from p2sf.database_files import Stored, database_bytes, database_from_bytes, provenance, same_database
-from p2sf.database_files.npz import MARK
-from p2sf.database_files.sealed import opened, sealed
 from p2sf.errors import DatabaseError, ExportError
-from p2sf.interchange.iset import write_iset
+from p2sf.export.iset import write_iset
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens

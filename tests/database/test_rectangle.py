@@ -7,13 +7,13 @@ import pytest
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database
+from p2sf.database.files import Stored, load_database, provenance, save_database
+from p2sf.database.files.stack import open_stack, read_psfs
+from p2sf.database.files.stack_write import write_stack
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted
 from p2sf.database.render import Sampling, database_psf, rendered
-from p2sf.database_files import Stored, load_database, provenance, save_database
-from p2sf.database_files.stack import open_stack, read_psfs
-from p2sf.database_files.stack_write import write_stack
 from p2sf.errors import DatabaseError, GeometryError
-from p2sf.interchange import open_cube, write_csv
+from p2sf.export import open_cube, write_csv
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement

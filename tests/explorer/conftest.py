@@ -11,11 +11,11 @@ from pytestqt.qtbot import QtBot
 from p2sf.psf import methods
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.panels import image
-from p2sf_explorer.shell.window import MainWindow
+from p2sf_explorer.compute.views import tolerances as analysis
+from p2sf_explorer.panels.image import panel as image
 from p2sf_explorer.state.state import new_state
-from p2sf_explorer.tolerancing import analysis
-from tests.support.windows import start_again
+from p2sf_explorer.window.window import MainWindow
+from tests.support.windows.windows import start_again
 
 LONGEST_MS = 60_000  # that a test waits, on a machine with other work
 

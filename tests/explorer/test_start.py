@@ -6,4 +6,4 @@ HEAVY = {"matplotlib", "PIL", "tifffile", "pyvista", "vtkmodules", "zarr", "rich
 
 
 def test_the_window_is_imported_without_heavy_libraries():
-    assert not {name.split(".")[0] for name in loaded_by("import p2sf_explorer.application")} & HEAVY
+    assert not {name.split(".")[0] for name in loaded_by("import p2sf_explorer.application.run")} & HEAVY

@@ -12,10 +12,10 @@ from p2sf.lens import Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.shapes import Shape
 from p2sf.paraxial.first_order import basis_rays, cardinal_points
-from tests.support.mirrors import aplanatic, classical, folded, mangin, mirror, two_mirrors
-from tests.support.mirrors import telescope as corrected_telescope
+from tests.support.lenses.mirrors import aplanatic, classical, folded, mangin, mirror, two_mirrors
+from tests.support.lenses.mirrors import telescope as corrected_telescope
+from tests.support.lenses.simple_lenses import simple, telescope
 from tests.support.reference import prescription_lens, reference
-from tests.support.simple_lenses import simple, telescope
 
 WAVELENGTH = 0.5875618
 BASES = ("double_gauss_28", "achromat_f6", "eye_navarro", "asphere")

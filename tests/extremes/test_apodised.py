@@ -10,7 +10,7 @@ import pytest
 from scipy.special import jv
 
 from p2sf.conventions import centred_axis
-from p2sf.psf.plane_waves import pupil_amplitude
+from p2sf.psf.sums.plane_waves import pupil_amplitude
 from p2sf.pupil.quadrature import chord_rows, disc_nodes
 from p2sf.pupil.transform import matrix_dft, padded_fft, sum_plane_waves
 

@@ -24,7 +24,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.pencil import Status, trace
 from tests.extremes.regimes import WAVELENGTH, base, random_lens
-from tests.support.simple_lenses import simple, telescope, twice_telecentric
+from tests.support.lenses.simple_lenses import simple, telescope, twice_telecentric
 
 TELESCOPES = (telescope(-40.0, 3.0), telescope(25.0, 3.0), telescope(-33.3, 0.7), telescope(41.7, 0.3))
 

@@ -9,7 +9,6 @@ from p2sf.conventions import centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_f_number
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf._seidel_sum import intensities, wave_number
 from p2sf.psf.seidel import (
     energy_fraction,
     fft_intensity,
@@ -18,6 +17,7 @@ from p2sf.psf.seidel import (
     seidel_psf,
     suitable_pixel_um,
 )
+from p2sf.psf.sums.seidel_sum import intensities, wave_number
 from p2sf.pupil.quadrature import chord_rows, even_count, grid_rows
 from p2sf.pupil.transform import padded_fft
 from tests.long.settled_sampling import PROMISE, error_of, random_case

@@ -10,12 +10,12 @@ import tifffile
 from PIL import Image
 
 from p2sf.database import Space, build_database
-from p2sf.database_files.npz import MARK, database_bytes
-from p2sf.database_files.sealed import sealed
+from p2sf.database.files.npz import MARK, database_bytes
+from p2sf.database.files.sealed import sealed
 from p2sf.io.photo_files import write_photo
 from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens, lenses_folder
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.files.embedded_state import with_state
 from p2sf_explorer.lessons.lesson import lesson_files
@@ -23,7 +23,7 @@ from p2sf_explorer.state.link import link
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.state_files import state_to_json
 from tests.fuzz.targets import ENDINGS, PSF_ENDINGS, good_database
-from tests.support.lens_files import FILES, FOLDER
+from tests.support.lenses.lens_files import FILES, FOLDER
 from tests.support.waves import waves
 
 LINES = (

@@ -16,8 +16,8 @@ import numpy as np
 from p2sf.camera import Request, set_up
 from p2sf.cli import main
 from p2sf.database import Space, build_database
-from p2sf.database_files.npz import MARK, database_bytes, database_from_bytes
-from p2sf.database_files.sealed import DIGITS, SEAL, opened, sealed
+from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes
+from p2sf.database.files.sealed import DIGITS, SEAL, opened, sealed
 from p2sf.errors import P2SFError
 from p2sf.io.photo_files import read_photo
 from p2sf.io.psf_files import read_psf
@@ -26,7 +26,7 @@ from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.source_text import source_of
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients

@@ -11,7 +11,7 @@ from p2sf.image.lowrank import _spline
 from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor
-from p2sf.scene.verify import planned_kernel
+from p2sf.scene.planning.verify import planned_kernel
 
 GREEN = (Channel("green", (540.0,), (1.0,)),)
 BLUR = Forming(geometry=False)

@@ -24,7 +24,7 @@ from p2sf.pupil.mask import PupilMap, PupilMask
 from p2sf.pupil.mask_cells import wings
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf.scene import Channel, Scene, Sensor, plan
-from p2sf.scene.reference import exact_pixels
+from p2sf.scene.planning.reference import exact_pixels
 from tests.support.tiers import in_tiers
 from tests.support.waves import relative_l2
 

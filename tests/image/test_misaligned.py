@@ -13,12 +13,12 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import source_at
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pixel_kernels.sensor_points import landing_mm
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.scene.field_points import scene_maps
-from p2sf.scene.plan import plan
+from p2sf.scene.planning.field_points import scene_maps
+from p2sf.scene.planning.plan import plan
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
 

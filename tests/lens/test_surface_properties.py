@@ -26,12 +26,12 @@ from p2sf.lens.positions import Axis, interpolate_lens, steps_between, with_posi
 from p2sf.lens.properties import BY_NAME, CODE_V, EVERY, ISET, PROPERTIES, TOML, ZEMAX, words_of
 from p2sf.lens.shape_types import SHAPES
 from p2sf.lens.shapes import Shape
-from p2sf.lensfile.codev_writing import lens_to_seq
+from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
-from p2sf.lensfile.toml_surface import ENTRIES
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.surface import ENTRIES
 from p2sf.lensfile.writing import lens_to_iset, lens_to_zmx
 from p2sf.paraxial.seidel import check_seidel
 from p2sf.raytrace.trace import trace
@@ -77,7 +77,7 @@ def test_every_field_is_in_every_table():
 
 def test_the_table_of_surfaces_has_a_column_for_every_property():
     from p2sf_explorer.compute.editing import written
-    from p2sf_explorer.results.lens_table import COLUMNS
+    from p2sf_explorer.compute.views.lens_table import COLUMNS
 
     for name in NAMES:
         column = BY_NAME[name].column

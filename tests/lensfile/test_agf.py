@@ -7,7 +7,7 @@ from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import catalogue_glass
 from p2sf.lensfile.agf import Catalogue, FormulaGlass, read_agf, refractive_index
 from p2sf.lensfile.importing import import_lens
-from tests.support.lens_files import FOLDER, read, text_of
+from tests.support.lenses.lens_files import FOLDER, read, text_of
 
 N_BK7 = (1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653)
 DOUBLET = "doublet.zmx"

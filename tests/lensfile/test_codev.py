@@ -10,7 +10,7 @@ from p2sf.lens import RadialPolynomial
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import paraxial_rays, working_f_number
-from tests.support.lens_files import FOLDER, read, read_file, refused_at
+from tests.support.lenses.lens_files import FOLDER, read, read_file, refused_at
 
 DOUBLET, PRIVATE = "doublet.seq", "private.seq"
 

@@ -13,7 +13,7 @@ from p2sf.lens.misalignment import displaced, folding
 from p2sf.lens.positions import alone
 from p2sf.lens.rim import Rim
 from p2sf.lensfile import load_lens
-from p2sf.lensfile.codev_writing import lens_to_seq
+from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import abcd
@@ -21,9 +21,9 @@ from p2sf.paraxial.pupils import find_stop, stop_rim
 from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.trace import trace
-from tests.support.mirrors import mirror
-from tests.support.misaligned import random_system
-from tests.support.shaped_lenses import EXTENDED, ODD, OTHER_PHASE, QCON, singlet
+from tests.support.lenses.mirrors import mirror
+from tests.support.lenses.misaligned import random_system
+from tests.support.lenses.shaped_lenses import EXTENDED, ODD, OTHER_PHASE, QCON, singlet
 
 
 def again(lens, folder):

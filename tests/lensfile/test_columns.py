@@ -13,10 +13,10 @@ from p2sf.lens.lens import Aperture, Lens, with_sensor
 from p2sf.lens.positions import PARAMETER, Axis, with_positions
 from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile.library import find_lens, lenses_folder
-from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml, write_toml
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.positions import lens_at
-from tests.support.zooms import focusing_zoom, two_group_zoom, zoom_lens_at
+from tests.support.lenses.zooms import focusing_zoom, two_group_zoom, zoom_lens_at
 
 # Numbers with as many digits as a patent prints, in centimetres to see the unit at work.
 ZOOM = """\

@@ -12,12 +12,12 @@ from p2sf.lensfile import load_lens
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import Import, import_text
 from p2sf.lensfile.source_text import LensText
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import abcd, image_distance
 from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.pupils import stop_rim
-from tests.support.zooms import focusing_zoom, spaces, two_group_zoom
+from tests.support.lenses.zooms import focusing_zoom, spaces, two_group_zoom
 
 # Radius, thickness (or one for every zoom), index: two groups, the stop in front of the second.
 ROWS = (

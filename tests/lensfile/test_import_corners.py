@@ -11,11 +11,11 @@ from p2sf.glass.media import ConstantIndex
 from p2sf.lens import Diffraction, Qbfs, RadialPolynomial
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import parse_toml
+from p2sf.lensfile.toml.lens import parse_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import magnification
 from p2sf.paraxial.pupils import numerical_aperture
-from tests.support.lens_files import read
+from tests.support.lenses.lens_files import read
 
 PHASE = Diffraction((-300.0, 20.0), 5.0)
 ZEMAX, TABLE = "doublet.zmx", "singlet.csv"

@@ -6,7 +6,7 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.lensfile import load_lens
-from tests.support.lens_files import read, text_of
+from tests.support.lenses.lens_files import read, text_of
 
 DOUBLET = "doublet.zmx"
 HUGE = {

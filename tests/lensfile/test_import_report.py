@@ -7,7 +7,7 @@ from p2sf.cli import main
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.report import ImportReport, Note, Notebook
 from p2sf.messages import Message, Style
-from tests.support.lens_files import FOLDER, text_of
+from tests.support.lenses.lens_files import FOLDER, text_of
 
 
 def run(capsys, *arguments):

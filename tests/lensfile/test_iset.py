@@ -7,7 +7,7 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points
-from tests.support.lens_files import FOLDER, read, refused_at
+from tests.support.lenses.lens_files import FOLDER, read, refused_at
 
 TRIPLET, GAUSS = "triplet.json", "gauss.dat"
 

@@ -16,7 +16,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml, write_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml, write_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.pupil.mask import PupilMap, PupilMask

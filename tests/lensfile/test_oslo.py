@@ -7,8 +7,8 @@ from p2sf.errors import LensFileError
 from p2sf.lens.lens import indices
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
-from tests.support.lens_files import FOLDER, read, refused_at
-from tests.support.paraxial_by_hand import first_order
+from tests.support.lenses.lens_files import FOLDER, read, refused_at
+from tests.support.rays.paraxial_by_hand import first_order
 
 TRIPLET = "triplet.len"
 RADII = (22.01359, 1 / -0.002294838, -22.21328, 20.29192, 79.6836, -18.39533)

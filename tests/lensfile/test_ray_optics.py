@@ -13,8 +13,8 @@ from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText
 from p2sf.paraxial.first_order import cardinal_points, image_distance
-from tests.support.lens_files import FOLDER, text_of
-from tests.support.paraxial_by_hand import first_order
+from tests.support.lenses.lens_files import FOLDER, text_of
+from tests.support.rays.paraxial_by_hand import first_order
 
 MIRRORS = "mirrors.roa"
 HOLOGRAM = {"__instance_type__": ["m", "DiffractiveElement"], "attributes": {}}

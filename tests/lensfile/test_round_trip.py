@@ -13,15 +13,15 @@ from p2sf.lens.shapes import Diffraction
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.agf import read_agf
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_iset, write_lens
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.pupils import find_stop, stop_rim
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.pencil import pencil
-from tests.support.lens_files import FILES, FOLDER, read, text_of
-from tests.support.shaped_lenses import EXTENDED, ODD, OTHER_PHASE, QCON, singlet
+from tests.support.lenses.lens_files import FILES, FOLDER, read, text_of
+from tests.support.lenses.shaped_lenses import EXTENDED, ODD, OTHER_PHASE, QCON, singlet
 
 
 def with_own_glass() -> Lens:

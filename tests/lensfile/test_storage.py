@@ -8,7 +8,7 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.files.atomic import write_whole
 from p2sf.lensfile.source_text import LARGEST_FILE
-from p2sf.lensfile.toml import parse_toml, read_toml, write_toml
+from p2sf.lensfile.toml.lens import parse_toml, read_toml, write_toml
 
 GOOD = "[aperture]\nf_number = 8\n\n[[surface]]\nradius = 50.0\nthickness = 90.0\nglass = 1.5\n"
 

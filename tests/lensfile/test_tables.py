@@ -7,7 +7,7 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.lens import RadialPolynomial
 from p2sf.lensfile import load_lens
-from tests.support.lens_files import FOLDER, read, refused_at, text_of
+from tests.support.lenses.lens_files import FOLDER, read, refused_at, text_of
 
 BENCH, TABLE = "bench.txt", "singlet.csv"
 

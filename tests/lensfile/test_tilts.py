@@ -16,7 +16,7 @@ from p2sf.lens.tilts import break_rows, coordinate_break, decentred_surface
 from p2sf.lensfile.importing import import_lens
 from p2sf.lensfile.writing import write_lens
 from p2sf.raytrace.trace import trace
-from tests.support.misaligned import random_placement, random_system
+from tests.support.lenses.misaligned import random_placement, random_system
 
 PEERS = json.loads((Path(__file__).parents[1] / "data" / "tilted_rays.json").read_text(encoding="utf-8"))
 

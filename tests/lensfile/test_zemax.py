@@ -19,7 +19,7 @@ from p2sf.paraxial.pupils import (
     stop_rim,
     working_f_number,
 )
-from tests.support.lens_files import FOLDER, read, read_file, refused_at, text_of
+from tests.support.lenses.lens_files import FOLDER, read, read_file, refused_at, text_of
 
 DOUBLET = "doublet.zmx"
 ENCODINGS = ("utf-8", "utf-8-sig", "latin-1", "utf-16", "utf-16-le", "utf-16-be")

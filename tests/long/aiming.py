@@ -28,7 +28,7 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil
 from tests.support.pupil_sums import best_shift_mm, ray_sum
-from tests.support.skew_rays import forwards, system_of
+from tests.support.rays.skew_rays import forwards, system_of
 from tests.support.waves import r_squared
 
 LENSES = ("wide_angle_35", "periskop", "reverse_telephoto", "cooke_triplet", "eye_navarro")

@@ -27,9 +27,9 @@ import numpy as np
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.files.stack import open_stack
+from p2sf.database.files.stack_write import StackProgress, StackStatus, write_stack
 from p2sf.database.render import Sampling
-from p2sf.database_files.stack import open_stack
-from p2sf.database_files.stack_write import StackProgress, StackStatus, write_stack
 from p2sf.errors import DatabaseError
 from p2sf.lensfile.library import find_lens
 from tests.support.cluster import RunningCluster, running_cluster

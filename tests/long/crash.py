@@ -22,12 +22,12 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.database import Space, build_database
-from p2sf.database_files import load_database, save_database
+from p2sf.database.files import load_database, save_database
 from p2sf.errors import P2SFError
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.toml.lens import read_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import live
@@ -183,9 +183,9 @@ def use_for_ever(folder: Path, log: Path, seed: int) -> None:
 
     from p2sf_explorer.charts.theme import configure_plots
     from p2sf_explorer.files.session_keeper import SessionKeeper
-    from p2sf_explorer.shell.window import MainWindow
+    from p2sf_explorer.window.window import MainWindow
     from tests.long.stress import overheard, own_files
-    from tests.support.monkey import Person
+    from tests.support.windows.monkey import Person
 
     application = QApplication([])
     application.setStyle("Fusion")

@@ -14,8 +14,8 @@ from p2sf.lensfile.agf import read_agf_text
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import source_of
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
-from tests.support.lens_files import FILES, FOLDER
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
+from tests.support.lenses.lens_files import FILES, FOLDER
 
 SAMPLES = {
     **{name: (FOLDER / name).read_bytes() for name in (*FILES, "own.agf")},

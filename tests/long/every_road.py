@@ -3,7 +3,7 @@
 Every shipped lens × 3 fields × {∞, a near depth with the sensor focused on it}, at the middle wavelength: spot RMS,
 Strehl ratio, R80 and the MTF at two frequencies by every method that has them, from the library, from the command line
 in this process and as panels of the window print them; for every lens what one error of each kind adds to the RMS of
-the worst field. One line for each figure: what the referee finds (`tests.support.ray_figures`, `perturbed_rays`), what
+the worst field. One line for each figure: what the referee finds (`tests.support.rays`), what
 the library says, and every road that says anything else in the digits that it shows.
 
 Exact rays, traced and huygens, and what single errors of a lens add, are within 1e-4 of the referee; the PSFs of a fit
@@ -34,9 +34,9 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf.tolerance import Tolerance, differentials, harms, sensitivities, usual_sources, usual_tolerances
 from p2sf.tolerance.files import back_focus, with_compensators
 from tests.support.depths import NEAR_MM, RELAYS_MM, WIDEST_DEG
-from tests.support.perturbed_rays import harm, worst_rms
 from tests.support.pupil_sums import LostRays
-from tests.support.ray_figures import RayFigures, ray_figures
+from tests.support.rays.perturbed_rays import harm, worst_rms
+from tests.support.rays.ray_figures import RayFigures, ray_figures
 from tests.support.roads import (
     EXACT,
     METHODS,

@@ -19,7 +19,7 @@ from p2sf.lens.lens import Lens, indices
 from p2sf.lensfile.importing import import_lens
 from p2sf.lensfile.source_text import read_source
 from p2sf.paraxial.first_order import cardinal_points
-from tests.support.paraxial_by_hand import first_order
+from tests.support.rays.paraxial_by_hand import first_order
 
 AGREEMENT = 1e-12
 mp.dps = 50

@@ -21,15 +21,15 @@ from p2sf.image.deblur import psnr
 from p2sf.io.photo_files import write_photo
 from p2sf.lens.lens import with_f_number, with_mask, with_sensor
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.toml.lens import read_toml
+from p2sf.measure.fitting.frame_terms import F_NUMBER, FIELD, FOCUS, FrameModel, lens_optics
+from p2sf.measure.fitting.point_fit import PointFit, fit_point
+from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
+from p2sf.measure.fitting.point_problem import PointPicture
+from p2sf.measure.fitting.pupil_model import PupilModel, pupil_model
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.frame_terms import F_NUMBER, FIELD, FOCUS, FrameModel, lens_optics
 from p2sf.measure.listings import read_listing
 from p2sf.measure.measurement import measure_frame
-from p2sf.measure.point_fit import PointFit, fit_point
-from p2sf.measure.point_model import PictureOptics, PixelSum
-from p2sf.measure.point_problem import PointPicture
-from p2sf.measure.pupil_model import PupilModel, pupil_model
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
@@ -39,8 +39,8 @@ from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf.studies import validate
 from p2sf.tolerance.errors_of_build import Tolerance, build
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.measuring.measurement import answer, dated, into_image, question
-from p2sf_explorer.results import image
+from p2sf_explorer.compute.views import image
+from p2sf_explorer.compute.views.measured import answer, dated, into_image, question
 from p2sf_explorer.state.state import State, changed, new_state
 from tests.support.huygens_frames import cross_of_points, huygens_frame
 

@@ -26,8 +26,8 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf.psf.methods import choose, render
-from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.fit import NOT_SYMMETRIC
 from tests.long.method_choice import STEEPEST, TOLERANCES, random_point

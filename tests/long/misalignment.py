@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.raytrace.trace import trace
-from tests.support.misaligned import random_system, with_irregularities
-from tests.support.space_rays import fly
+from tests.support.lenses.misaligned import random_system, with_irregularities
+from tests.support.rays.space_rays import fly
 
 UM = 0.55
 RAYS = 5

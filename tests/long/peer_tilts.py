@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.support.misaligned import random_system
-from tests.support.space_rays import poses
+from tests.support.lenses.misaligned import random_system
+from tests.support.rays.space_rays import poses
 
 FILES = ("dar_test", "dec_rev_tilt_test", "dec_test", "tilt_test")
 STARTS = ((0.0, 0.0, 0.0, 0.0), (1.5, -2.0, 0.01, 0.02), (-0.7, 1.1, -0.03, 0.015))

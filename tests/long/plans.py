@@ -36,13 +36,13 @@ from p2sf.paraxial.pupils import f_number, numerical_aperture
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels import Colour, Kernels
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.psf.plane_waves import counts_for, window_reach_um
+from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan, verify
-from p2sf.scene.pricing import naive_recipe
-from p2sf.scene.reference import LEAST_POINTS, PROBE
+from p2sf.scene.planning.pricing import naive_recipe
+from p2sf.scene.planning.reference import LEAST_POINTS, PROBE
 
 SCENES, POINTS, SAMPLE = 20, 2, 12
 TOLERANCES = 0.2, 0.1, 0.05, 0.03

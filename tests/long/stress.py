@@ -1,7 +1,7 @@
 """Stress test of the explorer: random Qt events by the thousand, and their cost in memory, time and errors.
 
 ``python -m tests.long.stress [minutes] [events] [seed]`` (60 minutes or 200 000 events unless told, whichever ends
-first) prints a line a minute, a verdict and how many events there were of each kind (see `tests.support.monkey`);
+first) prints a line a minute, a verdict and how many events there were of each kind (`tests.support.windows.monkey`);
 exit code 1 when something broke, memory grew by 5 % or more, or one event held the window for 250 ms of CPU. CI runs
 two minutes of it, in which memory and time are printed and not judged (`JUDGED`).
 """
@@ -28,12 +28,12 @@ from PySide6.QtWidgets import QApplication, QFileDialog
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.shell.memory_trim import REST_MS
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import Card
-from tests.support.lens_files import FILES, FOLDER
-from tests.support.monkey import STALL_MS, Ledger, Person
+from p2sf_explorer.window.memory_trim import REST_MS
+from p2sf_explorer.window.window import MainWindow
+from tests.support.lenses.lens_files import FILES, FOLDER
+from tests.support.windows.monkey import STALL_MS, Ledger, Person
 
 RECENT = "p2sf_explorer.files.recent.recent_path"
 GROWTH = 0.05

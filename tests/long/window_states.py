@@ -22,7 +22,7 @@ from p2sf.psf import huygens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf.psf.methods import psf_of
-from p2sf.psf.plane_waves import window_reach_um
+from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescription, ranges

@@ -9,12 +9,12 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import lens_as_built
+from p2sf.measure.fitting.frame_fit import PointSum, fit_frame
+from p2sf.measure.fitting.frame_terms import FIELD, FOCUS, FrameModel, FramePoint, lens_optics
+from p2sf.measure.fitting.point_model import PictureOptics
+from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.frame_fit import PointSum, fit_frame
-from p2sf.measure.frame_terms import FIELD, FOCUS, FrameModel, FramePoint, lens_optics
 from p2sf.measure.measurement import measure_frame
-from p2sf.measure.point_model import PictureOptics
-from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.paraxial.pupils import stop_rim
 from tests.measure.test_frames import model_points

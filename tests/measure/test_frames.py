@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from p2sf.database_files import load_database
+from p2sf.database.files import load_database
 from p2sf.errors import Cancelled, P2SFError, RequestError
 from p2sf.files.writing import write_beside
 from p2sf.io.photo_files import write_photo
@@ -14,17 +14,17 @@ from p2sf.io.psf_files import write_psf
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.toml.lens import read_toml
 from p2sf.measure.as_built import left_out, lens_as_built, write_as_built
+from p2sf.measure.fitting.frame_fit import FrameFit, PointSum, fit_frame
+from p2sf.measure.fitting.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
+from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
+from p2sf.measure.fitting.point_problem import PointPicture
+from p2sf.measure.fitting.pupil_nodes import lens_nodes
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
-from p2sf.measure.frame_fit import FrameFit, PointSum, fit_frame
-from p2sf.measure.frame_terms import FOCUS, FrameModel, FramePoint, lens_optics
 from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import measure_frame, read_measurement, write_measurement
-from p2sf.measure.point_model import PictureOptics, PixelSum
-from p2sf.measure.point_problem import PointPicture
 from p2sf.measure.points import find_points, in_grid, window_half, window_of
-from p2sf.measure.pupil_nodes import lens_nodes
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
 from p2sf.paraxial.seidel import coefficients

@@ -7,15 +7,15 @@ from p2sf.conventions import centred_axis
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.measure.fitting.frame_terms import lens_optics
+from p2sf.measure.fitting.lens_pupil import clear_part
+from p2sf.measure.fitting.point_fit import fit_point
+from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
+from p2sf.measure.fitting.point_problem import PointPicture, Problem
+from p2sf.measure.fitting.pupil_model import pupil_model
+from p2sf.measure.fitting.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, open_nodes, paraxial_nodes
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.frame_terms import lens_optics
-from p2sf.measure.lens_pupil import clear_part
 from p2sf.measure.measurement import measure_frame
-from p2sf.measure.point_fit import fit_point
-from p2sf.measure.point_model import PictureOptics, PixelSum
-from p2sf.measure.point_problem import PointPicture, Problem
-from p2sf.measure.pupil_model import pupil_model
-from p2sf.measure.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, open_nodes, paraxial_nodes
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import fit

@@ -11,21 +11,21 @@ from p2sf.lens.lens import Aperture, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import lens_as_built
+from p2sf.measure.fitting.frame_fit import FrameFit, fit_frame
+from p2sf.measure.fitting.frame_terms import FrameModel, lens_optics
+from p2sf.measure.fitting.perturbation import perturb, perturbation
+from p2sf.measure.fitting.pupil_nodes import paraxial_nodes
+from p2sf.measure.fitting.starting_values import landings, ray_moments
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.frame_fit import FrameFit, fit_frame
-from p2sf.measure.frame_terms import FrameModel, lens_optics
 from p2sf.measure.measurement import measure_frame, read_measurement, write_measurement
-from p2sf.measure.perturbation import perturb, perturbation
-from p2sf.measure.pupil_nodes import paraxial_nodes
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
-from p2sf.measure.starting_values import landings, ray_moments
 from p2sf.paraxial.pupils import stop_rim
 from p2sf.tolerance.errors_of_build import Tolerance, build
-from p2sf_explorer.measuring.measurement import has_lens_as_built, point_rows, whole_rows
+from p2sf_explorer.compute.views.measured import has_lens_as_built, point_rows, whole_rows
 from tests.measure.test_frames import model_points
-from tests.support import perturbed_rays as reference
 from tests.support.depths import RELAYS_MM
 from tests.support.huygens_frames import cross_of_points, huygens_frame
+from tests.support.rays import perturbed_rays as reference
 
 PITCH = 3.45
 

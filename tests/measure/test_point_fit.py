@@ -9,13 +9,13 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.measure.fitting.point_fit import fit_point
+from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
+from p2sf.measure.fitting.point_problem import PointPicture, Problem
+from p2sf.measure.fitting.pupil_model import pupil_model
+from p2sf.measure.fitting.pupil_nodes import paraxial_nodes
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.measure.point_fit import fit_point
-from p2sf.measure.point_model import PictureOptics, PixelSum
-from p2sf.measure.point_problem import PointPicture, Problem
 from p2sf.measure.points import find_points
-from p2sf.measure.pupil_model import pupil_model
-from p2sf.measure.pupil_nodes import paraxial_nodes
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fit, summed
 from p2sf.psf.pixel_integrals import render_integrated

@@ -6,8 +6,8 @@ import pytest
 from p2sf.errors import RequestError
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
+from p2sf.measure.fitting.frame_terms import FOCUS, lens_optics
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.measure.frame_terms import FOCUS, lens_optics
 from p2sf.measure.measurement import measure_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.measure.target import Target, expected_places, match_target, read_target

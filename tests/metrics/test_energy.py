@@ -21,7 +21,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import CLEAR, PupilMask
 from tests.support.airy import circle_energy
-from tests.support.ray_figures import ray_figures
+from tests.support.rays.ray_figures import ray_figures
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 UNIT = WAVELENGTH_UM / NA

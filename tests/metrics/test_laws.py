@@ -13,7 +13,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.metrics.measures import Energy, Mtf, energy_in, mtf_of, parts_of
 from p2sf.paraxial.first_order import image_distance
-from tests.support.random_lenses import between, lenses, slopes, wavelengths
+from tests.support.lenses.random_lenses import between, lenses, slopes, wavelengths
 
 # Shrinking a lens would take minutes, and its numbers say nothing that the first failure does not.
 some = settings(max_examples=15, deadline=None, derandomize=True, phases=(Phase.generate,))

@@ -14,8 +14,8 @@ from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from tests.support.pupil_sums import Pupil, field_at, on_grid, phase_and_frequency, pupil_of, ray_sum
+from tests.support.rays.skew_rays import system_of, through_paraxial_pupil, through_stop
 from tests.support.reference import case, huygens_rows
-from tests.support.skew_rays import system_of, through_paraxial_pupil, through_stop
 from tests.support.waves import relative_l2
 
 CELLS = 512

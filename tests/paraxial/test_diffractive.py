@@ -17,7 +17,7 @@ from p2sf.paraxial.pupils import find_stop, numerical_aperture, paraxial_rays
 from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
 from p2sf.raytrace.pencil import pencil
 from tests.benchmarks.interpolants import points_in
-from tests.support.shaped_lenses import PARTS, PHASE, UNSEEN_BY_SEIDEL, hybrid, singlet, two_shaped_mirrors
+from tests.support.lenses.shaped_lenses import PARTS, PHASE, UNSEEN_BY_SEIDEL, hybrid, singlet, two_shaped_mirrors
 
 F, D, C = 0.4861327, 0.5875618, 0.6562725
 

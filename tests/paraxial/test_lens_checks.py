@@ -11,7 +11,7 @@ from p2sf.lens import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.lens_checks import edge, lens_checks
-from tests.support.mirrors import classical, mangin, telescope, two_mirrors
+from tests.support.lenses.mirrors import classical, mangin, telescope, two_mirrors
 
 GLASS = ConstantIndex(1.5)
 STOP = Surface(-40.0, 20.0)

@@ -8,7 +8,7 @@ from p2sf.errors import GeometryError
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.obscuration import central_obscuration
 from tests.raytrace.test_clear_pieces import telescope
-from tests.support.mirrors import classical, two_mirrors
+from tests.support.lenses.mirrors import classical, two_mirrors
 
 
 def test_a_secondary_in_collimated_light_hides_its_own_radius():

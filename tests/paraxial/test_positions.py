@@ -12,12 +12,12 @@ from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.lens.positions import Axis, Positions, interpolate_lens, steps_between, with_positions
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.positions import as_in_columns, each_column, focused_vergence, lens_at
 from p2sf.pupil.mask import PupilMask
-from tests.support.zooms import FOCAL, FRONT, REAR, focusing_zoom, spaces, two_group_zoom, zoom_lens_at
+from tests.support.lenses.zooms import FOCAL, FRONT, REAR, focusing_zoom, spaces, two_group_zoom, zoom_lens_at
 
 ZOOM = two_group_zoom()
 

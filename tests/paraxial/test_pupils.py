@@ -23,7 +23,7 @@ from p2sf.paraxial.pupils import (
     stop_rim,
     working_f_number,
 )
-from tests.support.dispersive_lenses import dispersive_lens
+from tests.support.lenses.dispersive_lenses import dispersive_lens
 from tests.support.reference import LENSES, prescription_lens, prescriptions, reference
 
 FIRST_ORDER = 1e-10  # the figure

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.seidel import seidel_sums
-from tests.support.random_lenses import depths, law, lenses, rays_or_skip, wavelengths
+from tests.support.lenses.random_lenses import depths, law, lenses, rays_or_skip, wavelengths
 
 
 def shifted_stop(lens: Lens, to: int, depth, wavelength) -> Lens:

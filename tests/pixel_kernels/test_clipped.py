@@ -14,7 +14,7 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, sam
 from p2sf.pixel_kernels.pupil_stack import cutting_rims, stacked
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
 from p2sf.raytrace.fit import levels
-from p2sf.scene.reference import exact_pixels
+from p2sf.scene.planning.reference import exact_pixels
 from tests.support.tiers import in_tiers
 
 WAVE, ANGLE = 0.5876, 0.4

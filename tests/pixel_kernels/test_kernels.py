@@ -21,7 +21,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike import basis, basis_by_powers
 from p2sf.raytrace.fit import levels
 from p2sf.raytrace.pencil import pencil, to_the_rim
-from p2sf.scene.reference import exact_pixels
+from p2sf.scene.planning.reference import exact_pixels
 from p2sf.scene.scene import Channel
 from p2sf.scene.spectrum import reduced
 

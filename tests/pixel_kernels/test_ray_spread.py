@@ -16,7 +16,7 @@ from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from tests.support.pupil_sums import phase_and_frequency
-from tests.support.skew_rays import system_of, through_stop
+from tests.support.rays.skew_rays import system_of, through_stop
 
 WAVE = 0.5876
 WIDE = [("wide_angle_35", 21.0, 18), ("fast_gauss_f14", 12.0, 34)]  # and half of the blur in pixels of 32 µm

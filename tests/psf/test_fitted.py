@@ -10,7 +10,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.psf import fitted
 from p2sf.psf.fitted import counts_of, fit, fitted_psf, summed
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.plane_waves import window_reach_um
+from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.pupil.basis import at_nodes
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes

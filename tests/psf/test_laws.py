@@ -18,7 +18,7 @@ from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.first_order import abcd, basis_rays, cardinal_points, image_distance, magnification
 from p2sf.paraxial.pupils import find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import coefficients, seidel_sums
-from tests.support.random_lenses import between, depths, law, lenses, rays_or_skip, slopes, wavelengths
+from tests.support.lenses.random_lenses import between, depths, law, lenses, rays_or_skip, slopes, wavelengths
 
 ROUNDING = 1e-13
 SHAPES = ("w40", "w31", "w22", "w20", "w11", "wd")

@@ -33,10 +33,10 @@ from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
 from p2sf.raytrace.fit import level_rays
 from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import summary, trials
-from tests.support.made_rays import made_rays
-from tests.support.pencils import double_gauss
+from tests.support.lenses.shaped_lenses import ODD, singlet
+from tests.support.rays.made_rays import made_rays
+from tests.support.rays.pencils import double_gauss
 from tests.support.reference import case, huygens_rows
-from tests.support.shaped_lenses import ODD, singlet
 from tests.support.waves import waves
 
 

@@ -22,8 +22,8 @@ from p2sf.raytrace.fit import NOT_SYMMETRIC, SLOPE_WEIGHT, fit, fit_rays, level_
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.vignetting import clear_nodes
 from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
-from tests.support.made_rays import made_rays
-from tests.support.space_rays import fly, poses
+from tests.support.rays.made_rays import made_rays
+from tests.support.rays.space_rays import fly, poses
 
 WINDOW = 33, 1.0  # an odd count is its own mirror image
 FOLD = 1e-9  # relative L2: what two routes to one pupil map leave

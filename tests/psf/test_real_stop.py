@@ -15,8 +15,8 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import choose, render
-from p2sf.psf.plane_waves import pupil_amplitude
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.psf.sums.plane_waves import pupil_amplitude
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf import _seidel_sum
-from p2sf.psf._seidel_sum import BATCH, intensities, kernels_for, shape_terms
 from p2sf.psf.seidel import plain_intensity
 from p2sf.psf.seidel_stack import stack_parts
+from p2sf.psf.sums import seidel_sum as _seidel_sum
+from p2sf.psf.sums.seidel_sum import BATCH, intensities, kernels_for, shape_terms
 from p2sf.pupil.quadrature import chord_rows, grid_rows
 from p2sf.pupil.transform import matrix_dft
 from tests.support.waves import relative_l2, waves

@@ -9,7 +9,7 @@ from p2sf.camera import MASK, Request, mask_of
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.metrics.mask_lines import edges_of
 from p2sf.parameters import PARAMETERS
 from p2sf.pupil.mask import PupilMap, PupilMask

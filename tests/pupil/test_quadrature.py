@@ -10,7 +10,7 @@ from scipy.special import j1
 from p2sf.conventions import centred_axis
 from p2sf.errors import SamplingError
 from p2sf.paraxial.wavefront import steepest_chords, steepest_polar, steepest_slope, wavefront
-from p2sf.psf._seidel_sum import intensities
+from p2sf.psf.sums.seidel_sum import intensities
 from p2sf.pupil.quadrature import (
     MOST_KEPT,
     SETTLED_TOLERANCE,

@@ -20,7 +20,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lensfile.agf import FormulaGlass, read_agf_text
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.source_text import LensText
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected

@@ -17,7 +17,7 @@ from p2sf.raytrace.aiming import Sources, entrance, pupil_rays
 from p2sf.raytrace.field_curves import heights
 from p2sf.raytrace.fit import fit, levels
 from p2sf.raytrace.pencil import Status, hexapolar, pencil, trace
-from tests.support.pencils import disc
+from tests.support.rays.pencils import disc
 
 # They image near objects only, and the pupil of the first is so far off that 1° of field lies outside its glass.
 RELAYS = {"relay": ((150.0,), (0.0, 0.1)), "telecentric_relay": ((90.9,), (0.0, 0.015, 0.0285))}

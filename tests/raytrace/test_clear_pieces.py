@@ -12,7 +12,7 @@ from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml, parse_toml, read_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import choose, render

@@ -20,15 +20,15 @@ from p2sf.lens import (
     ZernikeStandardSag,
 )
 from p2sf.lens.lens import with_sensor
-from p2sf.lensfile.codev_writing import lens_to_seq
+from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_zmx
 from p2sf.raytrace.trace import trace
-from tests.support import freeform_rays
-from tests.support.simple_lenses import in_the_stop
+from tests.support.lenses.simple_lenses import in_the_stop
+from tests.support.rays import freeform_rays
 
 RNG = np.random.default_rng(29)
 SHAPES = {

@@ -14,7 +14,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_iset, lens_to_zmx
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.lens_checks import lens_checks
@@ -23,7 +23,7 @@ from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
 from p2sf.psf.methods import render
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.trace import trace
-from tests.support.simple_lenses import FIRST, GAP, SECOND, two_thin_lenses
+from tests.support.lenses.simple_lenses import FIRST, GAP, SECOND, two_thin_lenses
 
 UM = 0.55
 ROUNDING = 1e-13  # some hundred roundings of paths and heights of up to some hundred mm

@@ -13,13 +13,13 @@ from p2sf.lens.lens import check_aligned, seen_from
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, pencil
 from p2sf.raytrace.zernike_fit import zernike_fit
-from tests.support.simple_lenses import in_the_stop
+from tests.support.lenses.simple_lenses import in_the_stop
 
 FRINGE_UM = 0.273035  # half of 546.07 nm
 UM = 0.5

@@ -13,7 +13,7 @@ from p2sf.paraxial.pupils import numerical_aperture, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import displayed_opd, opd_map, pencil
 from p2sf.raytrace.trace import trace
-from tests.support.mirrors import TELESCOPE, aplanatic, classical, mangin, mirror, telescope, two_mirrors
+from tests.support.lenses.mirrors import TELESCOPE, aplanatic, classical, mangin, mirror, telescope, two_mirrors
 
 UM = 0.5876
 

@@ -17,7 +17,7 @@ from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.trace import trace
 from tests.long.misalignment import POINT_MM, compare
-from tests.support.misaligned import random_placement
+from tests.support.lenses.misaligned import random_placement
 
 RINGS = hexapolar(4)
 TILTED = Placement(0.1, 0.2, 0.05, 0.3, -0.2, 10.0, False, (0.0, 0.0, 4.0))

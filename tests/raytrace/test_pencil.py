@@ -24,7 +24,7 @@ from p2sf.raytrace.pencil import (
     trace,
 )
 from p2sf.raytrace.trace import status_message
-from tests.support.pencils import GLASS, disc, double_gauss, one_surface
+from tests.support.rays.pencils import GLASS, disc, double_gauss, one_surface
 from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
 
 # The witness promises its OPD to 1e-9 waves of paths of 1e5 waves; ours keeps 3.5e-9 in double precision.

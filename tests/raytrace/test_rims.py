@@ -13,7 +13,7 @@ from p2sf.lens.rim import Rim
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_zmx
 from p2sf.paraxial.pupils import RIM_TIE
 from p2sf.psf.methods import render

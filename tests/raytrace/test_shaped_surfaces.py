@@ -21,7 +21,7 @@ from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import status_message, trace
-from tests.support.shaped_lenses import (
+from tests.support.lenses.shaped_lenses import (
     CONE,
     EXTENDED,
     ODD,

@@ -18,7 +18,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.spot import landing, spot
-from tests.support.pencils import one_surface
+from tests.support.rays.pencils import one_surface
 
 
 def disc(rings: int, directions: int, inner: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -13,7 +13,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.pencil import Status, pencil, pupil_rays, trace
 from p2sf.raytrace.trace import out_of_order, status_message
-from tests.support.pencils import GLASS, disc, double_gauss, one_surface
+from tests.support.rays.pencils import GLASS, disc, double_gauss, one_surface
 
 
 def test_points_lie_on_their_surfaces_and_directions_obey_snell():

@@ -11,14 +11,14 @@ from p2sf.image import preview
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
-from p2sf.scene.bounds import check_blur
-from p2sf.scene.plan import TOGETHER, _colour_errors
-from p2sf.scene.reference import reference_kernel
-from p2sf.scene.sharing import TARGET_ERROR, share_pupils
+from p2sf.scene.planning.bounds import check_blur
+from p2sf.scene.planning.plan import TOGETHER, _colour_errors
+from p2sf.scene.planning.reference import reference_kernel
+from p2sf.scene.planning.sharing import TARGET_ERROR, share_pupils
+from p2sf.scene.planning.study import Place, Study, distance, first_allowed
+from p2sf.scene.planning.table import plan_rows
+from p2sf.scene.planning.verify import planned_kernel
 from p2sf.scene.spectrum import reduced
-from p2sf.scene.study import Place, Study, distance, first_allowed
-from p2sf.scene.table import plan_rows
-from p2sf.scene.verify import planned_kernel
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -119,7 +119,7 @@ def test_as_many_heights_are_fitted_as_the_error_between_them_requires(monkeypat
     tables = []
     for target in (1.0, 1e-3):
         study = Study(scene.camera(find_lens("double_gauss_28")), scene)
-        monkeypatch.setattr("p2sf.scene.sharing.TARGET_ERROR", target)
+        monkeypatch.setattr("p2sf.scene.planning.sharing.TARGET_ERROR", target)
         share_pupils(study)
         tables.append((study.table, study.table_error))
     (few, error), (more, less) = tables
@@ -287,7 +287,7 @@ def test_a_blur_that_no_transform_holds_is_refused_before_anything_is_measured(m
 
 
 def test_such_a_blur_of_a_far_end_is_told_with_the_sign_of_infinity(monkeypatch):
-    monkeypatch.setattr("p2sf.scene.bounds.transforms", lambda *_: (np.array([249]), np.array([5000])))
+    monkeypatch.setattr("p2sf.scene.planning.bounds.transforms", lambda *_: (np.array([249]), np.array([5000])))
     scene = Scene(Sensor(60, 90, 20.0), GREEN)
     with pytest.raises(SamplingError, match=r"^points ∞ away blur over 10 mm"):
         check_blur(Study(scene.camera(find_lens("tessar")), scene))

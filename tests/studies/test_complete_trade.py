@@ -9,10 +9,10 @@ import pytest
 from p2sf.errors import RequestError
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.representations.representation import Representation
-from p2sf.representations.space import SpacePoints
 from p2sf.studies import complete_trade as study
 from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, measure_representation, truth_of
+from p2sf.studies.representations.representation import Representation
+from p2sf.studies.representations.space import SpacePoints
 from p2sf.studies.sampling import sampling_map
 from p2sf.studies.trade_files import load_trades, record, save_trades, trades_of
 from p2sf.studies.trade_fronts import batch_us, equal_bytes, error, front, nbytes, within

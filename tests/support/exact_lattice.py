@@ -4,7 +4,7 @@ import numpy as np
 
 from p2sf.image.lattice import Lattice, build_lattice
 from p2sf.scene import Plan
-from p2sf.scene.reference import reference_kernel
+from p2sf.scene.planning.reference import reference_kernel
 
 
 def exact_lattice(planned: Plan, count: int, half: int, vergence: float | None = None) -> Lattice:

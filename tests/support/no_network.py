@@ -42,9 +42,9 @@ def use_everything(folder: str) -> None:
     from p2sf_explorer.charts.theme import configure_plots
     from p2sf_explorer.files import recent
     from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
-    from p2sf_explorer.shell.window import MainWindow
     from p2sf_explorer.state.panels import REGISTRY
     from p2sf_explorer.state.state import new_state
+    from p2sf_explorer.window.window import MainWindow
 
     recent.recent_path = lambda: Path(folder) / "recent.json"
     application = QApplication([])

@@ -1,6 +1,6 @@
 """OTF and encircled energy of a lens by dense sums over rays: the referee of `p2sf`'s measures.
 
-Two roads that share only the rays of `tests.support.skew_rays`.
+Two roads that share only the rays of `tests.support.rays.skew_rays`.
 
 `sums`: the pupil P = A·exp(i2πw) is laid on a uniform square grid over spatial frequency f = n′K/λ, cells at its rim by
 the part of them that lies inside; OTF = autocorrelation of P by a padded FFT, energy from the whole OTF. The functions
@@ -23,7 +23,7 @@ from scipy.special import j1
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from tests.support.skew_rays import Rays, System, system_of, through_paraxial_pupil, through_stop
+from tests.support.rays.skew_rays import Rays, System, system_of, through_paraxial_pupil, through_stop
 
 RADII, ANGLES = 44, 96
 DEGREES = (12, 18, 24, 32, 40)

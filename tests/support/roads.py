@@ -296,8 +296,8 @@ class Window:
 
     def matrix(self, points: Sequence[Point], method: str) -> Iterator[tuple[Point, Shown]]:
         """Yield the figures of *Matrix* for the fields of one lens: Strehl ratio or R80 under a PSF, RMS of a spot."""
+        from p2sf_explorer.compute.matrix.pictures import matrix, settled
         from p2sf_explorer.i18n.messages import WINDOW
-        from p2sf_explorer.matrix.pictures import matrix, settled
 
         rows = {"matrix_across": "side", "matrix_fields_deg": tuple(at.field_deg for at in points)}
         words = {"psf": ("Strehl", "R80")} | ({"spot": ("RMS",)} if method == "traced" else {})
@@ -363,7 +363,7 @@ class KeptDifferentials:
 def one_computation() -> Iterator[None]:
     """Have the command line and the window take differentials that are known already, and draw few builds."""
     import p2sf.cli.tolerances as on_the_command_line
-    from p2sf_explorer.tolerancing import analysis
+    from p2sf_explorer.compute.views import tolerances as analysis
 
     kept = KeptDifferentials()
     modules = (on_the_command_line, analysis)
@@ -400,9 +400,9 @@ def harms_on_the_command_line(at: Point) -> dict[tuple[str, int], float] | str:
 
 def harms_in_the_window(at: Point, window: Window) -> dict[tuple[str, int], tuple[float, float]] | str:
     """Return the numbers in the table of *Tolerances*, and half a unit of their last digits."""
+    from p2sf_explorer.compute.views.tolerances import Analyst, figures, question
+    from p2sf_explorer.panels.tolerances.tables import LOST, ErrorTable
     from p2sf_explorer.state.state import ToleranceView
-    from p2sf_explorer.tolerance_view.tables import LOST, ErrorTable
-    from p2sf_explorer.tolerancing.analysis import Analyst, figures, question
 
     try:
         asked = question(window.live(at, "seidel" if at.field_deg == 0 else "traced"))

@@ -9,8 +9,8 @@ from p2sf.tolerance import GRADES, Tolerance, by_form, differentials, form_error
 from p2sf.tolerance.errors_of_build import build
 from p2sf.tolerance.files import back_focus, with_compensators
 from tests.support.depths import RELAYS_MM
-from tests.support.perturbed_rays import harm
 from tests.support.pupil_sums import LostRays
+from tests.support.rays.perturbed_rays import harm
 from tests.support.tiers import in_tiers
 from tests.support.tolerances import exact_quality
 

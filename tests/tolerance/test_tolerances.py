@@ -33,7 +33,7 @@ from p2sf.tolerance.builds import evaluate
 from p2sf.tolerance.differentials import NODES, usual_sources
 from p2sf.tolerance.errors_of_build import IRREGULAR
 from tests.long.tolerances import agreement, gauss
-from tests.support.simple_lenses import in_the_stop
+from tests.support.lenses.simple_lenses import in_the_stop
 from tests.support.tiers import in_tiers
 from tests.support.tolerances import exact_quality, masked_quality
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from p2sf_explorer.charts.brightness import DECADES, stretched
+from p2sf_explorer.compute.brightness import DECADES, stretched
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 Labels = tuple[tuple[float, str], ...]

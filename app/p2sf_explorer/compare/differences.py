@@ -10,12 +10,12 @@ from p2sf.raytrace.field_curves import Foci, Heights
 from p2sf.raytrace.zernike_fit import ZernikeFit
 from p2sf_explorer.compute.live import Refused
 from p2sf_explorer.compute.measured import MeasureRequest
-from p2sf_explorer.results.chromatic import Chromatic
-from p2sf_explorer.results.field import FieldView, exaggeration, grid
-from p2sf_explorer.results.first_order import NONE, Row
-from p2sf_explorer.results.seidel import PerSurface
-from p2sf_explorer.results.through_focus import Strip
-from p2sf_explorer.results.zernike import ZernikeView
+from p2sf_explorer.compute.views.chromatic import Chromatic
+from p2sf_explorer.compute.views.field import FieldView, exaggeration, grid
+from p2sf_explorer.compute.views.first_order import NONE, Row
+from p2sf_explorer.compute.views.seidel import PerSurface
+from p2sf_explorer.compute.views.through_focus import Strip
+from p2sf_explorer.compute.views.zernike import ZernikeView
 from p2sf_explorer.state.panels import PANELS, difference_of
 from p2sf_explorer.state.scales import signed
 

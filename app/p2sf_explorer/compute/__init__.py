@@ -1,1 +1,1 @@
-"""From a state to everything the main panels show. No Qt."""
+"""From a state to answers: setup, method, pupil, layout and what every panel reads. No Qt."""

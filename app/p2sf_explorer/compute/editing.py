@@ -11,7 +11,7 @@ from p2sf.errors import GeometryError, P2SFError
 from p2sf.glass.media import AIR, Medium, model_glass, parse_medium
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_f_number, with_sensor
 from p2sf.lens.positions import KEPT, Positions
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import each_column, with_columns

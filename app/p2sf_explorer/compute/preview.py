@@ -13,9 +13,9 @@ from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
 from p2sf.psf.picture import Origin, psf_of_waves
-from p2sf.psf.plane_waves import disc_words, window_reach_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.psf.sums.plane_waves import disc_words, window_reach_um
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.raytrace.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil

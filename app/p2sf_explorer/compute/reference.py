@@ -9,8 +9,8 @@ from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf.psf.methods import METHODS, REFERENCE, method_of, render
-from p2sf.psf.plane_waves import window_reach_um
 from p2sf.psf.result import Psf
+from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
 from p2sf_explorer.compute.warnings import remedy

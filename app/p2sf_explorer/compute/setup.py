@@ -180,7 +180,7 @@ def focus_place(state: State) -> float | None:
 
 @lru_cache(maxsize=128)
 def _edited(text: str) -> Lens:
-    from p2sf.lensfile.toml import parse_toml
+    from p2sf.lensfile.toml.lens import parse_toml
 
     return parse_toml(text, "the edited lens")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from p2sf.errors import LensFileError, P2SFError
 from p2sf.lensfile.importing import Import
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import with_lens

@@ -27,9 +27,9 @@ from p2sf_explorer.i18n.language import FOLDER, texts
 UNREACHED = (
     "p2sf.cli",
     "p2sf.studies",
-    "p2sf.database_files",
-    "p2sf.interchange.iset",
-    "p2sf.interchange.psf_cube",
+    "p2sf.database.files",
+    "p2sf.export.iset",
+    "p2sf.export.psf_cube",
 )  # by any window
 FIELD, LETTERS = re.compile(r"\{[^{}]*\}"), re.compile(r"[^\W\d_]{2}")
 ERROR = "P2SFError"

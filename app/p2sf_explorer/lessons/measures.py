@@ -28,7 +28,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.state.state import State, changed
 
 if TYPE_CHECKING:
-    from p2sf_explorer.results.image import ImageResult
+    from p2sf_explorer.compute.views.image import ImageResult
 
 CONTRAST_PER_MM = 50.0  # the frequency at which contrast is quoted: a line pair of 20 µm
 FINE = 4000  # points from the middle of the PSF to its window's edge
@@ -134,7 +134,7 @@ def database_error(rule: str) -> Measure:
     """Return the largest error of a database's rule in W22, waves, as the database panel shows it first."""
 
     def error(state: State) -> float:
-        from p2sf_explorer.results.database import answer, question
+        from p2sf_explorer.compute.views.database import answer, question
 
         return answer(question(_live(state))).largest[rule]["w22"]
 
@@ -143,7 +143,7 @@ def database_error(rule: str) -> Measure:
 
 def photo_psfs(state: State) -> float:
     """Return how many PSFs the coarse picture computes, as the panel counts them."""
-    from p2sf_explorer.results.image import psf_counts
+    from p2sf_explorer.compute.views.image import psf_counts
 
     count, _ = psf_counts(_coarse(state).plan)
     return float(str(count.values["count"]))
@@ -152,8 +152,8 @@ def photo_psfs(state: State) -> float:
 def sharpening_db(state: State) -> float:
     """Return what sharpening gains over the blurred photo, dB; ``photo_show axis`` takes the PSF of the axis for it."""
     from p2sf.image.deblur import psnr
-    from p2sf_explorer.results.image import COLUMNS, ROWS
-    from p2sf_explorer.results.photos import scene_values
+    from p2sf_explorer.compute.views.image import COLUMNS, ROWS
+    from p2sf_explorer.compute.views.photos import scene_values
 
     found = _coarse(state)
     truth = scene_values(state.photo.source, (ROWS, COLUMNS))
@@ -162,7 +162,7 @@ def sharpening_db(state: State) -> float:
 
 @lru_cache(maxsize=8)
 def _coarse(state: State) -> "ImageResult":
-    from p2sf_explorer.results.image import coarse, question
+    from p2sf_explorer.compute.views.image import coarse, question
 
     return coarse(question(_live(changed(state, method="seidel"))))
 

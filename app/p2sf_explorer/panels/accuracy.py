@@ -19,8 +19,7 @@ from p2sf_explorer.charts.reading import Reading, closest, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, MethodResult
-from p2sf_explorer.exactness.trade import trade_of
-from p2sf_explorer.exactness.trade_chart import TradeChart, TradeDot
+from p2sf_explorer.compute.trade import trade_of
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.psf import PSF_MAP
@@ -29,6 +28,7 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.readout import Readout
+from p2sf_explorer.widgets.trade_chart import TradeChart, TradeDot
 
 TIP = "Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens)."
 DIFFERENCE_MAP = "CET-D1A"

@@ -5,8 +5,8 @@ from math import inf
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import C_NM, D_NM, F_NM
+from p2sf_explorer.compute.views.chromatic import Chromatic
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.chromatic import Chromatic
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card

@@ -12,14 +12,14 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, Samples, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.colour import CHOICES, ColourQuestion, Colours, answer, pixels
 from p2sf_explorer.state.scales import signed
+from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.chart_card import ChartsCard
 from p2sf_explorer.widgets.value_edit import ValueEdit
-from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Colour PSF: one PSF for each wavelength, where its own chief ray lands, weighted by the spectrum and the CIE "

@@ -7,8 +7,8 @@ from PySide6.QtGui import QColor, QPainter
 
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.depth_of_field import DepthOfField, highest
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.depth_of_field import DepthOfField, highest
 from p2sf_explorer.state.scales import told_apart, written_distance
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card

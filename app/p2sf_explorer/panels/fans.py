@@ -3,7 +3,7 @@
 import numpy as np
 
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.results.rays import Fan
+from p2sf_explorer.compute.views.rays import Fan
 from p2sf_explorer.state.terms import PLACES
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel

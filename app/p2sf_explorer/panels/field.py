@@ -5,8 +5,8 @@ import numpy as np
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.field import FieldView
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.field import FieldView
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import ChartsCard, NotedChart, legend, reach

@@ -5,16 +5,16 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
 from p2sf.conventions import degrees_from_slope
-from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.brightness import stretched
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.field_map import SHAPE, FieldMapRequest, answer, place_of, places
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.field_map import SHAPE, FieldMapRequest, answer, place_of, places
+from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.tiles import TilesChart, tile
-from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Field map: PSFs all over a 3:2 picture whose corner is the edge of the field, each relative to its own peak and "

@@ -4,8 +4,8 @@ from PySide6.QtWidgets import QScrollArea
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.first_order import Row
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.first_order import Row
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.readout import Columns, FactTable

@@ -8,10 +8,10 @@ from PySide6.QtWidgets import QPushButton, QTextBrowser
 from p2sf.errors import P2SFError
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.import_report import REFUSED, Report, refused
 from p2sf_explorer.files.opening import Refusal, with_substitutes
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
-from p2sf_explorer.results.import_report import REFUSED, Report, refused
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 

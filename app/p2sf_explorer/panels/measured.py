@@ -29,9 +29,7 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import local, tr
-from p2sf_explorer.measuring.measurement import (
+from p2sf_explorer.compute.views.measured import (
     MeasurementRequest,
     PointLine,
     PointPictures,
@@ -47,14 +45,16 @@ from p2sf_explorer.measuring.measurement import (
     shown,
     whole_rows,
 )
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.drop import MeasuredDrop
 from p2sf_explorer.widgets.plan_note import small_button
 from p2sf_explorer.widgets.readout import FactTable, scrolled
 from p2sf_explorer.widgets.tiles import TilesChart, tile
 from p2sf_explorer.widgets.value_edit import NumberBox
-from p2sf_explorer.workers.worker import LatestWins
 
 TIP = (
     "Measured: the points of a photograph, the wavefront that explains each of them, with errors, and what all "

@@ -7,10 +7,10 @@ from p2sf.lens.lens import Lens
 from p2sf.tolerance.errors_of_build import IRREGULAR, Kind
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.lens_table import Misalignment, fringes, misalignment_of, of_piece
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.panels.lens_sliders import LensSlider
-from p2sf_explorer.results.lens_table import Misalignment, fringes, misalignment_of, of_piece
+from p2sf_explorer.panels.lens_table.sliders import LensSlider
 from p2sf_explorer.state.build_errors import BuildErrors, amount_of, with_error, without_piece
 from p2sf_explorer.state.built import Adjustment, Piece
 from p2sf_explorer.state.pinning import with_links

@@ -7,15 +7,15 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest
+from p2sf_explorer.compute.views.mtf import Contrast, answer
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.mtf import Contrast, answer
+from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import legend
 from p2sf_explorer.widgets.curves import CLEAR_PUPIL, SAME_PUPIL, CurvesPanel
 from p2sf_explorer.widgets.differences import signed_range
 from p2sf_explorer.widgets.value_edit import MicronEdit
-from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "MTF: the contrast that remains of a sine pattern, computed by autocorrelation of the pupil, from all light. "

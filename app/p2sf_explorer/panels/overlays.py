@@ -9,17 +9,17 @@ from PySide6.QtWidgets import QLabel
 from p2sf.conventions import UM_PER_MM
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.matrix.overlays import PLAIN, USUAL_PER_MM, CurveOverlay, OverlayRequest, answer
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.matrix.overlays import PLAIN, USUAL_PER_MM, CurveOverlay, OverlayRequest, answer
 from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser
 from p2sf_explorer.widgets.chart_card import NotedChart, curve_sign, reach
 from p2sf_explorer.widgets.curves import ENDLESS
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.widgets.value_edit import ValueList
-from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and "

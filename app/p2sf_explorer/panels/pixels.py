@@ -6,8 +6,8 @@ from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.pixels import SampledLight
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.pixels import SampledLight
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import ChartsCard

@@ -7,10 +7,10 @@ from p2sf.messages import Message
 from p2sf.psf.methods import PsfRequest
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
-from p2sf_explorer.charts.brightness import SCALES, UNITS
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.brightness import SCALES, UNITS
 from p2sf_explorer.compute.finer import SettledSum, answer, finer
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
@@ -19,11 +19,11 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import significant, written_r_squared
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import FILLED
+from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.differences import show_signed
 from p2sf_explorer.widgets.readout import Readout
-from p2sf_explorer.workers.panel_jobs import Asking
 
 PSF_MAP = BRIGHTNESS
 RESIZED_MS = 200  # after the last change of the panel's size, the picture is summed for its new pixels

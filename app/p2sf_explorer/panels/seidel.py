@@ -10,8 +10,8 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.seidel import PerSurface
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.seidel import PerSurface
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser

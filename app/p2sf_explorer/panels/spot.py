@@ -11,8 +11,8 @@ from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.reading import Reading, closest, point_reading
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.rays import figures, landed
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.rays import figures, landed
 from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card

@@ -7,19 +7,19 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
 from p2sf.messages import Message
-from p2sf_explorer.charts.brightness import stretched
 from p2sf_explorer.charts.plots import BRIGHTNESS
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.brightness import stretched
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ranges
+from p2sf_explorer.compute.views.through_focus import Focused, Strip, answer
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.through_focus import Focused, Strip, answer
 from p2sf_explorer.state.scales import signed
+from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.differences import DIFFERENCE_MAP
 from p2sf_explorer.widgets.tiles import TilesChart, tile
-from p2sf_explorer.workers.panel_jobs import Asking
 
 TIP = (
     "Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or "

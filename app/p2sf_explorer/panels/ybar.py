@@ -8,8 +8,8 @@ from p2sf_explorer.charts.painting import write
 from p2sf_explorer.charts.reading import Reading, closest, point_reading
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.ybar import YBar, field_free
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.ybar import YBar, field_free
 from p2sf_explorer.state.scales import signed
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card

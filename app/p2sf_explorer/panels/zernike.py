@@ -10,9 +10,9 @@ from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, parted, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.zernike import ZernikeView, csv_rows, rows
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.results.zernike import ZernikeView, csv_rows, rows
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser

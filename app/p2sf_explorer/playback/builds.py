@@ -2,12 +2,12 @@
 
 from p2sf.messages import Message, Number
 from p2sf.tolerance import of_worst_field
+from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult, errors_of, figures
 from p2sf_explorer.playback.sweep import Moment
 from p2sf_explorer.state.built import exaggerated
 from p2sf_explorer.state.pinning import unpin
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.state.workspaces import Workspace, with_workspace
-from p2sf_explorer.tolerancing.analysis import ToleranceQuestion, ToleranceResult, errors_of, figures
 
 FILMED = 40  # builds, the first ones of a draw: as random as any
 BUILDS_PER_S = 4

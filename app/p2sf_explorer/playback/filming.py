@@ -15,7 +15,7 @@ from p2sf_explorer.playback.sweep import Moment, changes, sweep
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State, changed
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.workers.worker import LatestWins
+from p2sf_explorer.store.worker import LatestWins
 
 FRAMES_PER_S = 12
 TICK_MS = 4  # between looks at what is being computed

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.playback.builds import BUILDS_PER_S, moments_of_builds
 from p2sf_explorer.playback.filming import FRAMES_PER_S, Filming, moments_of_sweep
@@ -24,7 +25,6 @@ from p2sf_explorer.playback.sweep import TITLES, Moment, sweep
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.tolerancing.analysis import ToleranceQuestion, ToleranceResult
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.value_edit import ValueEdit

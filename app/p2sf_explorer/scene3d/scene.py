@@ -7,7 +7,7 @@ import numpy as np
 from p2sf.lens.lens import seen_from
 from p2sf.lens.placement import Motion, Placement
 from p2sf.raytrace.pencil import pencil
-from p2sf_explorer.charts.brightness import stretched
+from p2sf_explorer.compute.brightness import stretched
 from p2sf_explorer.compute.glass_outlines import last_end, still
 from p2sf_explorer.compute.layout import shown_lens
 from p2sf_explorer.compute.live import Live

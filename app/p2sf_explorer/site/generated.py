@@ -18,7 +18,7 @@ PLACES = {
     "CHANGELOG.md": "changelog.md",
 }
 LINK = re.compile(r"(?<=\]\()(" + "|".join(map(re.escape, PLACES)) + ")")
-MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.interchange.psf_set", "p2sf.psf.result"
+MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", "p2sf.psf.result"
 
 
 def pages() -> dict[str, str]:

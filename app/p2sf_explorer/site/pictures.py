@@ -12,11 +12,11 @@ from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
-from p2sf_explorer.shell.gallery import settle
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.site.examples import run_examples
+from p2sf_explorer.site.gallery import settle
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.window.window import MainWindow
 
 SIZE = 1280, 800
 MADE = re.compile(r"\]\(made/([\w.]+)\)")

@@ -1,1 +1,1 @@
-"""The one place the state lives while the window is open, with undo; and the store as panels see it."""
+"""The one place the state lives while the window is open, with undo; and the workers for what is slow."""

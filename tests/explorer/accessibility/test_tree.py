@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QScrollArea, QWidget
 
-from p2sf_explorer.crash.dialog import CrashDialog
+from p2sf_explorer.application.crash_dialog import CrashDialog
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.state.panels import REGISTRY
-from tests.support.screen_reader import EMPTY, nodes, transcript
+from tests.support.windows.screen_reader import EMPTY, nodes, transcript
 
 ROLE = QAccessible.Role
 LETTER = re.compile(r"[^\W\d_]")

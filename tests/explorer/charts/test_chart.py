@@ -10,7 +10,7 @@ from p2sf_explorer.charts.chart import Chart, strips
 from p2sf_explorer.charts.painting import polylines, set_text
 from p2sf_explorer.charts.plots import EMPTY, as_indices
 from p2sf_explorer.charts.theme import LIGHT
-from p2sf_explorer.layout_view.marks import free_room
+from p2sf_explorer.panels.layout.marks import free_room
 from p2sf_explorer.state.scales import ticks
 
 

@@ -7,20 +7,20 @@ from pytest import approx
 
 from p2sf.lens.lens import AIMS
 from p2sf.lensfile.library import lenses_folder
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compare.comparison import answers, resampled, window_of
 from p2sf_explorer.compare.contrasts import contrasts
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import with_lens
-from p2sf_explorer.results.mtf import contrast
-from p2sf_explorer.results.profiles import profiles
+from p2sf_explorer.compute.views.mtf import contrast
+from p2sf_explorer.compute.views.profiles import profiles
 from p2sf_explorer.state.limits import RINGS
 from p2sf_explorer.state.pinning import OPTICS, optics, pin, side_b, swapped, unpin, with_links
 from p2sf_explorer.state.state import ENTRIES, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
-from tests.support.events import choose
-from tests.support.zooms import focusing_zoom
+from tests.support.lenses.zooms import focusing_zoom
+from tests.support.windows.events import choose
 
 VIEWS = {"profiles": profiles, "mtf": contrast}
 A = new_state(method="seidel", f_number=4.0, field_deg=5.0, theme="light")

@@ -12,10 +12,10 @@ from p2sf.paraxial.pupils import Stop
 from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compare.differences import minus, subtracted
 from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.views.first_order import aperture, distance, length, pupil, stop
+from p2sf_explorer.compute.views.through_focus import answer
 from p2sf_explorer.i18n import language as languages
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.results.first_order import aperture, distance, length, pupil, stop
-from p2sf_explorer.results.through_focus import answer
 from p2sf_explorer.state.panels import PANELS, difference_of, view_of
 from p2sf_explorer.state.pinning import side_b
 from p2sf_explorer.state.state import changed, new_state

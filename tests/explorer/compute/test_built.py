@@ -10,7 +10,7 @@ from p2sf.glass.media import ShiftedIndex
 from p2sf.lens.misalignment import displaced, straightened
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml, parse_toml
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.metrics.wavefront_map import disc
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import stop_rim
@@ -22,12 +22,12 @@ from p2sf_explorer.compute.layout import layout_of
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import built, paraxial_setup, prescription, with_lens
-from p2sf_explorer.results.field_map import field_map
+from p2sf_explorer.compute.views.field_map import field_map
 from p2sf_explorer.state.build_errors import renumbered, with_error, without_piece
 from p2sf_explorer.state.built import adjustments, exaggerated, pieces, with_errors
 from p2sf_explorer.state.state import changed, new_state
 from tests.support.depths import RELAYS_MM
-from tests.support.perturbed_rays import perturbed
+from tests.support.rays.perturbed_rays import perturbed
 from tests.support.waves import rms_about_plane
 
 START = with_lens(new_state(), "double_gauss_28")

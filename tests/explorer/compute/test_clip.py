@@ -7,7 +7,7 @@ from p2sf.raytrace.pencil import Status, pencil
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.results.rays import FAN_RAYS, figures, landed, path_errors, ray_errors, spots
+from p2sf_explorer.compute.views.rays import FAN_RAYS, figures, landed, path_errors, ray_errors, spots
 from p2sf_explorer.scene3d.ray_bundle import ray_bundle
 from p2sf_explorer.state.state import changed, new_state
 

@@ -4,13 +4,13 @@ import pytest
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_absorption
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import as_in_columns, lens_at
 from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
 from p2sf_explorer.compute.setup import prescription, with_lens
 from p2sf_explorer.state.state import State, changed
-from tests.support.zooms import two_group_zoom
+from tests.support.lenses.zooms import two_group_zoom
 
 ZOOM = two_group_zoom()
 

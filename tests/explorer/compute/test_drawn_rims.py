@@ -6,7 +6,7 @@ import pytest
 
 from p2sf.lens.rim import Rim
 from p2sf_explorer.compute.glass_outlines import glass_of
-from tests.support.mirrors import mirror
+from tests.support.lenses.mirrors import mirror
 
 
 @pytest.mark.parametrize(("rim", "ends"), [(Rim((0.0, 60.0)), (50, 70)), (Rim((0.0, -30.0), (20.0, 5.0)), (-35, -25))])

@@ -8,13 +8,13 @@ import pytest
 
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.state.panels import REGISTRY, view_of
 from p2sf_explorer.state.state import changed
-from tests.support.mirrors import folded
+from tests.support.lenses.mirrors import folded
 
 SAME = (
     "psf profiles mtf matrix field_map colour spot ray_fan opd_fan zernike curves depth_of_field image database".split()

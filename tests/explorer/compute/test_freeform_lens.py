@@ -7,7 +7,7 @@ import pytest
 
 from p2sf.lens import Aperture, XYPolynomial, ZernikeStandardSag
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state

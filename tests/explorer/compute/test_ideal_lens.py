@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.lens.lens import Lens, indices, with_sensor
 from p2sf.lens.source import Source
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.pencil import pupil_rays, trace
@@ -16,7 +16,7 @@ from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.scene3d.meshes import elements
 from p2sf_explorer.state.panels import REGISTRY, view_of
 from p2sf_explorer.state.state import changed
-from tests.support.simple_lenses import two_thin_lenses
+from tests.support.lenses.simple_lenses import two_thin_lenses
 
 
 @pytest.fixture(scope="module")

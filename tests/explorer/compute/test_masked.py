@@ -17,8 +17,8 @@ from p2sf_explorer.compute.autofocus import amount, best_shift_um, open_nodes
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.results.profiles import fine_lines
-from p2sf_explorer.results.rays import ray_errors, spots
+from p2sf_explorer.compute.views.profiles import fine_lines
+from p2sf_explorer.compute.views.rays import ray_errors, spots
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.terms import TERMS
 from tests.support.waves import rms_about_plane

@@ -12,8 +12,8 @@ from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.meridional import aimed, path
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
 from p2sf_explorer.state.state import changed
-from tests.support.mirrors import aplanatic, mangin, telescope, two_mirrors
-from tests.support.shaped_lenses import PARTS, QBFS, UNSEEN_BY_SEIDEL, singlet, two_shaped_mirrors
+from tests.support.lenses.mirrors import aplanatic, mangin, telescope, two_mirrors
+from tests.support.lenses.shaped_lenses import PARTS, QBFS, UNSEEN_BY_SEIDEL, singlet, two_shaped_mirrors
 
 
 @pytest.mark.parametrize("name", shipped_lenses())

@@ -16,13 +16,13 @@ from p2sf.tolerance.single import sensitivities
 from p2sf_explorer.compare.comparison import difference
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.matrix.pictures import settled
+from p2sf_explorer.compute.matrix.points import matrix_request
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.compute.views.zernike import zernike
 from p2sf_explorer.lessons.measures import MEASURES
-from p2sf_explorer.matrix.pictures import settled
-from p2sf_explorer.matrix.points import matrix_request
 from p2sf_explorer.panels.zernike import figures
-from p2sf_explorer.results.zernike import zernike
 from p2sf_explorer.state.state import changed, new_state
 from tests.support.waves import rms_about_plane
 

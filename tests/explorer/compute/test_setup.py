@@ -9,7 +9,7 @@ from p2sf.camera import Request, set_up
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import with_mask
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import masked, paraxial_setup, prescription, ranges, request_setup, with_lens

@@ -15,11 +15,11 @@ from p2sf.lensfile.library import lenses_folder
 from p2sf.messages import Style
 from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.compute.views.import_report import described
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
-from p2sf_explorer.results.import_report import described
 from p2sf_explorer.state.state import changed, new_state
 
 FILES = Path(__file__).parents[2] / "data" / "import"

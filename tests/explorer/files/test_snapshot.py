@@ -11,20 +11,20 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage
 
 from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database_files import save_database
+from p2sf.database.files import save_database
 from p2sf.errors import LensFileError
 from p2sf.io.fits_psf import read_psf_fits
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.methods import render
 from p2sf.psf.seidel import seidel_psf
-from p2sf_explorer.__main__ import starting_state
+from p2sf_explorer.application.display import NO_DISPLAY, display_problem
+from p2sf_explorer.application.main import starting_state
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.files.embedded_state import PNG_HEADER, foreign, state_inside, with_state
 from p2sf_explorer.files.opening import opened
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, write_data
-from p2sf_explorer.shell.display import NO_DISPLAY, display_problem
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.state.state_files import read_state
 from p2sf_explorer.widgets.copying import png_of

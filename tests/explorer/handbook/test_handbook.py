@@ -9,8 +9,8 @@ from PySide6.QtCore import Qt, QUrl
 from p2sf_explorer.charts.theme import DARK, LIGHT
 from p2sf_explorer.handbook.pages import CODE, PAGES, anchor, formulas, headings, page, rendered, shown, with_pictures
 from p2sf_explorer.handbook.viewer import Handbook, fragments
-from p2sf_explorer.shell.actions import PARTS, handbook_place
 from p2sf_explorer.state.panels import GROUPS, REGISTRY
+from p2sf_explorer.window.commands.actions import PARTS, handbook_place
 
 ROOT = Path(__file__).parents[3]
 CITATION = re.compile(r"\bhandbook (\d+(?:\.\d+)?)")

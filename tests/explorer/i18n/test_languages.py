@@ -16,12 +16,12 @@ from p2sf_explorer.i18n.language import FOLDER, Translation, current_language, s
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d import opengl_probe as probe
-from p2sf_explorer.shell.command_palette import named
-from p2sf_explorer.shell.help import help_text
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.readout import FactTable, Readout
+from p2sf_explorer.window.commands.command_palette import named
+from p2sf_explorer.window.commands.help import help_text
+from p2sf_explorer.window.window import MainWindow
 
 ROOT = Path(__file__).parents[3]
 LETTERS = re.compile(r"[^\W\d_]{3}")

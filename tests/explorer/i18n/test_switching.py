@@ -3,11 +3,11 @@
 import pytest
 from PySide6.QtCore import QCoreApplication
 
+from p2sf_explorer.application.language_switch import LanguageSwitch
 from p2sf_explorer.i18n.language import current_language, set_language
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.shell.language_switch import LanguageSwitch
-from p2sf_explorer.shell.window import MainWindow
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.window.window import MainWindow
 
 
 def test_qts_own_words_are_its_own_or_its_translators(qapp):

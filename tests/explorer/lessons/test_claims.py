@@ -7,7 +7,7 @@ from p2sf_explorer.lessons.claims import Claim, holds
 from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.state.state import State
-from tests.support.lesson_measures import OWN_ACCOUNT, REFEREE
+from tests.support.windows.lesson_measures import OWN_ACCOUNT, REFEREE
 
 LESSONS = [read_lesson(path) for path in lesson_files()]
 CLAIMS = [

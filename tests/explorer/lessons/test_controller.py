@@ -9,7 +9,7 @@ from p2sf_explorer.lessons.controller import NOTHING_BEFORE, SLIDER_SHARE, Lesso
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
 from p2sf_explorer.state.state import changed
-from tests.support.events import choose
+from tests.support.windows.events import choose
 
 FIRST, SECOND = shipped_lessons()[:2]
 ALT = Qt.KeyboardModifier.AltModifier

@@ -12,7 +12,7 @@ from p2sf_explorer.lessons import controller as teaching
 from p2sf_explorer.lessons.controller import UNTRANSLATED, LessonController
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
-from p2sf_explorer.shell.controls import WIDTH
+from p2sf_explorer.window.controls import WIDTH
 
 NAMES = [path.name for path in lesson_files()]
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")

@@ -7,14 +7,14 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QTabBar, QToolButton
 
 from p2sf.errors import Cancelled
+from p2sf_explorer.compute.views import tolerances as analysis
 from p2sf_explorer.panels.misalign import PIECE_TIP
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import PanelChoices, State, entry
-from p2sf_explorer.tolerancing import analysis
-from tests.support.events import choose
+from tests.support.windows.events import choose
 
 KINDS = QComboBox, QAbstractButton, QAbstractSpinBox, QTabBar
 BARS = {

@@ -6,9 +6,9 @@ from PySide6.QtCore import Qt
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.results import colour
+from p2sf_explorer.compute.views import colour
 from p2sf_explorer.state.state import changed, new_state
-from tests.support.windows import settled
+from tests.support.windows.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
 

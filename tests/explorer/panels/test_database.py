@@ -14,10 +14,10 @@ from p2sf.errors import Cancelled
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import paraxial_setup, shipped
-from p2sf_explorer.results.database import ATLAS_DEFOCUS, answer, question
+from p2sf_explorer.compute.views.database import ATLAS_DEFOCUS, answer, question
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.workspaces import on_stage
-from tests.support.events import choose
+from tests.support.windows.events import choose
 
 
 def asked(**changes):

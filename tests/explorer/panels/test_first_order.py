@@ -9,7 +9,7 @@ from p2sf.lens.lens import indices
 from p2sf.lensfile.library import shipped_lenses
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.results.first_order import pupil_rows, source_rows
+from p2sf_explorer.compute.views.first_order import pupil_rows, source_rows
 from p2sf_explorer.state.state import changed
 from tests.support.tiers import in_tiers
 

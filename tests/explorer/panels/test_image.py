@@ -19,11 +19,11 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.messages import Message
 from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.illumination import light_collected
-from p2sf.scene.reference import reference_kernel
+from p2sf.scene.planning.reference import reference_kernel
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
-from p2sf_explorer.results import image, photos
-from p2sf_explorer.results.image import (
+from p2sf_explorer.compute.views import image, photos
+from p2sf_explorer.compute.views.image import (
     COLUMNS,
     RAY_NOTE,
     ROWS,
@@ -42,7 +42,7 @@ from p2sf_explorer.results.image import (
     scene_of,
     shown,
 )
-from p2sf_explorer.results.photos import channels_of, fitted, full_shape, scene_values
+from p2sf_explorer.compute.views.photos import channels_of, fitted, full_shape, scene_values
 from p2sf_explorer.state.state import changed, new_state
 
 FAST = new_state(method="seidel", photo_pixel_um=16.0, theme="light")

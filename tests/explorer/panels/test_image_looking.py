@@ -15,12 +15,9 @@ from p2sf.errors import Cancelled
 from p2sf.image import Progress
 from p2sf.io.photo_files import write_photo
 from p2sf.messages import Message, Style
-from p2sf.scene.cost import Cost
-from p2sf.scene.plan import Decision
-from p2sf_explorer.files.snapshot import write_picture
-from p2sf_explorer.i18n.language import texts
-from p2sf_explorer.i18n.tr import unbroken
-from p2sf_explorer.results.image import (
+from p2sf.scene.planning.cost import Cost
+from p2sf.scene.planning.plan import Decision
+from p2sf_explorer.compute.views.image import (
     COLUMNS,
     PLANNING,
     ROWS,
@@ -33,10 +30,13 @@ from p2sf_explorer.results.image import (
     pixels,
     planning,
 )
-from p2sf_explorer.results.photos import cut_away, scene_values
+from p2sf_explorer.compute.views.photos import cut_away, scene_values
+from p2sf_explorer.files.snapshot import write_picture
+from p2sf_explorer.i18n.language import texts
+from p2sf_explorer.i18n.tr import unbroken
+from p2sf_explorer.panels.image.split_view import close_up, places
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.widgets.copying import png_of
-from p2sf_explorer.widgets.split_view import close_up, places
 
 
 def test_arrow_keys_move_the_place_looked_at_and_its_psf_with_it(window, image_panel, qtbot):

@@ -11,10 +11,10 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.compute.views.depth_of_field import axial_blur, depth_of_field, highest, real_blur
+from p2sf_explorer.compute.views.field import field_curves
+from p2sf_explorer.compute.views.first_order import first_order
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.results.depth_of_field import axial_blur, depth_of_field, highest, real_blur
-from p2sf_explorer.results.field import field_curves
-from p2sf_explorer.results.first_order import first_order
 from p2sf_explorer.state.scales import told_apart
 from p2sf_explorer.state.state import changed, new_state
 

@@ -13,10 +13,10 @@ from p2sf.paraxial.pupils import f_number
 from p2sf_explorer.compute.editing import edited_state, radius_through, with_scrubbed, with_stop_shift, with_surface
 from p2sf_explorer.compute.glass_outlines import vertices
 from p2sf_explorer.compute.setup import load, prescription
-from p2sf_explorer.panels.glass_completion import completer, written_indices
+from p2sf_explorer.panels.lens_table.glass_completion import completer, written_indices
+from p2sf_explorer.panels.lens_table.surface_table import KEYS
 from p2sf_explorer.state.state import changed, new_state
-from p2sf_explorer.widgets.surface_table import KEYS
-from tests.support.events import choose
+from tests.support.windows.events import choose
 
 LENS = "double_gauss_28"
 LEFT = Qt.MouseButton.LeftButton

@@ -11,17 +11,17 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit
 from p2sf.errors import GeometryError, GlassError
 from p2sf.lens.lens import with_sensor
 from p2sf.lensfile import load_lens
-from p2sf.lensfile.toml import write_toml
+from p2sf.lensfile.toml.lens import write_toml
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription
+from p2sf_explorer.panels.lens_table.surface_table import KEYS
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
-from p2sf_explorer.widgets.surface_table import KEYS
-from tests.explorer.shell.test_window import changed, pictures
-from tests.support.shaped_lenses import ODD, PHASE, singlet
+from tests.explorer.window.test_window import changed, pictures
+from tests.support.lenses.shaped_lenses import ODD, PHASE, singlet
 
 LENS = "double_gauss_28"
 

@@ -10,15 +10,15 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.methods import render
-from p2sf_explorer.matrix.pictures import radius_figure
-from p2sf_explorer.matrix.points import nearest
+from p2sf_explorer.compute.matrix.pictures import radius_figure
+from p2sf_explorer.compute.matrix.points import nearest
+from p2sf_explorer.panels.matrix.tile_charts import LightChart, arranged
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
-from p2sf_explorer.widgets.tile_charts import LightChart, arranged
-from tests.support.events import choose
-from tests.support.windows import settled
+from tests.support.windows.events import choose
+from tests.support.windows.windows import settled
 
 QUICK = {"method": "seidel", "f_number": 8.0}
 

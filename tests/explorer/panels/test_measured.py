@@ -10,13 +10,13 @@ from p2sf.image.deblur import psnr
 from p2sf.io.photo_files import write_photo
 from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import read_toml
+from p2sf.lensfile.toml.lens import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.results import image
+from p2sf_explorer.compute.views import image
 from p2sf_explorer.state.state import changed
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 

@@ -8,10 +8,10 @@ from PySide6.QtTest import QTest
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
-from tests.support.windows import settled
+from tests.support.windows.windows import settled
 
 
 @pytest.fixture

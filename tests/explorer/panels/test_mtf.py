@@ -10,10 +10,10 @@ from p2sf.metrics.measures import mtf_of
 from p2sf.metrics.perfect import diffraction_mtf
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts
-from p2sf_explorer.results.mtf import contrast
+from p2sf_explorer.compute.views.mtf import contrast
 from p2sf_explorer.state.state import changed, new_state
 from tests.support.overlap import overlap
-from tests.support.windows import settled
+from tests.support.windows.windows import settled
 
 ALONE = new_state(method="seidel", theme="light", free_pupil=True)
 

@@ -6,8 +6,8 @@ from PySide6.QtCore import Qt
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import new_state
-from tests.support.events import choose
-from tests.support.windows import settled
+from tests.support.windows.events import choose
+from tests.support.windows.windows import settled
 
 
 @pytest.fixture

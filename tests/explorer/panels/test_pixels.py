@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.results.pixels import airy_share, beside, over_pixels, pixel_weights
+from p2sf_explorer.compute.views.pixels import airy_share, beside, over_pixels, pixel_weights
 from p2sf_explorer.state.state import changed, new_state
 
 FIRST = new_state(method="seidel", theme="light")

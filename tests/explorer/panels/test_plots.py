@@ -16,7 +16,7 @@ from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.widgets.card import chart_at
 from p2sf_explorer.widgets.copying import copy_menu, data_of, picture_of
-from tests.support.windows import at_rest
+from tests.support.windows.windows import at_rest
 
 # Tables, sliders, photos, a 3D scene; nothing until a picture is measured.
 WITHOUT = {"coefficients", "lens", "misalign", "first_order", "solid", "import", "image", "measured"}

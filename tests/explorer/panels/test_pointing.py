@@ -8,8 +8,8 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtWidgets import QApplication
 
 from p2sf.paraxial.seidel import coefficients
-from p2sf_explorer.layout_view.surface_highlight import section
-from tests.support.events import choose
+from p2sf_explorer.panels.layout.surface_highlight import section
+from tests.support.windows.events import choose
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.results.profiles import profiles
+from p2sf_explorer.compute.views.profiles import profiles
 from p2sf_explorer.state.state import changed, new_state
 
 FIRST = new_state(method="seidel", theme="light")

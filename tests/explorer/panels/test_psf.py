@@ -6,8 +6,8 @@ import pytest
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.panels.psf import badge_words, tip_words, top_value, unit_of
-from p2sf_explorer.shell.bars import shortened
 from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.window.bars import shortened
 
 BLURRED = changed(default_state("double_gauss_28"), depth_mm=10.0, method="auto")
 

@@ -11,11 +11,11 @@ from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
+from p2sf_explorer.compute.views import field_map, through_focus
 from p2sf_explorer.panels.field_map import FieldMapPanel
-from p2sf_explorer.results import field_map, through_focus
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.what_if import UNTOUCHED
-from tests.support.windows import settled
+from tests.support.windows.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
 PURE = changed(FIRST, free_pupil=True)

@@ -13,12 +13,12 @@ from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.panels.tolerances import TolerancesPanel
+from p2sf_explorer.compute.views import tolerances as analysis
+from p2sf_explorer.panels.tolerances.arrangement import TolerancesBody
+from p2sf_explorer.panels.tolerances.panel import TolerancesPanel
+from p2sf_explorer.panels.tolerances.tables import LOST, ErrorTable
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import ToleranceView, changed, new_state
-from p2sf_explorer.tolerance_view.arrangement import TolerancesBody
-from p2sf_explorer.tolerance_view.tables import LOST, ErrorTable
-from p2sf_explorer.tolerancing import analysis
 from p2sf_explorer.widgets.copying import data_of
 from tests.explorer.conftest import FEW_BUILDS
 from tests.support.tolerances import exact_quality

@@ -34,7 +34,7 @@ from p2sf_explorer.compute.reference import REFERENCE_TOLERANCE, measure
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.workspaces import on_stage
-from tests.support.windows import at_rest
+from tests.support.windows.windows import at_rest
 
 STATE = new_state(method="seidel", theme="light", f_number=8.0, field_deg=5.0, psf_units="peak", phase="waves")
 PLACES = ((0.5, 0.5), (0.37, 0.45), (0.61, 0.58), (0.29, 0.7), (0.8, 0.3))

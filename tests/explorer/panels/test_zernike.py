@@ -10,11 +10,11 @@ from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.results.zernike import rows, zernike
+from p2sf_explorer.compute.views.zernike import rows, zernike
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.copying import data_of
-from tests.support.events import choose
 from tests.support.tiers import in_tiers
+from tests.support.windows.events import choose
 
 TELEPHOTO = {"lens": "telephoto", "field_deg": 7.0, "aim": "paraxial", "method": "traced"}
 

@@ -8,12 +8,12 @@ from PySide6.QtWidgets import QFileDialog
 from pytest import approx
 
 from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.compute.views import tolerances as analysis
 from p2sf_explorer.playback.builds import LARGER, moments_of_builds
 from p2sf_explorer.playback.filming import frame_of, picture_of
 from p2sf_explorer.state.state import changed
-from p2sf_explorer.tolerancing import analysis
 from tests.support.tolerances import exact_quality
-from tests.support.windows import at_rest
+from tests.support.windows.windows import at_rest
 
 
 @pytest.fixture

@@ -18,8 +18,8 @@ from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
 from p2sf_explorer.state.state import changed, new_state
 from p2sf_explorer.state.terms import NAMES
-from tests.support.events import choose
-from tests.support.windows import at_rest, settled
+from tests.support.windows.events import choose
+from tests.support.windows.windows import at_rest, settled
 
 
 @pytest.mark.parametrize("key", PLAYABLE[1:])

@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.lens.lens import Surface, with_sensor
 from p2sf.lensfile.library import find_lens
-from p2sf.lensfile.toml import lens_to_toml
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.compute.glass_outlines import clear_rims, sag, still, vertices
 from p2sf_explorer.compute.live import live
@@ -139,7 +139,7 @@ def test_the_window_loads_no_renderer():
     loaded = {
         name.split(".")[0]
         for name in loaded_by(
-            "import p2sf_explorer.shell.window, p2sf_explorer.panels.solid, p2sf_explorer.scene3d.scene"
+            "import p2sf_explorer.window.window, p2sf_explorer.panels.solid, p2sf_explorer.scene3d.scene"
         )
     }
     assert not loaded & {"pyvista", "pyvistaqt", "vtkmodules", "vtk"}

@@ -203,7 +203,7 @@ import sys
 from p2sf_explorer.compute import autofocus, live
 from p2sf_explorer.files import snapshot
 from p2sf_explorer.state import state
-from p2sf_explorer.results import profiles, seidel
+from p2sf_explorer.compute.views import profiles, seidel
 live.live(state.State(), views={"p": profiles.profiles, "s": seidel.per_surface})
 print([name for name in sys.modules if name.startswith(("PySide6", "pyqtgraph", "pyvista"))])
 """

@@ -13,12 +13,12 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.reference import measure
 from p2sf_explorer.compute.setup import paraxial_setup
+from p2sf_explorer.panels.coefficients.mixer import NUMBER, waves
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.panels import FOLLOWS, REGISTRY, REMAINS, view_of
 from p2sf_explorer.state.state import State, changed, entry, new_state
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
-from p2sf_explorer.widgets.coefficient_mixer import NUMBER, waves
 from tests.support.waves import rms
 
 FIELD = new_state(method="fitted", field_deg=7.0)

@@ -12,12 +12,12 @@ from PySide6.QtGui import QGuiApplication
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.language import set_language
-from p2sf_explorer.shell.report import SHARES, fields, write_report
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.copying import copy_menu, data_of, table
+from p2sf_explorer.window.commands.report import SHARES, fields, write_report
 from tests.long.crash import small_disk
-from tests.support.windows import settled
+from tests.support.windows.windows import settled
 
 
 def test_the_curves_of_the_panel_on_the_stage_are_copied_as_they_are(window, qtbot):

@@ -1,1 +1,0 @@
-"""What a screen reader is told of the window's own widgets."""

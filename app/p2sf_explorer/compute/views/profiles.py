@@ -1,0 +1,119 @@
+"""Sections of the PSF through the chief ray, and its encircled energy."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from p2sf.errors import P2SFError
+from p2sf.messages import Message
+from p2sf.metrics.measures import energy_in
+from p2sf.metrics.perfect import airy_curves
+from p2sf.psf.fitted import fit, fitted_waves
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel_stack import as_fit
+from p2sf.psf.sums.plane_waves import counts_for
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.measured import (
+    MeasureRequest,
+    energy_at,
+    energy_is_live,
+    measure_request,
+    measured_parts,
+)
+from p2sf_explorer.compute.sampled import by_coefficients
+
+POINTS = {"preview": 257, "settled": 513}
+NOTHING, LATER = Message(""), Message("the energy follows when the slider rests")
+MOST_NODES = 500_000  # of a half disc: more takes a tenth of a second
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileCurves:
+    """Positions in µm from the chief ray; PSF along x and along y over its peak, and the Airy pattern.
+
+    ``energy`` and ``perfect_energy``: share of all light within |position| of the centroid, of this picture's pupil and
+    of the same pupil without aberration; ``clear_energy``: of a perfect lens with nothing in its stop. Where the energy
+    is too slow for a frame it is NaN, and ``pending`` asks for it. ``radii_um``: what holds half and 80 % of the light,
+    and the RMS distance of rays; ``method``: what described the pupil, or why there is no energy.
+    """
+
+    position_um: np.ndarray
+    along_x: np.ndarray
+    along_y: np.ndarray
+    airy: np.ndarray
+    energy: np.ndarray
+    perfect_energy: np.ndarray
+    clear_energy: np.ndarray
+    radii_um: tuple[float, float, float] = (np.nan, np.nan, np.nan)
+    method: Message = NOTHING
+    pending: MeasureRequest | None = None
+
+
+def profiles(live: Live) -> ProfileCurves:
+    """Return sections finer than the picture's samples; summed at the points themselves once the sliders rest."""
+    psf = live.psf
+    half = (psf.values.shape[-1] // 2) * psf.pixel_um
+    position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
+    lines = fine_lines(live, position) if live.quality == "settled" else None
+    along_x, along_y = lines or between_samples(psf, position)
+    peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl or 0.0)) or 1.0
+    none = np.full(position.size, np.nan)
+    masked = not live.setup.lens.mask.clear
+    curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, none if masked else perfect, perfect)
+    if live.quality == "preview":  # some 10 ms, of a frame's 16
+        return replace(curves, method=LATER)
+    request = measure_request(live)
+    try:
+        return with_energy(curves, request) if energy_is_live(request) else replace(curves, pending=request)
+    except P2SFError as error:  # the sections are there all the same
+        return replace(curves, method=error.message)
+
+
+def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves:
+    """Return the curves with the energy of a request; P2SFError where its pupil has none."""
+    parts, outward = measured_parts(request), np.abs(curves.position_um)
+    found, perfect = energy_in(parts, ""), curves.perfect_energy
+    within = energy_at(found, outward)
+    if not request.lens.mask.clear:
+        alone = [replace(part, pupil=part.pupil.without_phase()) for part in parts]
+        perfect = energy_at(energy_in(alone, ""), outward)
+    radii = found.radius_50_um, found.radius_80_um, found.rms_um
+    said = Message("{method}; {note}", method=request.method, note=found.note) if found.note else request.method
+    return replace(curves, energy=within, perfect_energy=perfect, radii_um=radii, method=said, pending=None)
+
+
+def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> ProfileCurves:
+    """Return the curves with the energy that they lack, for a worker."""
+    return with_energy(curves, curves.pending) if curves.pending else curves
+
+
+def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
+    rows, columns = psf.values.shape
+    units = psf.over_unaberrated
+    units = psf.values / (float(psf.values.max()) or 1.0) if units is None else units
+    row, column = units[rows // 2], units[:, columns // 2]
+    return np.interp(position, psf.x_um, row), np.interp(position, psf.x_um, column)
+
+
+def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return |field|² along x and along y in units of the unaberrated peak; None where no sum describes the picture.
+
+    That is the case where rays are lost, where the picture is ray density, and where a sum would take too long.
+    """
+    if live.psf.method == "geometric" or live.state.optics.clip:
+        return None
+    setup = live.setup
+    try:
+        six = by_coefficients(live)
+        mask = mask_seen(setup.lens, setup.source)
+        found = as_fit(setup.coefficients, mask) if six else fit(setup.lens, setup.source)
+        waves = fitted_waves(found, counts_for(found.steepness, abs(float(position[0]))))
+    except P2SFError:  # rays are lost: only the picture's own samples remain
+        return None
+    if waves.fx.size > MOST_NODES:
+        return None
+    middle = np.zeros(1)
+    return waves.intensity(position, middle)[0], waves.intensity(middle, position)[:, 0]

@@ -1,0 +1,84 @@
+"""The wavefront that makes the picture as Zernike terms, in both orders."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from p2sf.messages import Message, Number
+from p2sf.metrics.wavefront_map import WavefrontSamples, samples_of_coefficients, samples_of_rays
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
+from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decomposed, open_nodes, pupil_opd
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.first_order import NONE, Row
+from p2sf_explorer.state.scales import signed
+
+
+@dataclass(frozen=True)
+class ZernikeView:
+    """The terms by order, "noll" and "fringe", of "exact rays", the "six coefficients" or a "what-if"."""
+
+    fits: dict[ZernikeOrder, ZernikeFit]
+    kind: str
+
+
+def zernike(live: Live) -> ZernikeView:
+    """Return the terms of the wavefront over the part of the pupil that passes light (handbook 3.4)."""
+    exact = live.pupil.kind == "exact rays"
+    if live.setup.lens.mask.clear:
+        samples = _samples(live, exact)
+        nodes, waves = samples.nodes, samples.waves
+    else:
+        nodes, waves = _over_the_ring(live, exact)
+    fits = {order: decomposed(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
+    return ZernikeView(fits, live.pupil.kind)
+
+
+def _samples(live: Live, exact: bool) -> WavefrontSamples:
+    setup = live.setup
+    if exact:
+        return samples_of_rays(setup.lens, setup.source, live.quality, live.state.optics.clip)
+    return samples_of_coefficients(setup.coefficients, live.quality)
+
+
+def _over_the_ring(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:
+    """Return nodes about the obscuration and the wavefront there, waves; GeometryError for what else is in the stop."""
+    lens, source = live.setup.lens, live.setup.source
+    if exact:
+        return pupil_opd(lens, source, live.state.optics.clip)
+    nodes = open_nodes(lens, source, COUNTS)
+    return nodes, np.asarray(wavefront(live.setup.coefficients, nodes.xi, nodes.eta))
+
+
+def rows(fit: ZernikeFit) -> tuple[Row, ...]:
+    """Return name, value and degree of the terms that are even in ξ, and of others that a misaligned lens has."""
+    found = zip(fit.terms, fit.waves.tolist(), fit.share.tolist(), strict=True)
+    return tuple(
+        (
+            term.name,
+            Message(
+                "Z{number}: {waves} λ · {share}", number=term.number, waves=_waves(waves), share=_share(term.n, part)
+            ),
+            f"n = {term.n}, m = {term.m}".replace("-", "−"),
+        )
+        for term, waves, part in found
+        if term.even or waves
+    )
+
+
+def _waves(waves: float) -> Number:
+    return Number(signed(waves, 4))
+
+
+def _share(n: int, part: float) -> Message:
+    """Return a share in percent; piston and tilt have none."""
+    return NONE if n < 2 else Message("{percent:.1f} %", percent=100 * part)
+
+
+def csv_rows(fit: ZernikeFit) -> list[list[str]]:
+    """Return every term as a row: number, n, m, name, waves, share of the variance without piston and tilt."""
+    found = zip(fit.terms, fit.waves.tolist(), fit.share.tolist(), strict=True)
+    body = [[str(t.number), str(t.n), str(t.m), t.name, f"{waves:.9g}", f"{share:.9g}"] for t, waves, share in found]
+    unit = "waves RMS" if fit.order == "noll" else "waves peak"
+    return [[f"{fit.order} term", "n", "m", "name", unit, "share of variance"], *body]

@@ -1,0 +1,1 @@
+"""The coefficients panel and its mixer."""

@@ -1,0 +1,1 @@
+"""The database panel and its chart over depth and field."""

@@ -1,0 +1,1 @@
+"""The image panel and its split view."""

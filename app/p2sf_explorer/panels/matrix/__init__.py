@@ -1,0 +1,1 @@
+"""The matrix panel and its charts of many small pictures."""

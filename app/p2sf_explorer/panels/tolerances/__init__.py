@@ -1,0 +1,1 @@
+"""The tolerances panel: tables of errors and builds, the histogram, and how they are arranged."""

@@ -1,1 +1,0 @@
-"""The window around the panels: bars, controls, tabs, actions, command palette, help, lens chooser."""

@@ -1,0 +1,128 @@
+"""Measures every settled picture against the Huygens reference in the background, for the panels that show it."""
+
+from collections.abc import Callable
+from typing import Protocol, runtime_checkable
+
+from PySide6.QtCore import QObject
+
+from p2sf.messages import Message
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.reference import Accuracy, measure
+from p2sf_explorer.state.state import State
+from p2sf_explorer.state.what_if import NO_REFERENCE
+from p2sf_explorer.state.workspaces import on_show
+from p2sf_explorer.store.worker import LatestWins
+
+ShowBadge = Callable[[Live, float | None], None]
+"""Writes the measured R² of an answer, None for none, on the PSF."""
+
+
+@runtime_checkable
+class AccuracyDisplay(Protocol):
+    """A panel that shows the accuracy."""
+
+    def show_accuracy(self, accuracy: Accuracy, stale: bool, /) -> None:
+        """Show a measured accuracy; ``stale`` where it belongs to an earlier picture."""
+
+    def show_failure(self, why: Message, /) -> None:
+        """Show why there is no accuracy."""
+
+    def show_progress(self, part: float, /) -> None:
+        """Show how far the measuring is, 0 to 1."""
+
+
+class LiveAccuracy(QObject):
+    """Owns the worker; ``watch`` is called with every answer, and with None where there is none.
+
+    ``display()`` is the panel that shows the accuracy, None before it was first opened.
+    """
+
+    def __init__(
+        self,
+        show_badge: ShowBadge,
+        display: Callable[[], AccuracyDisplay | None],
+        parent: QObject,
+        enabled: bool = True,
+    ) -> None:
+        super().__init__(parent)
+        self._enabled, self._resting = enabled, False
+        self._show_badge, self._display = show_badge, display
+        self._live: Live | None = None
+        self._last: Accuracy | None = None
+        self.worker = LatestWins(self)
+        self.worker.finished.connect(self._on_finished)
+        self.worker.failed.connect(self._on_failed)
+        self.worker.progressed.connect(self._on_progress)
+
+    def rest(self, resting: bool) -> None:
+        """Measure nothing while ``resting``: the pictures are for a film."""
+        self._resting = resting
+
+    def watch(self, live: Live | None) -> None:
+        """Measure a settled answer that stands in for no other."""
+        self._live = live
+        if live is None or not self._enabled or self._resting or live.quality != "settled" or live.pending:
+            return
+        if live.setup.altered:
+            self._refuse_altered(live)
+            return
+        every_method = asked_for(live.state)
+        if self._last and fits(self._last, live, every_method):
+            self._tell(self._last)
+            return
+        self.worker.submit(live, lambda cancelled, progress: measure(live, every_method, cancelled, progress))
+
+    def _refuse_altered(self, live: Live) -> None:
+        """Show no figure: the reference is the lens's, and this picture is not."""
+        self.worker.cancel()
+        self._show_badge(live, None)
+        if display := self._display_on_show():
+            display.show_failure(Message(NO_REFERENCE))
+
+    def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
+        self._last = accuracy
+        self._tell(accuracy)
+
+    def _tell(self, accuracy: Accuracy) -> None:
+        live = self._live
+        if live is None or live.setup.altered:
+            return
+        stale = not fits(accuracy, live, False) or live.quality != "settled" or live.pending is not None
+        if not stale:
+            self._show_badge(live, accuracy.r_squared)
+        if display := self._display_on_show():
+            display.show_accuracy(accuracy, stale)
+
+    def _on_failed(self, key: Live, message: Message) -> None:
+        if display := self._display_on_show():
+            display.show_failure(message)
+
+    def _on_progress(self, key: Live, part: float) -> None:
+        if display := self._display_on_show():
+            display.show_progress(part)
+
+    def _display_on_show(self) -> AccuracyDisplay | None:
+        return self._display() if self._live and asked_for(self._live.state) else None
+
+    def stop(self) -> None:
+        """End the worker's thread."""
+        self.worker.stop()
+
+
+def asked_for(state: State) -> bool:
+    """Return whether the accuracy has its panel on show."""
+    return "accuracy" in on_show(state.display)
+
+
+def fits(known: Accuracy, live: Live, every_method: bool) -> bool:
+    """Return whether a known figure answers for this picture: it may differ in looks but neither in light nor window.
+
+    Two fits of one method differ in their ``numbers``, which the tolerance decides.
+    """
+    return picture(known.live) == picture(live) and bool(known.results or not every_method)
+
+
+def picture(live: Live) -> tuple:
+    """Return everything that R² of a settled picture depends on."""
+    setup, psf = live.setup, live.psf
+    return setup.lens, setup.source, psf.method, psf.numbers, live.state.optics.clip, psf.values.shape, psf.pixel_um

@@ -1,0 +1,207 @@
+"""The column of controls: one row per quantity, each a name, an editable number, a slider."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf.messages import Message
+from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.compare.contrasts import AIM_WORDS
+from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.quantities import FIELD_X, OF_THE_LENS, OF_THE_SOURCE
+from p2sf_explorer.compute.setup import Ranges, state_ranges
+from p2sf_explorer.compute.views.first_order import OF_A, ring_note, rows
+from p2sf_explorer.i18n.messages import WINDOW, said
+from p2sf_explorer.i18n.tr import tr, unbroken
+from p2sf_explorer.state.limits import RINGS
+from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.state import State
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.card import chooser, select
+from p2sf_explorer.widgets.readout import FactTable, Sentence, scrolled
+from p2sf_explorer.window.no_answer import UNKNOWN
+from p2sf_explorer.window.quantity_rows import PupilShape, QuantityRow
+
+STOP_TIP = "Stop: the surface whose rim limits the light, as named by the lens file or found as the smallest |rim/y|."
+AIM_TIP = (
+    "Rays fill: the real stop, as light does, or the paraxial entrance pupil, as in the paper and by default in most "
+    "programs. The two differ off axis and in fast lenses."
+)
+CLIP_TIP = "Clip: rays beyond a clear semi-diameter are lost, which vignettes the pupil off axis."
+CHOICES = (("file", "as in the file"), ("auto", "found"))
+
+
+class StopRow(QWidget):
+    """Chooser of the stop and check box of clipping; they update the store and follow the state."""
+
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        name = QLabel(tr("Stop"), self)
+        name.setToolTip(tr(STOP_TIP))
+        self.stop = chooser(CHOICES, STOP_TIP, self)
+        self.clip = QCheckBox(tr("Clip at rims"), self)
+        self.clip.setToolTip(tr(CLIP_TIP))
+        self.stop.activated.connect(lambda: store.update(stop=self.stop.currentData()))
+        self.clip.toggled.connect(lambda on: store.update(clip=on))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(name)
+        row.addWidget(self.stop)
+        row.addStretch(1)
+        row.addWidget(self.clip, 0, Qt.AlignmentFlag.AlignRight)
+
+    def show_state(self, state: State) -> None:
+        """Follow a state; no signal goes back."""
+        select(self.stop, state.optics.stop)
+        if self.clip.isChecked() != state.optics.clip:
+            self.clip.blockSignals(True)
+            self.clip.setChecked(state.optics.clip)
+            self.clip.blockSignals(False)
+
+
+class AimRow(QWidget):
+    """Chooser of how exact rays fill the pupil; it updates the store and follows the state."""
+
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        name = QLabel(tr("Rays fill"), self)
+        name.setToolTip(tr(AIM_TIP))
+        self.aim = chooser(tuple(AIM_WORDS.items()), AIM_TIP, self)
+        self.aim.activated.connect(lambda: store.update(aim=self.aim.currentData()))
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(name)
+        row.addWidget(self.aim)
+        row.addStretch(1)
+
+    def show_state(self, state: State) -> None:
+        """Follow a state; no signal goes back."""
+        select(self.aim, state.optics.aim)
+
+
+def asked(state: State, limits: Ranges) -> bool:
+    """Return whether the field along x has a slider: the lens is not symmetric, or a person wants it."""
+    return limits.both_sides or state.display.show_field_x or bool(state.optics.field_x_deg)
+
+
+ABOVE = (*OF_THE_LENS, *OF_THE_SOURCE)  # the pupil's shape
+WIDTH = 292  # pixels of the column at scale 1
+
+
+class Controls(QWidget):
+    """All rows, the autofocus button, and the sentence that names the dominant term."""
+
+    autofocus = Signal()
+    swept, grasped = Signal(str), Signal(str)
+
+    def __init__(self, store: Store, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("controls")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.shape = PupilShape(store, self)
+        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in ABOVE} | self.shape.rows
+        for row in self.rows.values():
+            row.swept.connect(self.swept)
+            row.grasped.connect(self.grasped)
+        self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
+        self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
+        self.focus_button.clicked.connect(self.autofocus)
+        self.stopping, self.aiming = StopRow(store, self), AimRow(store, self)
+        self.sentence, self.detail, self.facts = Sentence(self), Sentence(self), FactTable(self)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        self.sentence.setObjectName("sentence")
+        self.detail.setObjectName("muted")
+        column = self._column()
+        for quantity in ABOVE:
+            column.addWidget(self.rows[quantity.key])
+        column.addWidget(self.shape)
+        column.addWidget(self.stopping)
+        column.addWidget(self.aiming)
+        column.addWidget(self.focus_button)
+        column.addSpacing(4)
+        column.addWidget(self.sentence)
+        column.addWidget(self.detail)
+        self.figures = scrolled(self.facts)
+        column.addWidget(self.figures, 1)
+        self._below = QWidget()  # takes the room of the figures where only the sliders are shown
+        column.addWidget(self._below, 1)
+        self._below.hide()
+
+    def _column(self) -> QVBoxLayout:
+        """Return the column of everything, which scrolls where a screen is too low for it."""
+        self.area = area = QScrollArea(self)
+        page, whole = QWidget(), QVBoxLayout(self)
+        column = QVBoxLayout(page)
+        self._rows = column
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(area)
+        area.setWidgetResizable(True)
+        area.setFrameShape(QScrollArea.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        area.setWidget(page)
+        for part in (area, area.viewport(), page):
+            part.setAutoFillBackground(False)
+        return column
+
+    def make_slim(self, slim: bool) -> None:
+        """Show the sliders alone, or everything."""
+        for part in (self.stopping, self.aiming, self.focus_button, self.sentence, self.detail, self.figures):
+            part.setVisible(not slim)
+        self._below.setVisible(slim)
+
+    def reveal(self, key: str) -> None:
+        """Scroll to the row of a quantity where the column is too low for all."""
+        self.area.ensureWidgetVisible(self.rows[key], 0, self.rows[key].height())
+
+    def show_state(self, state: State) -> None:
+        """Follow a state."""
+        limits = state_ranges(state)
+        for quantity in ABOVE:
+            self.rows[quantity.key].setVisible(
+                quantity.there(limits) and (quantity is not FIELD_X or asked(state, limits))
+            )
+            self.rows[quantity.key].show_state(state, limits)
+        self.shape.show_state(state, limits)
+        self.stopping.show_state(state)
+        self.aiming.show_state(state)
+
+    def show_live(self, live: Live) -> None:
+        """Show what follows from the state: heights, sensor position, the dominant term."""
+        height = live.setup.object_y_mm
+        image = float(live.setup.coefficients.image_height)
+        object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
+        self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
+        for quantity in OF_THE_LENS:
+            self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
+        apart = live.state.compare.shown != "a"  # B or A − B is on screen, and this column stays A's
+        dominant = said(live.dominant)
+        self.sentence.setText(unbroken(f"A: {dominant}" if apart else dominant))
+        self.detail.setText(unbroken(live.why.text(WINDOW)))
+        self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
+
+    def show_none(self) -> None:
+        """Show no figures and no dominant term, where a state has no answer."""
+        for key in ("field_deg", *RINGS):
+            self.rows[key].show_note(UNKNOWN)
+        self.sentence.clear()
+        self.detail.clear()
+        self.facts.show_rows(tuple((name, Message(UNKNOWN), tip) for name, _, tip in self.facts.rows))
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the colours and the scale of a theme."""
+        self._rows.setContentsMargins(*(theme.px(margin) for margin in (12, 10, 12, 12)))
+        self._rows.setSpacing(theme.px(SPACE - 1))
+        self.facts.restyle(theme)
+        for quantity in ABOVE:
+            self.rows[quantity.key].restyle(theme)
+        self.shape.restyle(theme)

@@ -1,0 +1,550 @@
+"""The window: from slider to picture in three steps, store → live → panels."""
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from time import perf_counter
+from typing import TypeVar
+
+from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDragLeaveEvent,
+    QDropEvent,
+    QGuiApplication,
+    QKeyEvent,
+    QShowEvent,
+)
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow, QVBoxLayout, QWidget
+
+from p2sf.errors import P2SFError
+from p2sf.messages import Message
+from p2sf.paraxial.lens_checks import unless_symmetric
+from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, stylesheet, tokens
+from p2sf_explorer.compare.compare_bar import CompareBar
+from p2sf_explorer.compare.comparison import Answers, answers
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.live import Live, Refused
+from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
+from p2sf_explorer.files.file_watcher import FileWatcher
+from p2sf_explorer.files.opening import REPORT_TAB, Refusal
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.lessons.controller import LessonController, LessonRoom
+from p2sf_explorer.panels import BackgroundPanel, FilmedPanel, Panel, PreparingPanel, build
+from p2sf_explorer.panels.coefficients.panel import CoefficientsPanel
+from p2sf_explorer.panels.psf import PsfPanel
+from p2sf_explorer.playback.filming import Filming
+from p2sf_explorer.playback.play_bar import PlayBar
+from p2sf_explorer.state.limits import ADDED
+from p2sf_explorer.state.link import is_link
+from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
+from p2sf_explorer.state.state import Display, State
+from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_show, on_stage, placed, put_to_tabs
+from p2sf_explorer.store.deferred import DeferredWorker
+from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
+from p2sf_explorer.store.store import Store
+from p2sf_explorer.store.worker import LatestWins
+from p2sf_explorer.widgets.copying import card_in_hand
+from p2sf_explorer.widgets.drop import DropFrame, dropped, is_photo
+from p2sf_explorer.widgets.roles import install_roles
+from p2sf_explorer.window.bars import Banner, StatusLine, TopBar
+from p2sf_explorer.window.commands.actions import Actions, PanelAccess
+from p2sf_explorer.window.commands.sharing import Sharing
+from p2sf_explorer.window.controls import WIDTH, Controls
+from p2sf_explorer.window.floating_panels import FloatingPanels, Home
+from p2sf_explorer.window.memory_trim import MemoryTrim
+from p2sf_explorer.window.no_answer import NO_ANSWER, drawn
+from p2sf_explorer.window.presentation import LARGER, LARGER_LESSON, Presentation
+from p2sf_explorer.window.stage import PanelRoom, ShareSplitter
+from p2sf_explorer.window.tabs import Tabs
+from p2sf_explorer.window.view import View, next_stop
+from p2sf_explorer.window.workspace_bar import WorkspaceBar, Workspaces
+
+T = TypeVar("T")
+
+
+DIGIT_MODIFIERS = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.KeypadModifier
+FIRST_SIZE, FRAME_PX = (1440, 900), 40  # of the window at the first start, and what a desktop adds above it
+ALWAYS = "layout", "psf", "coefficients"  # panels that other parts of the window speak to
+
+
+class MainWindow(QMainWindow):
+    """Top bar, controls, panels, status line; ``refresh`` is the whole live path.
+
+    ``measured`` False leaves the accuracy of the picture unmeasured: no background work.
+    """
+
+    def __init__(self, state: State | None = None, measured: bool = True) -> None:
+        super().__init__()
+        install_roles()
+        self.setWindowTitle("P2SF Explorer")
+        self.setAcceptDrops(True)
+        self.store = Store(state or State(), self)
+        self.live: Live | None = None
+        self._answers: Answers | None = None
+        self.frame_ms: float | None = None
+        self.display = placed(self.store.state.display, tuple(PANELS))
+        self._placed_from: Display | None = None
+        self._theme: Tokens = self._tokens(self.store.state)
+        self._styled: dict[str, Tokens] = {}
+        self.panels: dict[str, Panel] = {}
+        self._make_bars()
+        for key in ALWAYS:
+            self._build(key)
+        self._lay_out()
+        self._make_helpers(measured)
+        self._connect()
+        self._apply_theme()
+        self.refresh(self.store.state)
+
+    def _make_bars(self) -> None:
+        """Make everything around the panels, and the pages that the panels stand on."""
+        self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
+        self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(REGISTRY, self)
+        self.room = PanelRoom(self.tabs, self)
+        self.floating = FloatingPanels(self, self.store, {entry.key: entry.title for entry in REGISTRY})
+        self.compare = CompareBar(self, self.store)
+        filming = Filming(self.store, self.refresh, self.is_busy, self._pause_accuracy, self)
+        self.play = PlayBar(self.store, filming, self._part, self._builds, self)
+
+    def _make_helpers(self, measured: bool) -> None:
+        """Make what works for the window in the background, and the commands."""
+        self.measuring = LiveAccuracy(self._panel("psf", PsfPanel).show_badge, self._accuracy_panel, self, measured)
+        self.deferred = DeferredWorker(self.store, self.refresh, self)
+        self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
+        self.drop_frame = DropFrame(self)
+        self.file_watcher = FileWatcher(self.store, self._read_again, self)
+        self.lesson_room = LessonRoom(self.left_parts, self.column, self.controls)
+        self.teaching = LessonController(self.store, self, self.lesson_room)
+        access = PanelAccess(
+            live=lambda: self.live,
+            theme=lambda: self._theme,
+            open=self.open_panel,
+            stage=self.take_stage,
+            card=lambda key: self.panels[key].widget,
+            in_front=lambda: self.panels[self.display.stage].widget,
+            explain=self._explain,
+            detach=self._detach,
+        )
+        self.presentation = Presentation(
+            self, self.left, (self.top, self.status), lambda: self._middle.insertWidget(0, self.left), self._present
+        )
+        self.view = View(self.store, lambda: self._theme.scale, self._parts, self)
+        self.workspaces = Workspaces(self.store, self.teaching, self)
+        self.top.put_workspaces(WorkspaceBar(self.workspaces, self.top))
+        self.commands = Actions(self, self.store, self.top, access)
+        own = self.tabs, self.workspaces, self.view, self.presentation
+        for part in (self.sharing, self.compare, self.play, self.teaching, *own):
+            for command in part.commands():
+                self.commands.add(command)
+        self.sharing.fill(self.top.snapshot.menu())
+
+    def _connect(self) -> None:
+        self.top.pin.clicked.connect(self.compare.turn)
+        self.controls.autofocus.connect(self.commands.autofocus)
+        self.controls.swept.connect(self.play.player.toggle)
+        self.controls.grasped.connect(self.play.player.pause_on)
+        mixer = self._panel("coefficients", CoefficientsPanel).bars
+        mixer.swept.connect(lambda term: self.play.player.toggle(ADDED + term))
+        self.store.changed.connect(self.refresh)
+        self.store.refused.connect(self.refuse)
+        self.store.said.connect(self.status.say)
+        self.tabs.detach_asked.connect(self.floating.toggle)
+        self.tabs.stage_asked.connect(lambda key: self._move_to("stage", key))
+        self.tabs.dropped.connect(lambda key: self._exchange(key, self.display.tab))
+        self.room.dropped.connect(lambda key, number: self._exchange(key, self._places()[number]))
+        self.room.resized.connect(lambda entries: self.store.update(**entries))
+        self.tabs.currentChanged.connect(self._on_tab)
+        self.tabs.chosen.connect(self.open_panel)
+        QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
+
+    def _lay_out(self) -> None:
+        middle = QHBoxLayout()
+        middle.setSpacing(SPACE)
+        self.left = QWidget(self)  # a splitter sets its own largest size, so that another widget has to have it
+        self.left_parts = ShareSplitter(Qt.Orientation.Vertical)
+        self.left_parts.addWidget(self.controls)
+        column = QVBoxLayout(self.left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.left_parts)
+        middle.addWidget(self.left)
+        self._middle = middle
+        self._right = right = QVBoxLayout()
+        right.setSpacing(SPACE)
+        right.addWidget(self.compare)
+        right.addWidget(self.play)
+        right.addWidget(self.room, 1)
+        middle.addLayout(right, 1)
+        body = QWidget(self)
+        body.setObjectName("window")
+        self.column = QVBoxLayout(body)
+        self.column.setContentsMargins(SPACE, SPACE, SPACE, SPACE // 2)
+        self.column.setSpacing(SPACE)
+        self.column.addWidget(self.top)
+        self.column.addWidget(self.banner)
+        self.column.addLayout(middle, 1)
+        self.column.addWidget(self.status)
+        self.setCentralWidget(body)
+        self.resize(*FIRST_SIZE)
+
+    def fit_screen(self) -> None:
+        """Take the first size, at the present scale of type, as far as the screen has room for it and its frame."""
+        room = self.screen().availableSize()
+        wanted = QSize(*FIRST_SIZE) * self._theme.scale
+        self.resize(wanted.boundedTo(QSize(room.width(), room.height() - self._theme.px(FRAME_PX))))
+
+    def refresh(self, state: State) -> None:
+        """Compute the answer for a state and paint it; where there is none, cover what belongs to another one."""
+        begun = perf_counter()
+        self.memory_trim.touch()
+        self._restyle(state)
+        self._bring_up(state)
+        try:
+            self.controls.show_state(state)
+            self.compare.show_state(state)
+            self.play.show_state(state)
+            self._answers = self._answer(state)
+        except P2SFError as error:
+            self._show_none(state, error)
+            return
+        self.live = live = self._answers.seen
+        self.banner.hide()
+        self.top.show_state(state, self._theme)
+        self.top.tolerance.show_live(live)
+        self.controls.show_live(self._answers.a)
+        for key in self._visible():
+            paint(self.panels[key], key, live)
+        self.status.show_live(live, self.frame_ms)
+        self.deferred.watch(state, self._answers.pending)
+        self.measuring.watch(live)
+        QTimer.singleShot(0, lambda: self._painted(begun))
+
+    def _show_none(self, state: State, why: P2SFError) -> None:
+        """Say why there is no answer, and cover every panel; the lens is drawn where it can be."""
+        self.refuse(why)
+        if self.live and self._answers and self._answers.a.state == state:
+            return  # only the lens file has changed, and is perhaps half written: the picture stays
+        self.live = None
+        self.deferred.watch(state, None)
+        self.measuring.watch(None)
+        self.controls.show_none()
+        self.status.show_none(why)
+        for panel in self.panels.values():
+            panel.widget.show_state(state)
+            panel.widget.show_overlay(said(NO_ANSWER))
+        if lens := drawn(state):
+            self.panels["layout"].show(lens)  # type: ignore[arg-type]  # which uses no more of an answer than this
+            self.panels["layout"].widget.show_overlay("")
+        if state.optics.errors and "misalign" in self.panels:
+            from p2sf_explorer.panels.misalign import MisalignPanel
+
+            self._panel("misalign", MisalignPanel).follow(state)
+            self.panels["misalign"].widget.show_overlay("")
+
+    def _answer(self, state: State) -> Answers:
+        """Return the settled answers, or while a slider moves previews by the methods that ``auto`` had chosen."""
+        quality = "preview" if self.store.moving else "settled"
+        return answers(state, quality, self._wanted(), self._answers, self.deferred.cache)
+
+    def refuse(self, why: Message | P2SFError) -> None:
+        """Say in the banner why something cannot be done; the last picture stays."""
+        self.banner.say(why)
+        self.top.show_state(self.store.state, self._theme)
+
+    def open_panel(self, key: str) -> None:
+        """Bring a panel on show, and to the front of the tabs where it is not on the stage or in the rail."""
+        if key in self.floating.open:
+            self.floating.open[key].raise_()
+        elif key != self.display.stage:
+            self.store.update(**({} if key in self.display.rail else {"tab": key}), show_rail=True)
+
+    def take_stage(self, key: str) -> None:
+        """Put a panel on the stage; what it displaces takes its place."""
+        self.store.update(**on_stage(self.display, key))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Put the satellite of a digit on the stage, unless the digit is typed into a value or a table.
+
+        This goes for hidden ones too, as while presenting. A table passes on even those keys that begin an edit.
+        """
+        number, typed = event.key() - Qt.Key.Key_0, isinstance(QApplication.focusWidget(), QLineEdit)
+        known = 1 <= number < len(self._places())
+        if known and event.modifiers() in DIGIT_MODIFIERS and not typed:
+            self.take_stage(self._places()[number])
+        else:
+            super().keyPressEvent(event)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Go on with Tab, or back with Shift+Tab, in the order of the window's parts, wherever panels stand."""
+        stop = next_stop(self, self._parts(), QApplication.focusWidget(), 1 if forward else -1)
+        if stop is None:
+            return super().focusNextPrevChild(forward)
+        reasons = Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason
+        stop.setFocus(reasons[not forward])
+        return True
+
+    def _places(self) -> tuple[str, ...]:
+        """Return the panels in their order: the stage, the satellites, the tab in front."""
+        return (self.display.stage, *self.display.rail, self.display.tab)
+
+    def _exchange(self, key: str, other: str) -> None:
+        if key in PANELS:  # a title may come from another program's window
+            self.store.update(**exchanged(self.display, key, other))
+
+    def _move_to(self, place: str, key: str) -> None:
+        """Put a panel where its card asks for; asked for again, the stage takes the room of the rail, or gives it."""
+        if place == "stage" and key == self.display.stage:
+            self.store.update(show_rail=not self.display.show_rail)
+        else:
+            moves = {"stage": on_stage, "rail": kept_in_rail, "tabs": put_to_tabs}
+            self.store.update(**moves[place](self.display, key))
+
+    def _detach(self) -> None:
+        """Give the panel in hand a window of its own, or take it back."""
+        card = card_in_hand(self, self.panels[self.display.stage].widget)
+        self.floating.toggle(next(key for key, panel in self.panels.items() if panel.widget is card))
+
+    def _painted(self, begun: float) -> None:
+        self.frame_ms = 1e3 * (perf_counter() - begun)
+
+    def is_busy(self) -> bool:
+        """Return whether anything is still computed in the background."""
+        panels = self.panels.values()
+        workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
+        own = self.measuring.worker, self.deferred.worker
+        preparing = any(isinstance(panel, PreparingPanel) and panel.busy for panel in panels)
+        return preparing or any(worker.busy for worker in (*workers, *own))
+
+    def _panel(self, key: str, kind: type[T]) -> T:
+        """Return a panel as its own type."""
+        panel = self.panels[key]
+        if not isinstance(panel, kind):
+            raise TypeError(f"panel {key} is a {type(panel).__name__}, not a {kind.__name__}")
+        return panel
+
+    def _accuracy_panel(self) -> AccuracyDisplay | None:
+        panel = self.panels.get("accuracy")
+        return panel if isinstance(panel, AccuracyDisplay) else None
+
+    def _pause_accuracy(self, on: bool) -> None:
+        """Measure no accuracy for a while, unless its panel is on show, or measure again."""
+        self.measuring.rest(on and not asked_for(self.store.state))
+
+    def _part(self, key: str) -> QWidget:
+        """Return the part of the window that a film shows."""
+        parts: dict[str, QWidget] = {"stack": self.room, "stage": self.room.stage, "tabs": self.tabs}
+        if key not in (*parts, *self._visible()):
+            self.open_panel(key)
+        return parts.get(key) or self.panels[key].widget
+
+    def _builds(self) -> tuple[ToleranceQuestion, ToleranceResult]:
+        """Return the builds that the Tolerances panel has drawn, and bring it on show; P2SFError where it has none."""
+        from p2sf_explorer.panels.tolerances.panel import TolerancesPanel
+
+        self.open_panel("tolerances")
+        return self._panel("tolerances", TolerancesPanel).drawn()
+
+    def _explain(self, refused: Refusal) -> None:
+        """Say why a file is not opened, in the import report and in the banner, which offers substitute glasses."""
+        from p2sf_explorer.panels.import_report import ImportReportPanel
+
+        self.open_panel(REPORT_TAB)
+        report = self._panel(REPORT_TAB, ImportReportPanel)
+        report.show_refusal(refused)
+        self.refuse(refused.message)
+        if refused.substituted:
+            self.banner.offer(report.accept.text(), report.accept.toolTip(), report.accept.click)
+
+    def _read_again(self) -> bool:
+        """Show the lens as its file is now; return whether it can be read."""
+        self.refresh(self.store.state)
+        return not self.banner.isVisible()
+
+    def _visible(self) -> tuple[str, ...]:
+        """Return the panels on show."""
+        return tuple(key for key in on_show(self.display) if key in self.panels)
+
+    def _wanted(self) -> dict[str, compute.ResultFunction]:
+        views = {key: view_of(PANELS[key]) for key in self._visible()}
+        return {key: view for key, view in views.items() if view}
+
+    def _bring_up(self, state: State) -> None:
+        """Put the state's panels where they stand, building each the first time it is on show."""
+        if state.display is not self._placed_from:  # a slider changes nothing here
+            self._placed_from, self.display = state.display, placed(state.display, tuple(PANELS))
+            if self.presentation.on:
+                self.display = replace(self.display, show_rail=False)
+            self._place_panels(self.display)
+        self.controls.setVisible(state.display.show_controls)
+        self.left.setVisible(state.display.show_controls or self.teaching.active)
+        self._style_left()
+        for name in self._visible():
+            self._style(name)
+
+    def _place_panels(self, display: Display) -> None:
+        apart = tuple(key for key in display.windows if key in PANELS)
+        homes = self._homes(display)
+        for key in {*homes, *apart} - set(self.panels):
+            self._build(key)
+        self.room.arrange(display)
+        elsewhere = display.stage, *display.rail
+        self.floating.follow(homes, apart, self.panels, lambda: self.tabs.bring_up(display.tab, elsewhere))
+
+    def _parts(self) -> tuple[QWidget, ...]:
+        """Return the parts of the window in the order in which the keyboard goes through them."""
+        satellites = self.room.satellites[: len(self.display.rail)]
+        return self.top, self.left, self.compare, self.play, self.room.stage, *satellites, self.tabs
+
+    def _present(self) -> None:
+        """Begin or end presenting: larger type on the stage, nothing beside it, only sliders in the controls."""
+        on = self.presentation.on
+        larger = replace(self._theme, scale=LARGER * self._theme.scale)
+        self.room.stage.setStyleSheet(stylesheet(larger) if on else "")
+        self.controls.make_slim(on)
+        self._placed_from = None
+        self.refresh(self.store.state)
+
+    def _homes(self, display: Display) -> dict[str, Home]:
+        """Return where the panels on show stand inside the window."""
+        homes = {display.stage: Home(self.room.stage, "stage")}
+        if display.show_rail:
+            self.room.make_satellites(len(display.rail))
+            rail = zip(display.rail, self.room.satellites, strict=False)  # those beyond are hidden
+            homes |= {key: Home(place, "rail") for key, place in rail}
+            homes[display.tab] = Home(self.tabs.pages()[display.tab], "tabs")
+        return homes
+
+    def _build(self, key: str) -> None:
+        self.panels[key] = made = build(PANELS[key], self.store)
+        made.widget.key = key
+        made.widget.apart_asked.connect(partial(self.floating.toggle, key))
+        made.widget.place_asked.connect(lambda place: self._move_to(place, key))
+        made.widget.theory_asked.connect(lambda: self.commands.theory(key))
+        if isinstance(made, FilmedPanel):
+            made.film.clicked.connect(self.play.ask_film_of_builds)
+
+    def _on_tab(self) -> None:
+        self.store.update(tab=self.tabs.current())
+
+    def _on_scheme(self) -> None:
+        if self.store.state.display.theme == "system":
+            self.refresh(self.store.state)
+
+    def _restyle(self, state: State) -> None:
+        theme = self._tokens(state)
+        if theme != self._theme:
+            self._theme = theme
+            self._apply_theme()
+
+    def _tokens(self, state: State) -> Tokens:
+        """Return the theme of a state, at its scale of type or at that which suits the screen."""
+        percent = state.display.scale_percent
+        scale = screen_scale(self.screen().size()) if percent is None else percent / 100
+        return tokens(state.display.theme, state.display.colours, scale)
+
+    def _apply_theme(self) -> None:
+        QApplication.setPalette(palette(self._theme))
+        self.setStyleSheet(stylesheet(self._theme))
+        self._style_left()
+        self.column.setContentsMargins(*(self._theme.px(side) for side in (SPACE, SPACE, SPACE, SPACE // 2)))
+        for layout in (self.column, self._middle, self._right):
+            layout.setSpacing(self._theme.px(SPACE))
+        for parts in (self.room, self.room.parts):
+            parts.rescale(self._theme.scale)
+        self.top.rescale(self._theme.scale)
+        self.top.tolerance.restyle(self._theme)
+        self.status.restyle(self._theme)
+
+    def _style(self, key: str) -> None:
+        """Give a panel the present theme, when it is first shown after a change."""
+        theme = self._theme
+        if self.presentation.on and key == self.display.stage:
+            theme = replace(theme, scale=LARGER * theme.scale)
+        if self._styled.get(key) != theme:
+            self._styled[key] = theme
+            self.panels[key].restyle(theme)
+            self.panels[key].widget.rescale(theme.scale)
+
+    def _style_left(self) -> None:
+        """Give the column at the left the present theme: larger while a lesson in it is presented."""
+        theme, larger = self._theme, self.presentation.on and self.teaching.active
+        if larger:
+            theme = replace(theme, scale=LARGER_LESSON * theme.scale)
+        if self._styled.get("left") == theme:
+            return
+        self._styled["left"] = theme
+        own = stylesheet(theme) if larger else ""
+        if self.left.styleSheet() != own:
+            self.left.setStyleSheet(own)
+        self.left.setFixedWidth(theme.px(WIDTH))
+        self.left_parts.rescale(theme.scale)
+        self.controls.restyle(theme)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Follow the window to another screen, whose type may be of another size."""
+        super().showEvent(event)
+        if handle := self.windowHandle():
+            handle.screenChanged.connect(self._on_screen, Qt.ConnectionType.UniqueConnection)
+
+    def _on_screen(self) -> None:
+        self.refresh(self.store.state)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """End the background work with the window."""
+        self.presentation.stop()
+        self.play.stop()
+        self.commands.stop()
+        self.top.tolerance.stop()
+        self.measuring.stop()
+        self.deferred.stop()
+        self.memory_trim.stop()
+        self.floating.stop()
+        for panel in self.panels.values():
+            if isinstance(panel, BackgroundPanel):
+                panel.stop()
+        super().closeEvent(event)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Accept a lens file, a saved state, a snapshot, or a link."""
+        if found := dropped(event.mimeData()):
+            event.acceptProposedAction()
+            self.drop_frame.show_for(found)
+
+    def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:
+        """Take back the frame."""
+        self.drop_frame.hide()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open what was dropped."""
+        event.acceptProposedAction()
+        self.drop_frame.hide()
+        found = dropped(event.mimeData())
+        if not found:
+            return
+        if "measured" in self._visible() and is_photo(found):
+            from p2sf_explorer.panels.measured import MeasuredPanel
+
+            self._panel("measured", MeasuredPanel).drop.take(Path(found))
+        elif "image" in self._visible() and is_photo(found):
+            from p2sf_explorer.panels.image.panel import ImagePanel
+
+            self._panel("image", ImagePanel).drop.take(Path(found))
+        elif is_link(found):
+            self.sharing.open(found)
+        else:
+            self.commands.open_path(found)
+
+
+def paint(panel: Panel, key: str, live: Live) -> None:
+    """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show."""
+    found = live.views.get(key)
+    if isinstance(found, Refused):
+        panel.widget.show_overlay(said(found.message))
+        return
+    panel.widget.show_state(live.state)
+    panel.show(live)
+    panel.widget.show_overlay("")
+    why = live.difference.why.get(key) if live.difference else None
+    note = why or unless_symmetric(live.setup.lens, PANELS[key].aligned)
+    panel.widget.show_side("A" if why else live.side, said(note) if note else "")

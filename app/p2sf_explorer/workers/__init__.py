@@ -1,1 +1,0 @@
-"""Work too slow for a frame: the latest-wins worker and the jobs that use it."""

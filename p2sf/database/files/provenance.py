@@ -1,0 +1,175 @@
+"""What a file says about its database: lens, glasses, method, units, conventions, versions."""
+
+import hashlib
+from dataclasses import dataclass, fields
+from functools import cached_property
+from math import inf
+from typing import Any
+
+import numpy as np
+
+from p2sf.arguments import checked
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.database.accuracy import DatabaseAccuracy, accuracy, accuracy_from
+from p2sf.database.render import Database, pixels_psf
+from p2sf.files.writing import plain
+from p2sf.glass.media import Medium
+from p2sf.glass.pages import data_version
+from p2sf.html import html_table
+from p2sf.io.record import position_of, versions
+from p2sf.lens.lens import Lens, with_aim
+from p2sf.lens.positions import alone
+from p2sf.lens.source import Source, check_one
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
+from p2sf.paraxial.pupils import Stop, find_stop
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.psf.result import Psf, warned
+from p2sf.pupil.mask import CLEAR, PupilMask
+
+COEFFICIENT_UNITS = {
+    "w40 w31 w22 w20 w11 wd errors": "waves",
+    "stored numbers": "mm of optical path at unit field slope",
+    "depths": "mm from the first vertex",
+    "field": "slope of the chief ray at the entrance pupil",
+    "wavelengths": "µm",
+}
+CONVENTIONS = (
+    "Welford's signs; W = (chief path − ray path)/λ; rows +y up the sensor, columns +x, sample N//2 is the chief ray, "
+    "unit sum; a positive field's chief ray lands at +y; W11 moves the image and is not rendered"
+)
+
+AZIMUTH = (
+    "the mask stands as a field lands at +y sees it; a field at another azimuth sees it turned the other way, and its "
+    "PSF is rendered so, not turned as a picture"
+)
+RECTANGLE = (
+    "field x and field y are the chief ray's slopes along x and y at the entrance pupil; numbers of fits stand in the "
+    "axes of the sensor, and the PSF of a source is turned so that its field points to +y"
+)
+MAPS = ("phase_map", "amplitude_map")
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """A database as a file holds it: the database, and ``meta``, the provenance stored with it."""
+
+    database: Any  # an ExactDatabase, GridDatabase or FittedDatabase: `method` and `interpolant` say which
+    meta: dict[str, Any]
+
+    @cached_property
+    def lens(self) -> Lens:
+        """Return the lens the database was built from; LensFileError or GlassError where it cannot be read."""
+        return with_aim(parse_toml(self.meta["lens"]["toml"], self.meta["lens"]["name"]), self.meta["aim"])
+
+    @cached_property
+    def accuracy(self) -> DatabaseAccuracy:
+        """Return the predicted 1 − R² of the PSFs against exact rays; where no file states it, from the lens."""
+        stated = self.meta.get("predicted_error")
+        return accuracy_from(stated, self.meta["method"]) if stated else accuracy(self.database, self.lens)
+
+    @checked
+    def coefficients(self, source: Source) -> Coefficients:
+        """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
+        check_one(source)
+        place = source.depth_mm, source.field_slope, source.wavelength_um
+        found: Coefficients = self.database.coefficients(*map(float, place))
+        return found
+
+    @checked
+    def psf(
+        self, source: Source, pixels: int = 64, pixel_um: float | None = None, *, integrated: bool | None = None
+    ) -> Psf:
+        """Return the PSF of one source, looked up and not traced.
+
+        Without ``pixel_um`` the samples, ``pixels`` along each side, are as far apart as shows the whole PSF;
+        ``integrated`` as `p2sf.render` has it. Raises
+        DatabaseError outside what is covered, GeometryError and SamplingError where there is no PSF to sample.
+        """
+        check_one(source)
+        return warned(pixels_psf(self.database, source, pixels, pixel_um, integrated), 4)
+
+    def __repr__(self) -> str:
+        nodes = " × ".join(map(str, self.meta["nodes"]))
+        kind, axes = f"{self.meta['method']}, {self.meta['interpolant']}", f"({axis_names(self.meta)})"
+        name = self.meta["lens"]["name"] + (f", {self.meta['position']}" if self.meta.get("position") else "")
+        return f"<PSF database of {name}: {kind}, {nodes} nodes {axes}, aim {self.meta['aim']}>"
+
+    def _repr_html_(self) -> str:
+        covers = [(name, low, inf if high is None else high) for name, (low, high) in self.meta["covers"].items()]
+        return html_table(repr(self), ("covers", "from", "to"), covers)
+
+
+def axis_names(meta: dict[str, Any]) -> str:
+    """Return what the nodes of a database are counted along."""
+    fields = "field y × field x" if "field_x_deg" in meta["covers"] else "field"
+    return f"depth × {fields} × wavelength"
+
+
+def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict[str, Any]:
+    """Return what a file says about a database of this lens, as plain JSON values."""
+    stop, toml, space = stop or find_stop(lens), lens_to_toml(alone(lens)), database.space
+    fields = {"field_deg": _ends_deg(space.field_slopes)}
+    if space.field_x_slopes is not None:
+        fields["field_x_deg"] = _ends_deg(space.field_x_slopes)
+    record: dict[str, Any] = plain(
+        {
+            "method": database.method,
+            "interpolant": database.interpolant,
+            "errors_waves": database.errors,
+            "predicted_error": accuracy(database, lens).record,
+            "lens": {
+                "name": lens.name,
+                "title": lens.title,
+                "source": lens.source,
+                "sha256_of_toml": hashlib.sha256(toml.encode()).hexdigest(),
+                "toml": toml,
+            },
+            "glasses": [{"glass": label, "data": source} for label, source in _glasses(lens)],
+            "stop": {"surface": int(stop.surface), "semi_diameter_mm": float(stop.semi_diameter)},
+            "sensor_mm": lens.sensor_mm,
+            **position_of(lens),
+            "aim": lens.aim,
+            **_masked(database.mask),
+            "covers": {
+                "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
+                **fields,
+                "wavelength_nm": [space.wavelengths_um[0] * NM_PER_UM, space.wavelengths_um[-1] * NM_PER_UM],
+            },
+            "nodes": space.shape,
+            "units": COEFFICIENT_UNITS,
+            "conventions": CONVENTIONS,
+            **({} if space.field_x_slopes is None else {"fields": RECTANGLE}),
+            "versions": versions(),
+        }
+    )
+    return record
+
+
+def _ends_deg(slopes: np.ndarray) -> list[float]:
+    return [float(degrees_from_slope(slopes[k])) for k in (0, -1)]
+
+
+def _masked(mask: PupilMask) -> dict[str, Any]:
+    """Return what a file says about the mask that its PSFs are rendered through, but for its maps: nothing if clear."""
+    if mask.clear:
+        return {}
+    stated = {f.name: getattr(mask, f.name) for f in fields(mask) if f.name not in MAPS}
+    return {
+        "mask": {name: value for name, value in stated.items() if value != getattr(CLEAR, name)},
+        **({} if mask.round else {"azimuth": AZIMUTH}),
+    }
+
+
+def _glasses(lens: Lens) -> dict[tuple[str, str], None]:
+    """Return (name, source of its data) of every medium once, in the order of the light path."""
+    return dict.fromkeys((medium.label, data_source(medium)) for medium in lens.media)
+
+
+def data_source(medium: Medium) -> str:
+    """Return where the index of a medium comes from, in a few words."""
+    entry = getattr(medium, "entry", None)
+    if entry is not None:
+        return f"{data_version()}, {entry.label}"
+    return {"ConstantIndex": "stated index", "TabulatedIndex": "stated table", "ModelGlass": "model of nd and vd"}.get(
+        type(medium).__name__, type(medium).__name__
+    )

@@ -1,0 +1,141 @@
+"""All PSFs of a file at its nodes, stored or rendered on opening."""
+
+import os
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from p2sf.arguments import checked
+from p2sf.conventions import NM_PER_UM, degrees_from_slope
+from p2sf.database.files import Stored, load_database
+from p2sf.database.files.place import is_stack
+from p2sf.database.files.stack import open_stack, read_psfs
+from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
+from p2sf.database.space import Space
+from p2sf.errors import DatabaseError
+
+MOST_BYTES = 1 << 31
+DEFAULT = Sampling()
+
+
+class PsfArray(Protocol):
+    """PSFs (depth, field, wavelength, y, x) float32, their pitch, and the values along the first three axes."""
+
+    @property
+    def values(self) -> np.ndarray:
+        """The PSFs."""
+
+    @property
+    def pixel_um(self) -> float:
+        """The distance between samples, µm."""
+
+    @property
+    def depths_mm(self) -> np.ndarray:
+        """The depths, mm."""
+
+    @property
+    def fields_deg(self) -> np.ndarray:
+        """The field angles, degrees."""
+
+    @property
+    def wavelengths_nm(self) -> np.ndarray:
+        """The wavelengths, nm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cube:
+    """PSFs (depth, field, wavelength, y, x), float32, unit sum, and the database they belong to.
+
+    ``integrated``: whether a sample is the light of a whole pixel and not the intensity at its place.
+    """
+
+    values: np.ndarray
+    pixel_um: float
+    stored: Stored
+    integrated: bool = False
+
+    @property
+    def depths_mm(self) -> np.ndarray:
+        """Return the depth of each PSF along the first axis, mm."""
+        return self._space.depths_mm
+
+    @property
+    def fields_deg(self) -> np.ndarray:
+        """Return the field angle along the second axis, degrees."""
+        return degrees_from_slope(self._space.field_slopes)
+
+    @property
+    def wavelengths_nm(self) -> np.ndarray:
+        """Return the wavelength along the third axis, nm."""
+        return self._space.wavelengths_um * NM_PER_UM
+
+    @property
+    def _space(self) -> Space:
+        space: Space = self.stored.database.space
+        return space
+
+
+@checked
+def open_database(path: str | os.PathLike[str]) -> Stored:
+    """Open a PSF database: a .npz file or a stack written by `build_database` or ``p2sf database build``.
+
+    Parameters
+    ----------
+    path : str or path
+        The file, or the folder of a stack (.zarr).
+
+    Returns
+    -------
+    Stored
+        ``.psf(source)`` and ``.coefficients(source)`` look up a source; ``.meta`` says where the numbers come from.
+
+    Raises
+    ------
+    DatabaseError
+        If the file is missing, damaged, cut short, of another kind or of a newer version.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.open_database("dg.npz").psf(p2sf.Source(field_deg=7))  # doctest: +SKIP
+    """
+    return open_stack(path).stored if is_stack(path) else load_database(path)
+
+
+def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cube:
+    """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack read unchanged. Raises DatabaseError."""
+    if is_stack(path):
+        stack = open_stack(path)
+        check_line(stack.stored)
+        _check_size(path, stack.psf.shape)
+        return Cube(read_psfs(stack, ...), stack.pixel_um, stack.stored, stack.integrated)
+    stored = load_database(path)
+    check_line(stored)
+    pitch = sampling.pixel_um or critical_pixel_um(stored.database)
+    space = stored.database.space
+    _check_size(path, (*space.shape, sampling.pixels, sampling.pixels))
+    sampling = replace(sampling, pixel_um=pitch)
+    values = rendered_light(stored.database, space.axes, sampling)
+    return Cube(values, pitch, stored, samples_per_pixel(stored.database, sampling) > 1)
+
+
+def check_line(stored: Stored) -> None:
+    """Raise DatabaseError for fields that fill a rectangle, in files that have one axis for them."""
+    if stored.database.space.field_x_slopes is not None:
+        raise DatabaseError(
+            "the database of {lens} has fields along x and along y, and this format one axis of fields; write a stack",
+            lens=stored.meta["lens"]["name"],
+        )
+
+
+def _check_size(path: str | os.PathLike[str], shape: tuple[int, ...]) -> None:
+    """Raise DatabaseError for more PSFs than one file of these kinds, or the memory, can hold."""
+    size = 4 * float(np.prod(shape))
+    if size > MOST_BYTES:
+        raise DatabaseError(
+            "{path} holds {size:.1f} GiB of PSFs, more than the 2 GiB one exported file may have; "
+            "use the Zarr stack itself, or build with fewer nodes or pixels",
+            path=str(path),
+            size=size / (1 << 30),
+        )

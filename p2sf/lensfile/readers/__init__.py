@@ -1,1 +1,0 @@
-"""Readers of other programs' lens files, one a format; `lensfile.importing` chooses by content."""

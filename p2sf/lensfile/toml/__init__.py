@@ -1,0 +1,1 @@
+"""Lenses as TOML, read and written: surfaces, placements, masks, and tables in columns."""

@@ -1,0 +1,360 @@
+"""The plan: the least model of a lens that keeps a scene's error, each decision with its reason (handbook 10.2)."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from math import hypot, inf
+from os import PathLike
+
+import numpy as np
+
+from p2sf.arguments import checked
+from p2sf.lens.lens import Lens
+from p2sf.messages import Message
+from p2sf.paraxial.seidel import without_coefficients
+from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
+from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.psf.methods import by_six
+from p2sf.scene.field_area import Point
+from p2sf.scene.files import read_scene
+from p2sf.scene.planning.bounds import check_blur, check_colours
+from p2sf.scene.planning.cost import Cost, predicted_cost
+from p2sf.scene.planning.field_points import scene_maps
+from p2sf.scene.planning.nodes import (
+    DEPTH_COUNTS,
+    NODE_COUNTS,
+    between_depth_nodes,
+    between_field_nodes,
+    depth_places,
+    field_counts,
+    field_places,
+    worst_errors,
+)
+from p2sf.scene.planning.pricing import mirrored, naive_work, plan_work
+from p2sf.scene.planning.sharing import seidel_table, share_pupils
+from p2sf.scene.planning.study import (
+    FINE_SAMPLING,
+    SAMPLINGS,
+    Place,
+    Study,
+    Tries,
+    distance,
+    first_allowed,
+    from_phase,
+    weighted,
+)
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.spectrum import reduced
+from p2sf.threads import one_blas_thread
+
+# The share of the tolerance that each kind of decision may use. The errors are nearly independent, so squares add.
+SHARES = {"method": 0.46, "sampling": 0.23, "field": 0.46, "depth": 0.5, "colour": 0.32, "pupils": 0.14}
+FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and what it leaves of a kernel at most: measured
+SHARPER = 1.1  # kernels between those seen may be so much sharper
+SAFETY = 1.3  # for places between those where an error was measured
+TOGETHER = 1.2  # times the root sum, where field and depth both defocus: 99 % of 480 scenes kept to this
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What was decided, the choice, why in a sentence, and the relative error it costs; ``kind`` is a key of SHARES."""
+
+    what: Message
+    choice: Message
+    why: Message
+    error: float
+    kind: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Everything that kernels of a scene are made of.
+
+    ``recipe``: how each kernel is made; ``colours``: one per channel; ``counts``: kernel nodes along rows and columns;
+    ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared errors of
+    the decisions, times TOGETHER. ``naive``: what the full grid would cost (`pricing.naive_work`).
+    ``norm``: the largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance.
+    ``table``: the pupils that all others are interpolated from; None where each is fitted.
+    """
+
+    lens: Lens
+    scene: Scene
+    reference_um: float
+    recipe: Recipe
+    colours: tuple[Colour, ...]
+    counts: tuple[int, int]
+    vergences: tuple[float, ...]
+    decisions: tuple[Decision, ...]
+    predicted_error: float
+    cost: Cost
+    naive: Cost
+    table: PupilTable | None = None
+    norm: float = 1.0
+
+    def __repr__(self) -> str:
+        sensor, allowed = self.scene.sensor, self.allowed_error
+        picture = f"{sensor.rows} × {sensor.columns} pixels, {len(self.colours)} channels"
+        return (
+            f"<Plan {self.lens.name}: {picture}, predicted error {self.predicted_error:.2g} of {allowed:.2g} allowed>"
+        )
+
+    @property
+    def meets(self) -> bool:
+        """Return whether the predicted error stays within the tolerance."""
+        return self.predicted_error <= self.allowed_error
+
+    @property
+    def allowed_error(self) -> float:
+        """Return the tolerance as relative error of these kernels."""
+        return self.scene.relative_error(self.norm)
+
+    @property
+    def mirrored(self) -> bool:
+        """Return whether the quarters of the picture are mirror images of each other."""
+        return mirrored(self.lens, self.scene)
+
+    def kernels(self, channel: int, vergence: float) -> Kernels:
+        """Return the kernels of one channel at one depth."""
+        seen, colour = self.sensor_map(vergence), self.colours[channel]
+        return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe, self.table)
+
+    def sensor_map(self, vergence: float) -> SensorMap:
+        """Return where the points of one depth land."""
+        return _sensor_map(self.lens, self.scene, vergence, self.reference_um)
+
+
+@lru_cache(maxsize=32)
+def _sensor_map(lens: Lens, scene: Scene, vergence: float, wavelength_um: float) -> SensorMap:
+    return scene_maps(lens, scene, [vergence], wavelength_um)[0]
+
+
+@one_blas_thread
+@checked
+def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], None] | None = None) -> Plan:
+    """Find the cheapest model of a lens that stays within the tolerance of a scene.
+
+    Each decision takes the first entry of its list, cheapest first, that keeps its share; where none does, the last.
+
+    Parameters
+    ----------
+    lens : Lens
+        The lens, see `load_lens`.
+    scene : Scene or path
+        Sensor, depths, colours and tolerance, or a TOML file that states them (``p2sf plan --help``).
+    check : callable, optional
+        Called repeatedly during the work; an exception that it raises stops the work.
+
+    Returns
+    -------
+    Plan
+        The plan, for `form_image`. ``.decisions`` says what was decided and why, ``.predicted_error`` is the relative
+        error, and ``.meets`` says whether it is within the tolerance.
+
+    Raises
+    ------
+    RequestError
+        If the scene is invalid.
+    GeometryError, GlassError
+        If the lens cannot form the image of the scene.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
+    True
+    """
+    scene = scene if isinstance(scene, Scene) else read_scene(scene)
+    camera = scene.camera(lens)
+    check_colours(camera, scene)
+    study = Study(camera, scene, check or (lambda: None))
+    check_blur(study)
+    share_pupils(study)
+    norm = _norm(study)
+    budget = scene.relative_error(norm)
+    sampling, sampled = _sampling(study, budget)
+    recipe, method = _method(study, budget, SAMPLINGS[sampling])
+    counts, field = _field(study, budget)
+    vergences, depth = _depths(study, budget)
+    colours, colour = _colours(study, budget)
+    table = study.table
+    if table and by_six(recipe.method):
+        table = seidel_table(study, table)
+    decisions = (method, sampled, field, depth, *colour, _pupils(study))
+    errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
+    error = TOGETHER * hypot(*errors)
+    cost = predicted_cost(plan_work(study, recipe, colours, counts, len(vergences)))
+    naive = predicted_cost(naive_work(study, recipe, counts, len(vergences)))
+    return Plan(
+        camera,
+        scene,
+        study.reference_um,
+        recipe,
+        colours,
+        counts,
+        vergences,
+        decisions,
+        error,
+        cost,
+        naive,
+        table,
+        norm,
+    )
+
+
+def _norm(study: Study) -> float:
+    """Return the largest root sum of squares of the kernels, where the tolerance depends on it; it is 1 at most."""
+    if study.scene.measure not in ("mtf", "psnr"):
+        return 1.0
+    kernels = study.kernels([place for wave in study.waves_um for place in study.places(wave)])
+    return min(1.0, SHARPER * max(float(np.linalg.norm(kernel)) for kernel in kernels))
+
+
+def _first(
+    count: int, measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, together: int = 4
+) -> tuple[int, float]:
+    """Return `first_allowed` with SAFETY."""
+    number, error = first_allowed(count, measure, places, allowed / SAFETY, together)
+    return number, SAFETY * error
+
+
+def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
+    """Return the cheapest description of a pupil: six Seidel coefficients, else the fewest fitted numbers."""
+    allowed, places = SHARES["method"] * budget, study.places(study.waves_um[0])
+    error = SAFETY * _seidel_error(study, places[:1])
+    if error <= allowed:
+        error = SAFETY * _seidel_error(study, places)
+    what = Message("method")
+    if error <= allowed:
+        why = Message("the six Seidel coefficients keep the pixels' error here")
+        return Recipe("seidel", None, *sampling), Decision(
+            what, Message("{method}", method="seidel"), why, error, "method"
+        )
+    sizes = [level for level in study.levels if level.numbers < study.level.numbers]
+    held = (level for level in sizes if SAFETY * from_phase(study.residual(level)) <= allowed)
+    level = next(held, study.level)
+    error = SAFETY * from_phase(study.residual(level))
+    why = Message(
+        "{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not", numbers=level.numbers
+    )
+    choice = Message("{method}", method="fitted")
+    return Recipe("fitted", level.numbers, *sampling), Decision(what, choice, why, error, "method")
+
+
+def _seidel_error(study: Study, places: Sequence[Place]) -> float:
+    """Return the worst error of kernels by Seidel coefficients; infinite where they do not describe the lens."""
+    if study.lens.misaligned or without_coefficients(study.lens):
+        return inf
+    pupils = [study.pupil_at(place) for place in places]
+    made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)
+    return max(map(distance, made, study.kernels(places, FINE_SAMPLING)))
+
+
+def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Decision]]:
+    """Return the wavelengths of every channel, and the decisions."""
+    colours, decisions = [], []
+    axis, _, corner = study.sharpest(study.reference_um)
+    places = [(study.area.far, v) for v in dict.fromkeys((corner, *study.ends))] + [(study.area.near, axis)]
+    for channel in study.scene.channels:
+        every = len(channel.wavelengths_nm)
+        number, error = _first(
+            every, partial(_colour_errors, study, channel, places), len(places), SHARES["colour"] * budget
+        )
+        colours.append(reduced(channel, number + 1))
+        choice = Message("{waves:.0f} nm", waves=tuple(1000 * w for w in colours[-1].wavelengths_um))
+        why = Message(
+            "{count} of {all} wavelengths keep the channel's lateral and axial colour", count=number + 1, all=every
+        )
+        what = Message("colour {channel}", channel=channel.label)
+        decisions.append(Decision(what, choice, why, error, "colour"))
+    return tuple(colours), decisions
+
+
+def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point, float]], tries: Tries) -> list[float]:
+    """Return the errors of fewer wavelengths, one more than each try's number, against all, at (point, vergence)."""
+    every = reduced(channel, len(channel.wavelengths_nm))
+    pairs = [(reduced(channel, number + 1), partial(study.place, *places[k])) for number, k in tries]
+    asked = [place(wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um]
+    kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one hides the change
+
+    def mixed(colour: Colour, place: Callable[[float], Place]) -> np.ndarray:
+        return weighted([kernels[place(wave)] for wave in colour.wavelengths_um], colour.weights)
+
+    return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
+
+
+def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
+    """Return the coarsest entry of SAMPLINGS that keeps its share, and the decision."""
+    red, blue = (study.places(wave) for wave in (study.waves_um[-1], study.waves_um[0]))
+    places = list(dict.fromkeys((red[-1], red[0], *blue)))
+
+    def errors(tries: Tries) -> list[float]:
+        finest = [FINE_ENOUGH if number < FINE_ENOUGH else len(SAMPLINGS) - 1 for number, _ in tries]
+        asked = [(number, k) for number, k in (*tries, *zip(finest, (k for _, k in tries), strict=True))]
+        kernels: dict[tuple[int, Place], np.ndarray] = {}
+        for number in {number for number, _ in asked}:
+            here = [places[k] for n, k in asked if n == number]
+            made = study.kernels(here, SAMPLINGS[number])
+            kernels.update(zip(((number, place) for place in here), made, strict=True))
+        left = {FINE_ENOUGH: FINE_ENOUGH_ERROR}  # by the finer kernels themselves
+        return [
+            hypot(distance(kernels[number, places[k]], kernels[finer, places[k]]), left.get(finer, 0.0))
+            for (number, k), finer in zip(tries, finest, strict=True)
+        ]
+
+    number, worst = _first(len(SAMPLINGS), errors, len(places), SHARES["sampling"] * budget, together=1)
+    fineness, margin = SAMPLINGS[number]
+    why = Message(
+        "pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}",
+        pixel=study.scene.sensor.pixel_um,
+        margin=margin,
+    )
+    choice = Message("λ/2NA/{fineness:g}", fineness=fineness)
+    return number, Decision(Message("sampling"), choice, why, worst, "sampling")
+
+
+def _field(study: Study, budget: float) -> tuple[tuple[int, int], Decision]:
+    places = field_places(study)
+
+    def errors(tries: Tries) -> list[float]:
+        return worst_errors(study, [between_field_nodes(study, n, places[k]) for n, k in tries])
+
+    number, error = _first(len(NODE_COUNTS), errors, len(places), SHARES["field"] * budget)
+    counts = field_counts(study, number)
+    why = Message("kernels in the middle of a cell are then the mean of its corners")
+    choice = Message("{rows} × {columns} nodes", rows=counts[0], columns=counts[1])
+    return counts, Decision(Message("field"), choice, why, error, "field")
+
+
+def _depths(study: Study, budget: float) -> tuple[tuple[float, ...], Decision]:
+    scene, places = study.scene, depth_places(study)
+    if scene.near_mm == scene.far_mm:
+        vergence = float(scene.vergences(1)[0])
+        why = Message("the scene has one depth")
+        return (vergence,), Decision(Message("depth"), Message("1 node"), why, 0.0, "depth")
+
+    def errors(tries: Tries) -> list[float]:
+        return worst_errors(study, [between_depth_nodes(study, n, places[k]) for n, k in tries])
+
+    number, error = _first(len(DEPTH_COUNTS), errors, len(places), SHARES["depth"] * budget)
+    nodes = scene.vergences(DEPTH_COUNTS[number])
+    why = Message("defocus grows with 1/distance, so nodes stand at equal steps of it")
+    choice = Message("{count} nodes", count=len(nodes)) if len(nodes) > 1 else Message("1 node")
+    return tuple(nodes.tolist()), Decision(Message("depth"), choice, why, error, "depth")
+
+
+def _pupils(study: Study) -> Decision:
+    """Return the decision on how many pupils are fitted."""
+    what = Message("pupils")
+    if study.table is None:
+        return Decision(
+            what, Message("all"), Message("interpolation between a few of them does not give the others"), 0.0, "pupils"
+        )
+    x, y, depths, waves = map(len, study.table.axes)
+    why = Message(
+        "places × depths × wavelengths: {places} × {depths} × {waves}; all others lie on polynomials through them",
+        places=x * y,
+        depths=depths,
+        waves=waves,
+    )
+    return Decision(what, Message("{count} fits", count=study.table.fits), why, study.table_error, "pupils")

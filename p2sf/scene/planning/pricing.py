@@ -1,0 +1,64 @@
+"""How much a plan computes, and how much the full grid without a plan would."""
+
+from collections.abc import Sequence
+from math import ceil, prod
+
+import numpy as np
+
+from p2sf.lens.lens import Lens
+from p2sf.pixel_kernels import Colour, Recipe
+from p2sf.scene.planning.bounds import transforms
+from p2sf.scene.planning.cost import ALONE_SECONDS, TOGETHER_SECONDS, Work, pupil_seconds
+from p2sf.scene.planning.study import PupilAt, Study
+from p2sf.scene.scene import Scene
+
+NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), and half a window against aliasing
+
+
+def mirrored(lens: Lens, scene: Scene) -> bool:
+    """Return whether one quarter of a scene's kernels gives the others, as mirror images."""
+    return scene.sensor.centred and lens.mask.quartered and not lens.misaligned
+
+
+def computed_counts(counts: tuple[int, int], mirrored: bool) -> tuple[int, int]:
+    """Return how many of the kernel nodes along rows and columns are computed; where ``mirrored``, a quarter of all."""
+    rows, columns = counts
+    return (ceil(rows / 2), ceil(columns / 2)) if mirrored else counts
+
+
+def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:
+    """Return the plan's work; its pupils were fitted while planning, unless each is fitted by itself."""
+    sensor, waves = study.scene.sensor, sum(len(colour.wavelengths_um) for colour in colours)
+    nodes = prod(computed_counts(counts, mirrored(study.lens, study.scene)))
+    halves, sides = _widths(study, recipe)
+    kernels, side = nodes * layers * waves, float(np.sqrt(np.mean(np.square(sides))))
+    fits = 0.0 if study.table else kernels * pupil_seconds(recipe.method, recipe.numbers or 6)
+    picture = sensor.rows, sensor.columns, len(colours), counts, layers
+    return Work(kernels, side, TOGETHER_SECONDS, fits, int(halves.max()), *picture)
+
+
+def naive_work(study: Study, recipe: Recipe, counts: tuple[int, int], layers: int) -> Work:
+    """Return the work of the full grid, which without a plan would have to be computed for the same error.
+
+    One method everywhere, the cheapest that holds at the worst place, its own rays for every PSF; depth × rows ×
+    columns × every wavelength, everywhere as dense as the worst place needs; every fringe; one window, that of the
+    widest blur; no use of symmetry.
+    """
+    scene, recipe = study.scene, naive_recipe(recipe)
+    halves, sides = _widths(study, recipe)
+    kernels = counts[0] * counts[1] * layers * sum(len(channel.wavelengths_nm) for channel in scene.channels)
+    cost = kernels * pupil_seconds(recipe.method, recipe.numbers or 6)
+    picture = scene.sensor.rows, scene.sensor.columns, len(scene.channels), counts, layers
+    return Work(kernels, float(sides.max()), ALONE_SECONDS, cost, int(halves.max()), *picture)
+
+
+def naive_recipe(recipe: Recipe) -> Recipe:
+    """Return the recipe of the full grid: the plan's method, every fringe."""
+    return Recipe(recipe.method, recipe.numbers, NAIVE_FINENESS, NAIVE_MARGIN)
+
+
+def _widths(study: Study, recipe: Recipe) -> tuple[np.ndarray, np.ndarray]:
+    """Return half widths (pixels) and transform sides (samples) in the corner, at the ends and the sharpest depths."""
+    depths = dict.fromkeys((*study.ends, *study.sharpest(study.reference_um)))
+    pupils = study.lights([PupilAt(*study.area.far, v, study.reference_um) for v in depths])
+    return transforms(*pupils, study.scene.sensor.pixel_um, (recipe.fineness, recipe.margin))

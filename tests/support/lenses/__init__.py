@@ -1,0 +1,1 @@
+"""Lenses for tests: simple, random, shaped, misaligned, zooms, and lens files."""

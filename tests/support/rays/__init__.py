@@ -1,0 +1,1 @@
+"""Rays traced otherwise than by the program, to compare with."""

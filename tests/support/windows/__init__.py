@@ -1,0 +1,1 @@
+"""Windows in tests: events, waiting, random hands, screen readers."""
