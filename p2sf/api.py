@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import checked
+from p2sf.arguments import check_arguments
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, set_up_source, with_camera
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -32,7 +32,7 @@ PupilMethod = Literal["auto", "seidel", "fitted", "traced", "huygens"]
 ON_AXIS = Source()
 
 
-@checked
+@check_arguments
 def load_lens(name_or_path: Path) -> Lens:
     """Load a shipped lens or a lens file.
 
@@ -64,7 +64,7 @@ def load_lens(name_or_path: Path) -> Lens:
     return find_lens(name_or_path)
 
 
-@checked
+@check_arguments
 @with_camera
 def render(
     lens: Lens,
@@ -140,17 +140,17 @@ def render(
     'fitted'
     """
     from p2sf.psf.pixel_integrals import render_integrated
-    from p2sf.psf.result import warned
+    from p2sf.psf.result import warn_of_window
 
     setup = set_up_source(lens, source, camera)
     with using_threads(threads):
         psf = render_integrated(
             setup.lens, setup.source, method, pixels, pixel_um, tolerance, quality, clip, integrated
         )
-    return warned(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 5)
+    return warn_of_window(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 5)
 
 
-@checked
+@check_arguments
 @with_camera
 def coefficients(
     lens: Lens,
@@ -188,7 +188,7 @@ def coefficients(
     return seidel.coefficients(setup.lens, *place, setup.stop)
 
 
-@checked
+@check_arguments
 @with_camera
 def zernike(
     lens: Lens,
@@ -237,7 +237,7 @@ def zernike(
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
-@checked
+@check_arguments
 @with_camera
 def choose_method(
     lens: Lens,
@@ -274,7 +274,7 @@ def choose_method(
     return choose(setup.lens, source, tolerance, clip)
 
 
-@checked
+@check_arguments
 @with_camera
 def mtf(
     lens: Lens,
@@ -338,7 +338,7 @@ def mtf(
     return mtf_of(parts, used, frequency_per_mm, turn_deg=turn_deg)
 
 
-@checked
+@check_arguments
 @with_camera
 def encircled_energy(
     lens: Lens,
@@ -379,7 +379,7 @@ def encircled_energy(
     return energy_in(parts, used, radius_um)
 
 
-@checked
+@check_arguments
 @with_camera
 def line_spread(
     lens: Lens,

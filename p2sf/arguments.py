@@ -35,17 +35,17 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 Kinds = tuple[type, ...]
 
 
-def checked(function: Function) -> Function:
+def check_arguments(function: Function) -> Function:
     """Return a function that takes its arguments as `argument` has them."""
     kinds = {name: each.annotation for name, each in signature(function).parameters.items()}
 
     @wraps(function)
-    def called(*args: Any, **kwargs: Any) -> Any:
+    def call(*args: Any, **kwargs: Any) -> Any:
         given = [argument(name, value, kinds[name]) for name, value in zip(kinds, args, strict=False)]
         named = {name: argument(name, value, kinds.get(name, Any)) for name, value in kwargs.items()}
         return function(*given, *args[len(kinds) :], **named)
 
-    return cast("Function", called)
+    return cast("Function", call)
 
 
 def check_fields(instance: Any) -> None:
@@ -84,12 +84,12 @@ def argument(name: str, value: Any, annotation: Any) -> Any:
             "{parameter} is {value}; give {wanted}",
             parameter=name,
             value=f"{value!r:.60}",
-            wanted=Alternatives(dict.fromkeys(_wanted(kind) for kind in kinds if kind is not NoneType)),
+            wanted=Alternatives(dict.fromkeys(_kind_words(kind) for kind in kinds if kind is not NoneType)),
         )
     return value
 
 
-def _wanted(kind: type) -> str:
+def _kind_words(kind: type) -> str:
     return WANTED.get(kind.__name__, f"a p2sf.{kind.__name__}")
 
 

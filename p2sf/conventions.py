@@ -75,7 +75,7 @@ def is_number(value: ArrayLike) -> bool:
     return isinstance(value, float | int) or np.ndim(value) == 0
 
 
-def protected(values: np.ndarray) -> np.ndarray:
+def write_protect(values: np.ndarray) -> np.ndarray:
     """Return the array, write-protected, since a cache hands out the same one to everybody."""
     values.setflags(write=False)
     return values

@@ -12,7 +12,7 @@ from string import Formatter
 from typing import Any
 
 
-def unchanged(text: str) -> str:
+def identity(text: str) -> str:
     """Return a text as it is."""
     return text
 
@@ -42,9 +42,9 @@ class Style:
     ``number`` takes a number as Python writes it, such as "-0.5" or "inf".
     """
 
-    translate: Callable[[str], str] = unchanged
-    parameter: Callable[[str], str] = unchanged
-    number: Callable[[str], str] = unchanged
+    translate: Callable[[str], str] = identity
+    parameter: Callable[[str], str] = identity
+    number: Callable[[str], str] = identity
 
 
 PLAIN = Style()

@@ -18,7 +18,7 @@ from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.quantities import OF_THE_SOURCE, Quantity
 from p2sf_explorer.compute.setup import default_state, prescription, ranges
 from p2sf_explorer.state.link import is_link, link, state_of_link
-from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.state.state import State, change, entry
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -78,11 +78,11 @@ class LensWidget:
             slider = ipywidgets.FloatSlider(
                 min=0, max=1, step=1 / STEPS, readout=False, description=quantity.title, continuous_update=False
             )
-            slider.observe(lambda change, quantity=quantity: self._moved(quantity, change["new"]), "value")
+            slider.observe(lambda change, quantity=quantity: self._on_moved(quantity, change["new"]), "value")
             self.sliders[quantity.key] = slider
         rows = [ipywidgets.HBox([self.sliders[key], self._numbers[key]]) for key in self.sliders]
         self._link = ipywidgets.Text(description="Link", continuous_update=False)
-        self._link.observe(lambda change: self._pasted(change["new"]), "value")
+        self._link.observe(lambda change: self._on_pasted(change["new"]), "value")
         self._said = ipywidgets.HTML()
         self._picture = ipywidgets.Image(format="png")
         self.box = ipywidgets.HBox([ipywidgets.VBox([*rows, self._link, self._said]), self._picture])
@@ -95,7 +95,7 @@ class LensWidget:
 
     def set(self, **values: Any) -> None:
         """Set entries of the state, such as ``field_deg=7, f_number=None``; P2SFError for what cannot be."""
-        self.show(changed(self.state, **values))
+        self.show(change(self.state, **values))
 
     def show(self, state: State) -> None:
         """Show a state; P2SFError where there is no picture, and then what was shown stays."""
@@ -116,12 +116,12 @@ class LensWidget:
         self._link.value = self.link
         self._following = False
 
-    def _moved(self, quantity: Quantity, travel: float) -> None:
+    def _on_moved(self, quantity: Quantity, travel: float) -> None:
         if not self._following:
             within = ranges(prescription(self.state))
             self._try(lambda: self.set(**{quantity.key: quantity.scale(within).value(travel)}))
 
-    def _pasted(self, text: str) -> None:
+    def _on_pasted(self, text: str) -> None:
         if not self._following:
             self._try(lambda: self.show(state_of_link(text)))
 

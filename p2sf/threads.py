@@ -74,7 +74,7 @@ def _usable_cores() -> int:
     return os.cpu_count() or 1
 
 
-def mapped(function: Callable[[Item], Result], items: Iterable[Item], threads: int | None = None) -> list[Result]:
+def map_threads(function: Callable[[Item], Result], items: Iterable[Item], threads: int | None = None) -> list[Result]:
     """Return ``function(item)`` of every item, in order, computed by so many threads (`threads_or_default`).
 
     Raises what ``function`` raises for the first item that fails, once the items under way are done.

@@ -94,5 +94,5 @@ def glasses_of_version_0_1(monkeypatch):
 
 
 def _forget_glasses() -> None:
-    for cached in (catalogue_glass, setup._load, setup._edited):
+    for cached in (catalogue_glass, setup._load, setup._read_edited):
         cached.cache_clear()

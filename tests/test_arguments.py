@@ -10,7 +10,7 @@ import p2sf
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.psf.seidel import LARGEST_SIDE
-from p2sf_explorer.state.state import FIRST, changed
+from p2sf_explorer.state.state import FIRST, change
 
 LENS = p2sf.load_lens("achromat_f6")
 OPENED = Aperture("stop_semi_diameter", 5.0)
@@ -201,5 +201,5 @@ def test_codes_of_srgb_are_no_linear_light(planned, kind):
 
 def test_an_unknown_entry_of_the_state_is_named():
     with pytest.raises(p2sf.P2SFError) as raised:
-        changed(FIRST, fild_deg=5)
+        change(FIRST, fild_deg=5)
     assert raised.value.message.values["name"] == "fild_deg" and "field_deg" in raised.value.message.values["names"]

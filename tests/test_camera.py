@@ -22,7 +22,7 @@ from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import request_setup, with_lens
 from p2sf_explorer.state.limits import RANGES, SLIDERS
 from p2sf_explorer.state.link import link, state_of_link
-from p2sf_explorer.state.state import Optics, State, changed, entry, new_state
+from p2sf_explorer.state.state import Optics, State, change, entry, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_dict, state_to_json
 from tests.support.lenses.zooms import focusing_zoom
 
@@ -135,8 +135,8 @@ def test_every_number_means_the_same_everywhere(name):
     by_request = set_up(lens, Request(**vars(camera), depth_mm=5000, field_deg=1))
     assert setup == by_request and setup.lens != set_up_source(lens, source, Camera(**asked)).lens
     if name not in NOT_IN_WINDOW and lens is LENS:
-        state = changed(with_lens(State(), "achromat_f6"), depth_mm=5000.0, field_deg=1.0, **vars_of(camera))
-        found = request_setup(changed(state, wavelength_nm=source.wavelength_um * 1000))
+        state = change(with_lens(State(), "achromat_f6"), depth_mm=5000.0, field_deg=1.0, **vars_of(camera))
+        found = request_setup(change(state, wavelength_nm=source.wavelength_um * 1000))
         assert found.lens == setup.lens and found.stop == setup.stop
 
 

@@ -15,9 +15,9 @@ from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limi
 import p2sf
 from p2sf import threads
 from p2sf.database import Space, build_database
-from p2sf.database.render import Sampling, rendered
+from p2sf.database.render import Sampling, render_source
 from p2sf.errors import Cancelled, RequestError
-from p2sf.threads import AHEAD, for_each, mapped, one_blas_thread, threads_or_default, using_threads
+from p2sf.threads import AHEAD, for_each, map_threads, one_blas_thread, threads_or_default, using_threads
 
 PATIENCE = 30  # seconds until a test that hangs fails
 
@@ -63,7 +63,7 @@ def test_a_process_bound_to_one_core_uses_one_thread():
 @pytest.mark.parametrize("number", [0, -1, True, 1.5, "2"])
 def test_a_number_that_is_none_is_refused(number):
     with pytest.raises(RequestError, match=f"threads is {number}; give a whole number of 1 or more"):
-        mapped(str, [1, 2], threads=number)
+        map_threads(str, [1, 2], threads=number)
 
 
 @pytest.mark.parametrize("text", ["0", "-2", "two", "1.5"])
@@ -78,7 +78,7 @@ def test_a_number_holds_within_for_all_that_is_given_none(monkeypatch):
     with using_threads(3):
         assert (threads_or_default(), threads_or_default(5)) == (3, 5)
         with using_threads(None):
-            assert mapped(lambda _: threads_or_default(), range(2), 2) == [3, 3]
+            assert map_threads(lambda _: threads_or_default(), range(2), 2) == [3, 3]
         with pytest.raises(RequestError, match="threads is 0"), using_threads(0):
             pass
         assert threads_or_default() == 3
@@ -95,18 +95,18 @@ def test_results_come_in_the_order_of_the_items_whatever_ends_first(count):
         last.set()
         return item * item
 
-    assert mapped(late, range(20), count) == [k * k for k in range(20)]
+    assert map_threads(late, range(20), count) == [k * k for k in range(20)]
 
 
 def test_threads_work_at_the_same_time():
     both = Barrier(2, timeout=PATIENCE)
-    names = mapped(lambda _: (both.wait(), current_thread().name)[1], range(2), 2)
+    names = map_threads(lambda _: (both.wait(), current_thread().name)[1], range(2), 2)
     assert len(set(names)) == 2
 
 
 @pytest.mark.parametrize("items, count", [([], 2), ([1], 2), ([1, 2], 1)])
 def test_nothing_to_share_stays_in_the_callers_thread(items, count):
-    assert mapped(lambda _: current_thread(), items, count) == [current_thread()] * len(items)
+    assert map_threads(lambda _: current_thread(), items, count) == [current_thread()] * len(items)
 
 
 @pytest.mark.parametrize("count", [1, 3])
@@ -141,19 +141,19 @@ def test_results_are_taken_in_order_by_the_caller_and_few_wait_for_it():
 
 def test_a_pool_within_a_pool_is_the_same_thread():
     def inner(_):
-        return {current_thread(), *mapped(lambda _: current_thread(), range(4), 2)}
+        return {current_thread(), *map_threads(lambda _: current_thread(), range(4), 2)}
 
-    assert [len(found) for found in mapped(inner, range(4), 2)] == [1] * 4
+    assert [len(found) for found in map_threads(inner, range(4), 2)] == [1] * 4
 
 
 def test_threads_have_the_floating_point_state_of_their_caller():
     with np.errstate(divide="raise"):
-        assert {state["divide"] for state in mapped(lambda _: np.geterr(), range(3), 2)} == {"raise"}
+        assert {state["divide"] for state in map_threads(lambda _: np.geterr(), range(3), 2)} == {"raise"}
 
 
 def test_sums_in_order_are_the_same_to_the_last_bit_on_any_number_of_threads():
     parts = np.random.default_rng(1).normal(size=(50, 200)) * 10.0 ** np.arange(-25, 25)[:, None]
-    sums = {count: sum(mapped(np.sum, parts, count)) for count in (1, 2, 5)}
+    sums = {count: sum(map_threads(np.sum, parts, count)) for count in (1, 2, 5)}
     assert len(set(sums.values())) == 1
 
 
@@ -164,7 +164,7 @@ def test_blas_has_one_thread_within_and_its_own_number_afterwards(two_blas_threa
             pass
         assert blas_threads() == {1}
     assert blas_threads() == {2}
-    assert mapped(lambda _: blas_threads(), range(2), 2) == [{1}, {1}]
+    assert map_threads(lambda _: blas_threads(), range(2), 2) == [{1}, {1}]
     assert blas_threads() == {2}
     with pytest.raises(ZeroDivisionError):
         one_blas_thread(lambda: 1 / 0)()
@@ -223,7 +223,7 @@ def test_a_blas_with_a_number_for_each_thread_has_one_in_every_thread_of_a_pool(
     library = OpenMpLibrary()
     monkeypatch.setattr(threads, "_blas", lambda with_scipy: ([], [library]))
     with one_blas_thread:
-        assert mapped(lambda _: library.get_num_threads(), range(4), 2) == [1] * 4
+        assert map_threads(lambda _: library.get_num_threads(), range(4), 2) == [1] * 4
     assert library.get_num_threads() == 8
 
 
@@ -232,7 +232,7 @@ SPACE = Space(np.linspace(20_000, 60_000, 10), np.linspace(0, 0.2, 10), np.linsp
 
 
 def stack():
-    return rendered(build_database(LENS, SPACE), SPACE.axes, Sampling(32, 1.0))
+    return render_source(build_database(LENS, SPACE), SPACE.axes, Sampling(32, 1.0))
 
 
 def huygens_sum():

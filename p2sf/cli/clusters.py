@@ -30,9 +30,9 @@ def cluster(address: str | None = None, /, *, as_json: Json = False) -> None:
     """
     if address is None:
         return _tell_how(as_json)
-    from p2sf.database.files.stack_cluster import check_versions, connected, worker_versions
+    from p2sf.database.files.stack_cluster import check_versions, connect, worker_versions
 
-    with connected(address) as client:
+    with connect(address) as client:
         versions = worker_versions(client, address)
         threads = client.nthreads()
     check_versions(versions)

@@ -245,7 +245,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     from p2sf.paraxial.seidel import check_seidel, coefficients
     from p2sf.psf.methods import check_unclipped
-    from p2sf.psf.pixel_integrals import critical_pixel_um, integrated
+    from p2sf.psf.pixel_integrals import critical_pixel_um, integrate
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
     from p2sf.raytrace.seen_mask import mask_seen
 
@@ -257,7 +257,7 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.side))
     finest = float(critical_pixel_um(six.wavelength_um, six.na))
     sampling, mask = picture.sampling or "mdft", mask_seen(setup.lens, source)
-    return integrated(
+    return integrate(
         lambda count, pixel_um: seidel_psf(six, count, pixel_um, sampling=sampling, mask=mask),
         picture.side,
         pitch,

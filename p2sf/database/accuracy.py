@@ -15,7 +15,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.build import build_database
-from p2sf.database.departure import scattered
+from p2sf.database.departure import scatter
 from p2sf.database.fitted import FittedDatabase
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import Database
@@ -28,7 +28,7 @@ from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import without_coefficients
 from p2sf.psf.methods import AUTO, FITTED, SEIDEL, by_six, seidel_error
 from p2sf.psf.prediction import CAUTION, USELESS, predicted_error
-from p2sf.raytrace.fit import behind, judging_rays
+from p2sf.raytrace.fit import behind_mask, judging_rays
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
@@ -154,7 +154,7 @@ def _points(space: Space, last_depth_mm: float) -> Iterator[tuple[float, ...]]:
     """Yield the corners of a space up to the last depth that is interpolated, and points spread evenly between."""
     depths = space.depths_mm[[0, -1]].clip(max=last_depth_mm)
     yield from product(*(dict.fromkeys(nodes[[0, -1]].tolist()) for nodes in (depths, *space.nodes[1:])))
-    yield from zip(*(axis.tolist() for axis in scattered(space, POINTS, last_depth_mm)), strict=True)
+    yield from zip(*(axis.tolist() for axis in scatter(space, POINTS, last_depth_mm)), strict=True)
 
 
 def _error(database: Database, lens: Lens, source: Source) -> float:
@@ -165,7 +165,7 @@ def _error(database: Database, lens: Lens, source: Source) -> float:
         except GeometryError:
             return inf
         found = replace(database.fit_at(source), residual_waves=0.0, map_residual=0.0, amplitude_residual=0.0)
-        return predicted_error(behind(found, judges).error_waves, "fitted")
+        return predicted_error(behind_mask(found, judges).error_waves, "fitted")
     six = database.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
     return seidel_error(lens, source, six)
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from p2sf.database.departure import cell_middles, departures, largest, path_scale, scattered
+from p2sf.database.departure import cell_middles, departures, largest, path_scale, scatter
 from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
@@ -52,7 +52,7 @@ def build_database(
 def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     """Return the database of polynomials, at one stop for all depths; errors as `build_database`."""
     _check_one_stop(stop)
-    points = depth, slope, wavelength = scattered(space, HELD_OUT)
+    points = depth, slope, wavelength = scatter(space, HELD_OUT)
     direct = coefficients(lens, depth, slope, wavelength, stop)
     # The polynomials start from the ray of an infinite object, whose path may be far longer than any in the space.
     base = coefficients(lens, np.inf, 0.0, wavelength, stop)

@@ -15,7 +15,7 @@ Points = tuple[np.ndarray, ...]
 EVEN_ROOTS = {3: 1.2207440846057596, 4: 1.1673039782614187}
 
 
-def scattered(space: Space, count: int, last_depth_mm: float = np.inf) -> Points:
+def scatter(space: Space, count: int, last_depth_mm: float = np.inf) -> Points:
     """Return ``count`` points spread evenly over a space, in the order of its nodes; depth is uniform in 1/depth."""
     far, axes = min(float(space.depths_mm[-1]), last_depth_mm), len(space.nodes)
     steps = EVEN_ROOTS[axes] ** -np.arange(1, axes + 1)

@@ -72,18 +72,18 @@ class ExactDatabase:
         """Return the six coefficients at one point or over broadcast arrays; DatabaseError outside the space."""
         if isinstance(depth_mm, float) and isinstance(field_slope, float) and isinstance(wavelength_um, float):
             self.space.check_one(depth_mm, field_slope, wavelength_um)
-            angle = acos(min(1.0, max(-1.0, self._reduced(wavelength_um))))
+            angle = acos(min(1.0, max(-1.0, self._reduce(wavelength_um))))
             numbers = (np.cos(self._orders * angle) @ self.series).tolist()
             return self._evaluate(numbers, 1.0 / depth_mm, field_slope, wavelength_um)
         self.space.check(depth_mm, field_slope, wavelength_um)
         wavelength = np.asarray(wavelength_um, dtype=float)
-        numbers = self.series.T @ chebyshev_terms(self._reduced(wavelength.ravel()), len(self.series))
+        numbers = self.series.T @ chebyshev_terms(self._reduce(wavelength.ravel()), len(self.series))
         numbers = numbers.reshape(NUMBERS, *wavelength.shape)
         return self._evaluate(numbers, vergence(depth_mm), np.asarray(field_slope, dtype=float), wavelength)
 
     def pupil_mm(self, wavelength_um: float) -> float:
         """Return where the entrance pupil stands, mm from the first vertex."""
-        terms = chebyshev_terms(np.asarray(self._reduced(wavelength_um)), len(self.series))
+        terms = chebyshev_terms(np.asarray(self._reduce(wavelength_um)), len(self.series))
         return float(terms @ self.series[:, PUPIL])
 
     @cached_property
@@ -95,7 +95,7 @@ class ExactDatabase:
         low, high = float(self.space.wavelengths_um[0]), float(self.space.wavelengths_um[-1])
         return (low + high) / 2, 2 / (high - low) if high > low else 0.0
 
-    def _reduced(self, wavelength: Numbers) -> Numbers:
+    def _reduce(self, wavelength: Numbers) -> Numbers:
         middle, slope = self._mapping
         return (wavelength - middle) * slope
 

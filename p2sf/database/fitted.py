@@ -22,7 +22,7 @@ from p2sf.database.render import Points, Sampling, critical_pixel_um
 from p2sf.database.space import Space
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.fitted import psf_of_fit, summed
+from p2sf.psf.fitted import psf_of_fit, sum_fit
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.basis import HALF, WHOLE, Gradient, PupilDomain, PupilValues
@@ -30,7 +30,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
 from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
 from p2sf.raytrace.seen_mask import with_slopes
-from p2sf.threads import mapped, one_blas_thread
+from p2sf.threads import map_threads, one_blas_thread
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +73,7 @@ class FittedDatabase:
         """
         self.space.check_source(source)
         numbers = self.series
-        for x, count in zip(self.axes.reduced(source), self.series.shape, strict=False):
+        for x, count in zip(self.axes.normalise(source), self.series.shape, strict=False):
             numbers = np.tensordot(chebyshev_terms(np.array(np.clip(x, -1, 1)), count), numbers, 1)
         numbers *= powers(self.level, source, self.axes.fields)
         return numbers
@@ -113,10 +113,10 @@ class FittedDatabase:
 
         def fill(numbered: tuple[int, tuple[float, ...]]) -> None:
             k, point = numbered
-            values, _ = summed(self.fit_at(self.space.source(*point)), pixels, pixel_um, sampling.quality)
+            values, _ = sum_fit(self.fit_at(self.space.source(*point)), pixels, pixel_um, sampling.quality)
             out[k] = values / values.sum(dtype=float)
 
-        mapped(fill, enumerate(zip(*(x.ravel().tolist() for x in axes), strict=True)), threads)
+        map_threads(fill, enumerate(zip(*(x.ravel().tolist() for x in axes), strict=True)), threads)
         return out.reshape(*axes[0].shape, pixels, pixels)
 
     @cached_property
@@ -197,7 +197,7 @@ class Axes:
     spread: tuple[bool, ...]
     pupil_mm: float
 
-    def reduced(self, source: Source) -> np.ndarray:
+    def normalise(self, source: Source) -> np.ndarray:
         """Return s, fields and wavelength of a source, each mapped to −1…1."""
         near = float(vergence(source.depth_mm))
         s = near / (1 + self.pupil_mm * near)

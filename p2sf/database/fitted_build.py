@@ -7,12 +7,12 @@ from itertools import product
 import numpy as np
 
 from p2sf.database.build import build_exact
-from p2sf.database.departure import scattered
+from p2sf.database.departure import scatter
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens, check_aligned, with_mask
-from p2sf.lens.misalignment import averaged
+from p2sf.lens.misalignment import average_azimuths
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
@@ -47,7 +47,7 @@ def build_fitted(
     if space.field_x_slopes is None:
         check_aligned(lens, Message("a database of fields along one line"), ACROSS)
     stop = stop or find_stop(lens)
-    seidel = replace(build_exact(averaged(lens), space.line, stop), space=space)
+    seidel = replace(build_exact(average_azimuths(lens), space.line, stop), space=space)
     axes = axes_of(space, seidel)
     level, left = _level_for(lens, axes, stop, numbers)
     lens = with_mask(lens, CLEAR)  # the fits are those of the whole disc; their residuals are those of its open part
@@ -126,7 +126,7 @@ def held_out(
     lens: Lens, space: Space, level: Level, stop: Stop
 ) -> Iterator[tuple[Source, FittedPencil, np.ndarray, np.ndarray]]:
     """Yield (source, fit, landing x, landing y in µm) at points between the nodes."""
-    for point in zip(*(x.tolist() for x in scattered(space, HELD_OUT[len(space.nodes)])), strict=True):
+    for point in zip(*(x.tolist() for x in scatter(space, HELD_OUT[len(space.nodes)])), strict=True):
         source = space.source(*point)
         several, _ = rays_on_sensor(lens, [source], level, stop)
         rays = several.of_source(0)

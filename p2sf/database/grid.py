@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import vergence
 from p2sf.database.parts import KINDS, PARTS, Numbers, Parts, assemble, traced_parts
 from p2sf.database.space import ROUNDING, Space
-from p2sf.database.stencil import NodeAxis, Stencil, Table, crossed, placed, weighted
+from p2sf.database.stencil import NodeAxis, Stencil, Table, cross, place_pairs, weighted_sum
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import Stop
@@ -111,13 +111,13 @@ class GridDatabase:
         self, depth: Numbers, slope: Numbers, wavelength: Numbers, tables: Sequence[Table]
     ) -> Coefficients:
         """Interpolate over (depth, wavelength), then multiply by each coefficient's own power of the field."""
-        colour, width = placed(self._axes["wavelength"].stencil(wavelength, 2)), len(self.space.wavelengths_um)
+        colour, width = place_pairs(self._axes["wavelength"].stencil(wavelength, 2)), len(self.space.wavelengths_um)
         rule = self.rule
         values: list[Numbers] = []
         if rule.finite_only:
             self._check_gap(depth)
         for group, table in zip(rule.depth, tables[1:], strict=True):
-            values += weighted(table, crossed(self._depth_stencil(group, depth), colour, width))
+            values += weighted_sum(table, cross(self._depth_stencil(group, depth), colour, width))
         parts = Parts(*[values[place] for place in self._places])
         return assemble(parts, self._powers(slope, tables[0]), wavelength)
 
@@ -128,7 +128,7 @@ class GridDatabase:
         """
         powers = [slope, slope * slope, slope * slope * slope]
         for count, which in self._short.items():
-            found = weighted(table, placed(self._axes["field"].stencil(slope, count)))
+            found = weighted_sum(table, place_pairs(self._axes["field"].stencil(slope, count)))
             for k in which:
                 powers[k] = found[k]
         return powers

@@ -16,7 +16,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_samples, check_window, seidel_psf, suitable_pixel_um
 from p2sf.psf.seidel_stack import stack_of
 from p2sf.pupil.mask import PupilMask
-from p2sf.threads import mapped, one_blas_thread
+from p2sf.threads import map_threads, one_blas_thread
 
 Points = Iterable[ArrayLike]
 """Depth (mm), field slope or slopes and wavelength (µm), which broadcast; in the order of `Space.nodes`."""
@@ -65,7 +65,7 @@ class Sampling:
 
 
 @one_blas_thread
-def rendered(
+def render_source(
     database: Database,
     points: Points,
     sampling: Sampling,
@@ -97,7 +97,7 @@ def rendered_light(
     dtype: DTypeLike = np.float32,
     threads: int | None = None,
 ) -> np.ndarray:
-    """Return what `rendered` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`."""
+    """Return what `render_source` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`."""
     return light_of(database, points, sampling, samples_per_pixel(database, sampling), dtype, threads)
 
 
@@ -115,18 +115,18 @@ def light_of(
     Each thread takes one PSF after the other: the finer samples may be a hundred times as many.
     """
     if across == 1:
-        return rendered(database, points, sampling, dtype, threads)
+        return render_source(database, points, sampling, dtype, threads)
     fine = fine_sampling(sampling, sampling.pixel_um or critical_pixel_um(database), across)
     places = np.broadcast_arrays(*points)
     shape = places[0].shape
     found = np.empty((*shape, sampling.pixels, sampling.pixels), dtype)
 
     def fill(index: tuple[int, ...]) -> None:
-        one = rendered(database, [place[index] for place in places], fine, dtype)
+        one = render_source(database, [place[index] for place in places], fine, dtype)
         light = pixel_integrals.light_per_pixel(one, sampling.pixels, across)
         found[index] = light / light.sum(dtype=float)
 
-    mapped(fill, np.ndindex(shape), threads)
+    map_threads(fill, np.ndindex(shape), threads)
     return found
 
 
@@ -147,7 +147,7 @@ def pixels_psf(
     """Return `database_psf` as light per pixel or as samples, by default light where the pitch exceeds λ/(4 NA)."""
     check_samples(pixels, pixel_um)
     six = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
-    psf = pixel_integrals.integrated(
+    psf = pixel_integrals.integrate(
         lambda count, pitch: database_psf(database, source, count, pitch),
         pixels,
         pixel_um or float(suitable_pixel_um(six, pixels)),
@@ -159,7 +159,7 @@ def pixels_psf(
 
 @one_blas_thread
 def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
-    """Return the settled PSF of one source, float64, looked up instead of traced; errors as `rendered`.
+    """Return the settled PSF of one source, float64, looked up instead of traced; errors as `render_source`.
 
     The mask is turned against the source's azimuth, as `raytrace.seen_mask` has it.
     """

@@ -60,7 +60,7 @@ class Space:
     @cached_property
     def _limits(self) -> tuple[Limits, Limits, Limits]:
         slopes = self.field_slopes if self.field_x_slopes is None else np.array([-1, 1]) * self.radial_slopes.max()
-        return _widened(self.depths_mm), _widened(slopes), _widened(self.wavelengths_um)
+        return _widen(self.depths_mm), _widen(slopes), _widen(self.wavelengths_um)
 
     @property
     def nodes(self) -> tuple[np.ndarray, ...]:
@@ -107,7 +107,7 @@ class Space:
             return self.check_one(source.depth_mm, source.field_slope, source.wavelength_um)
         across, up = source.slopes_xy
         for slope, nodes, axis in ((across, self.field_x_slopes, FIELD_X), (up, self.field_slopes, FIELD_Y)):
-            _check_axis(np.array(slope), _widened(nodes), axis, *SHOWN_AXES[1][1:])
+            _check_axis(np.array(slope), _widen(nodes), axis, *SHOWN_AXES[1][1:])
         return self.check_one(source.depth_mm, 0.0, source.wavelength_um)
 
     def check_one(self, depth_mm: float, field_slope: float, wavelength_um: float) -> None:
@@ -143,7 +143,7 @@ SHOWN_AXES = (
 )
 
 
-def _widened(nodes: np.ndarray) -> Limits:
+def _widen(nodes: np.ndarray) -> Limits:
     """Return the outermost nodes, moved out by ROUNDING."""
     low, high = float(nodes[0]), float(nodes[-1])
     return (low - ROUNDING * abs(low) if isfinite(low) else low), high + ROUNDING * abs(high)

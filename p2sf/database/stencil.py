@@ -75,19 +75,19 @@ def lagrange(nodes: Sequence[Numbers], scales: Sequence[Numbers] | np.ndarray, a
     return [prod(steps[:i] + steps[i + 1 :], start=scale) for i, scale in enumerate(scales)]
 
 
-def placed(stencil: Stencil) -> Pairs:
+def place_pairs(stencil: Stencil) -> Pairs:
     """Return (place, weight) pairs of a stencil."""
     first, weights = stencil
     return [(first + k, weight) for k, weight in enumerate(weights)]
 
 
-def crossed(rows: Stencil, pairs: Pairs, width: int) -> Pairs:
+def cross(rows: Stencil, pairs: Pairs, width: int) -> Pairs:
     """Return pairs over a table of ``width`` columns, stored row by row: a stencil of rows times pairs of columns."""
     first, weights = rows
     return [((first + k) * width + column, outer * inner) for k, outer in enumerate(weights) for column, inner in pairs]
 
 
-def weighted(table: Table, pairs: Pairs) -> list[Numbers]:
+def weighted_sum(table: Table, pairs: Pairs) -> list[Numbers]:
     """Return the weighted sum over places for every part of a table."""
     if isinstance(table, list):
         (place, weight), *others = pairs

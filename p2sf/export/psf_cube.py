@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from p2sf.arguments import checked
+from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.files import Stored, load_database
 from p2sf.database.files.place import is_stack
@@ -76,7 +76,7 @@ class Cube:
         return space
 
 
-@checked
+@check_arguments
 def open_database(path: str | os.PathLike[str]) -> Stored:
     """Open a PSF database: a .npz file or a stack written by `build_database` or ``p2sf database build``.
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from p2sf.image.lattice import Lattice
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.threads import for_each, mapped, one_blas_thread
+from p2sf.threads import for_each, map_threads, one_blas_thread
 
 SHORTEST, LONGEST = 16, 256  # pixels along a block, but for kernels over half as large; longer ones leave the cache
 TOGETHER = 2**17  # pixels of the blocks that one thread transforms at a time: some milliseconds of work, some megabytes
@@ -59,7 +59,7 @@ class BlurOperator:
                 down, right = self._extent(row, column, 2 * half)
                 out[:, down, right] += block[:, : down.stop - down.start, : right.stop - right.start]
 
-        for_each(lambda job: (*job, self._blurred(planes, *job)), self._jobs, take, self.threads)
+        for_each(lambda job: (*job, self._blur_blocks(planes, *job)), self._jobs, take, self.threads)
         return np.moveaxis(out[:, half : half + self.shape[0], half : half + self.shape[1]], 0, -1)
 
     @one_blas_thread
@@ -75,10 +75,10 @@ class BlurOperator:
                 down, right = self._extent(row, column)
                 out[:, down, right] = block[:, : down.stop - down.start, : right.stop - right.start]
 
-        for_each(lambda job: (*job, self._weighted(planes, *job)), self._jobs, take, self.threads)
+        for_each(lambda job: (*job, self._correlate_blocks(planes, *job)), self._jobs, take, self.threads)
         return np.moveaxis(out, 0, -1)
 
-    def _blurred(self, planes: np.ndarray, row: int, columns: range) -> np.ndarray:
+    def _blur_blocks(self, planes: np.ndarray, row: int, columns: range) -> np.ndarray:
         """Return Σ K_n ⊛ (w_n·x) of some blocks of a row, (blocks, channels, *fast).
 
         The weights are products of one along rows and one along columns, so that the transform along the columns' axis
@@ -87,7 +87,7 @@ class BlurOperator:
         import scipy.fft
 
         rows, across = self._axes
-        blocks = self._gathered(planes, row, columns, 0)
+        blocks = self._gather(planes, row, columns, 0)
         weighted = blocks[:, None] * across.weights[columns.start : columns.stop, :, None, None]
         half_done = scipy.fft.rfft(weighted, across.fast)
         total: np.ndarray | None = None
@@ -99,13 +99,13 @@ class BlurOperator:
         blurred: np.ndarray = scipy.fft.irfft2(total, (rows.fast, across.fast), overwrite_x=True)
         return blurred
 
-    def _weighted(self, planes: np.ndarray, row: int, columns: range) -> np.ndarray:
+    def _correlate_blocks(self, planes: np.ndarray, row: int, columns: range) -> np.ndarray:
         """Return Σ w_n·(K_n ⋆ y) of some blocks of a row, (blocks, channels, longest row, longest column)."""
         import scipy.fft
 
         rows, across = self._axes
         spectra = scipy.fft.rfft2(
-            self._gathered(planes, row, columns, 2 * self.lattice.half), (rows.fast, across.fast), overwrite_x=True
+            self._gather(planes, row, columns, 2 * self.lattice.half), (rows.fast, across.fast), overwrite_x=True
         )
         total: np.ndarray | None = None
         for node, weight in enumerate(rows.weights[row]):
@@ -117,7 +117,7 @@ class BlurOperator:
         weighted: np.ndarray = (both * across.weights[columns.start : columns.stop, :, None, None]).sum(1)
         return weighted
 
-    def _gathered(self, planes: np.ndarray, row: int, columns: range, more: int) -> np.ndarray:
+    def _gather(self, planes: np.ndarray, row: int, columns: range, more: int) -> np.ndarray:
         """Return blocks of a row, each ``more`` pixels longer each way, (blocks, channels, rows, columns)."""
         longest = (axis.weights.shape[-1] + more for axis in self._axes)
         out = np.zeros((len(columns), len(planes), *longest), np.float32)
@@ -139,8 +139,8 @@ class BlurOperator:
         last, count = (len(self.lattice.row_nodes) - 1, len(self.lattice.column_nodes) - 1), across.weights.shape[1]
         a = min(rows.first[row] + node, last[0])  # a node beyond the last one has no weight
         b = np.minimum(across.first[columns.start : columns.stop, None] + np.arange(count), last[1])
-        if self._kept is not None:
-            kept: np.ndarray = self._kept[a][b]
+        if self._all_spectra is not None:
+            kept: np.ndarray = self._all_spectra[a][b]
             return kept
         wanted = range(b.min(), b.max() + 1)
         found: np.ndarray = self._spectra(a, wanted)[b - wanted.start]
@@ -160,13 +160,13 @@ class BlurOperator:
         return [(row, range(s, min(s + starts.step, count))) for row in range(len(rows.starts)) for s in starts]
 
     @cached_property
-    def _kept(self) -> np.ndarray | None:
+    def _all_spectra(self) -> np.ndarray | None:
         """Return all spectra, (row nodes, column nodes, channels, frequencies) complex64, or None if they are large."""
         a, b = (len(nodes) for nodes in (self.lattice.row_nodes, self.lattice.column_nodes))
         rows, columns = self._axes
         if 8 * a * b * self.lattice.channels * rows.fast * (columns.fast // 2 + 1) > KEPT_BYTES:
             return None
-        return np.stack(mapped(lambda line: self._spectra(line, range(b)), range(a), self.threads))
+        return np.stack(map_threads(lambda line: self._spectra(line, range(b)), range(a), self.threads))
 
     def _spectra(self, line: int, columns: range) -> np.ndarray:
         """Return the spectra of some nodes of a line, (nodes, channels, frequencies)."""

@@ -73,7 +73,7 @@ def siemens_star(rows: int, columns: int, spokes: int = 36) -> np.ndarray:
     x, y = _axes(rows, columns, FINER)
     bright = np.cos(np.arctan2(y, x) * spokes) > 0
     inside = np.hypot(x, y) < 0.47 * min(rows, columns)
-    return _averaged(np.where(inside, np.where(bright, BRIGHT, DARK), 0.5), FINER)
+    return _block_means(np.where(inside, np.where(bright, BRIGHT, DARK), 0.5), FINER)
 
 
 def checkerboard(rows: int, columns: int, across: int = 16) -> np.ndarray:
@@ -150,7 +150,7 @@ def _axes(rows: int, columns: int, finer: int) -> tuple[np.ndarray, np.ndarray]:
     return x[None], -y[:, None]
 
 
-def _averaged(fine: np.ndarray, times: int) -> np.ndarray:
+def _block_means(fine: np.ndarray, times: int) -> np.ndarray:
     rows, columns = (n // times for n in fine.shape)
     blocks: np.ndarray = fine.reshape(rows, times, columns, times).mean((1, 3))
     return blocks

@@ -56,7 +56,7 @@ def wiener(
         down, right = by_row[node[0]], by_column[node[1]]
         rows, columns = support(down), support(right)
         patch = planes[:, rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
-        found = _filtered(patch, lattice.kernels[node[0]][node[1]], noise)
+        found = _wiener_filter(patch, lattice.kernels[node[0]][node[1]], noise)
         inner = found[:, margin : found.shape[1] - margin, margin : found.shape[2] - margin]
         return rows, columns, inner * np.outer(down[rows], right[columns]).astype(np.float32)
 
@@ -69,13 +69,13 @@ def wiener(
     return np.moveaxis(out, 0, -1)
 
 
-def _filtered(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.ndarray:
+def _wiener_filter(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.ndarray:
     """Return conj(H)/(|H|² + N/S) of (channels, rows, columns), about the patch's mean."""
     import scipy.fft
 
     rows, columns = patch.shape[1:]
     shape = scipy.fft.next_fast_len(rows, real=True), scipy.fft.next_fast_len(columns, real=True)
-    transfer = scipy.fft.rfft2(_centred(kernels, shape))
+    transfer = scipy.fft.rfft2(_centre(kernels, shape))
     mean = patch.mean((1, 2), keepdims=True)
     variance = np.maximum(patch.var((1, 2), keepdims=True) - noise**2, noise**2)
     prior = _prior(shape)
@@ -102,7 +102,7 @@ def _prior(shape: tuple[int, int]) -> np.ndarray:
     return prior
 
 
-def _centred(kernels: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+def _centre(kernels: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     """Return kernels, (channels, size, size), with their middle at index 0 of a periodic plane."""
     half = kernels.shape[-1] // 2
     plane = np.zeros((len(kernels), *shape), np.float32)

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import real_array
 from p2sf.errors import RequestError
-from p2sf.image.geometry import distorted, illumination
+from p2sf.image.geometry import distort, illumination
 from p2sf.image.lattice import Lattice, build_lattice
-from p2sf.image.layers import layer_weights, merged
+from p2sf.image.layers import layer_weights, merge
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
 from p2sf.image.progress import Progress
@@ -21,7 +21,7 @@ from p2sf.messages import Alternatives
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
-from p2sf.threads import mapped, one_blas_thread
+from p2sf.threads import map_threads, one_blas_thread
 
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
@@ -78,22 +78,22 @@ def form_image(
     known. Raises RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when
     ``watch`` is cancelled.
     """
-    picture, watch = checked(planned.scene, values), watch or Progress()
+    picture, watch = check_picture(planned.scene, values), watch or Progress()
     if depth_mm is None:
         placed, lattice = _placed_and_lattice(planned, picture, how, watch, lattice)
         return _cropped_blur(planned, placed, lattice, how, watch)
     _check_depths(planned.scene, depth_mm)
     weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2])
     if how.geometry:
-        weights = distorted(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, order=1)
-    lit = _placed(planned, picture, planned.vergences[0], how)
+        weights = distort(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, order=1)
+    lit = _distort_and_shade(planned, picture, planned.vergences[0], how)
     used = [k for k in range(weights.shape[-1]) if weights[..., k].any()]
     layers = []
     for k in used:
         both = np.concatenate([lit * weights[..., k : k + 1], weights[..., k : k + 1]], axis=-1)
-        lattice = _doubled(plan_lattice(planned, planned.vergences[k], watch))
+        lattice = _with_middle_again(plan_lattice(planned, planned.vergences[k], watch))
         layers.append(_cropped_blur(planned, both, lattice, how, watch))
-    return merged(layers, used)
+    return merge(layers, used)
 
 
 def _placed_and_lattice(
@@ -102,15 +102,15 @@ def _placed_and_lattice(
     """Return the picture distorted and shaded, and the kernels of the scene's far end, computed beside it."""
     vergence = planned.vergences[0]
     if lattice is not None:
-        return _placed(planned, values, vergence, how), lattice
+        return _distort_and_shade(planned, values, vergence, how), lattice
     placed = []
     found = plan_lattice(
-        planned, vergence, watch, beside=lambda: placed.append(_placed(planned, values, vergence, how))
+        planned, vergence, watch, beside=lambda: placed.append(_distort_and_shade(planned, values, vergence, how))
     )
     return placed[0], found
 
 
-def checked(scene: Scene, values: ArrayLike) -> np.ndarray:
+def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
     """Return the picture as float32; RequestError unless it fits the scene."""
     sensor, channels = scene.sensor, len(scene.channels)
     if np.ma.asarray(values).dtype.kind in "iu":
@@ -146,13 +146,13 @@ def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:
         )
 
 
-def _placed(planned: Plan, values: np.ndarray, vergence: float, how: Forming) -> np.ndarray:
+def _distort_and_shade(planned: Plan, values: np.ndarray, vergence: float, how: Forming) -> np.ndarray:
     """Return the picture distorted and shaded."""
     if not how.geometry:
         return values
     sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
     shade = illumination(seen, sensor, LIGHT_HEIGHTS[how.spline > 1])
-    lit: np.ndarray = distorted(values, seen, sensor, how.spline) * shade[..., None]
+    lit: np.ndarray = distort(values, seen, sensor, how.spline) * shade[..., None]
     return lit
 
 
@@ -182,7 +182,7 @@ def plan_lattice(
     return build_lattice(kernels_at, shape, planned.counts, planned.mirrored, watch, beside)
 
 
-def _doubled(lattice: Lattice) -> Lattice:
+def _with_middle_again(lattice: Lattice) -> Lattice:
     """Return a lattice with the middle channel once more at the end, for a layer's weight beside the picture."""
     middle = lattice.channels // 2
     lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
@@ -205,5 +205,5 @@ def blur(
     """Return the blurred picture with all light that leaves it, by patches or by low rank."""
     if method == "patches":
         return overlap_add(values, lattice, watch, border)
-    parts = mapped(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
+    parts = map_threads(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
     return low_rank_blur(values, parts, watch, border)

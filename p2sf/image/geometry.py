@@ -5,7 +5,7 @@ import numpy as np
 from p2sf.pixel_kernels import SensorMap
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.scene.sensor import Sensor
-from p2sf.threads import mapped
+from p2sf.threads import map_threads
 
 TRIED = 33  # places along each axis where distortion is sought
 MORE = 4  # heights, or places along each axis, where rims clip, whose vignetting begins and ends suddenly
@@ -20,7 +20,7 @@ def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
     return float(np.hypot(across - x, up - y).max() / sensor.pixel_mm)
 
 
-def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3) -> np.ndarray:
+def distort(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3) -> np.ndarray:
     """Return the picture as real chief rays place it, (rows, columns, channels) float32.
 
     ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of
@@ -40,7 +40,7 @@ def distorted(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 
         found: np.ndarray = map_coordinates(plane, places, order=order, mode="nearest")
         return found
 
-    return np.stack(mapped(moved, np.moveaxis(values, -1, 0)), axis=-1).astype(np.float32)
+    return np.stack(map_threads(moved, np.moveaxis(values, -1, 0)), axis=-1).astype(np.float32)
 
 
 def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:

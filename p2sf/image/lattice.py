@@ -78,12 +78,13 @@ def build_lattice(
     parts = [wanted[start : start + step] for start in range(FIRST, len(wanted), step)]
     for_each(some, [[], *parts], take, ahead=None)
     lines = [
-        [_mirrored(computed, a, b, len(rows), len(columns)) for b in range(len(columns))] for a in range(len(rows))
+        [_kernel_of_node(computed, a, b, len(rows), len(columns)) for b in range(len(columns))]
+        for a in range(len(rows))
     ]
     return Lattice(rows, columns, lines)
 
 
-def _mirrored(computed: dict[tuple[int, int], np.ndarray], a: int, b: int, rows: int, columns: int) -> np.ndarray:
+def _kernel_of_node(computed: dict[tuple[int, int], np.ndarray], a: int, b: int, rows: int, columns: int) -> np.ndarray:
     """Return the kernel of a node, or the mirror image of the one across the axis."""
     if (a, b) in computed:
         return computed[a, b]

@@ -29,7 +29,7 @@ def layer_weights(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int,
     return np.moveaxis(flat.reshape(len(vergences), *shape), 0, -1).astype(np.float32)
 
 
-def merged(layers: list[np.ndarray], numbers: list[int]) -> np.ndarray:
+def merge(layers: list[np.ndarray], numbers: list[int]) -> np.ndarray:
     """Return one picture of blurred layers, far to near; each is (rows, columns, channels + 1), its coverage last.
 
     ``numbers`` are the layers' places among all layers. A layer is hidden by the blurred coverage of nearer ones, but

@@ -5,14 +5,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import checked, real_array
+from p2sf.arguments import check_arguments, real_array
 from p2sf.image.form import Forming
 from p2sf.image.form import form_image as form
 from p2sf.scene.planning.plan import Plan
 from p2sf.threads import using_threads
 
 
-@checked
+@check_arguments
 def form_image(
     planned: Plan,
     values: ArrayLike,

@@ -21,7 +21,7 @@ from p2sf.scene.planning.cost import Cost
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
-from p2sf.scene.spectrum import reduced
+from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import one_blas_thread
 
 LONGEST = 320  # pixels along the preview's longer side
@@ -47,7 +47,7 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
         coarse = replace(coarse, near_mm=depth_mm, far_mm=depth_mm)
     planned = preview_plan(camera, coarse)
     lattice = preview_lattice(planned)
-    return form_image(planned, averaged(values, times), how=Forming(spline=1), lattice=lattice)
+    return form_image(planned, block_means(values, times), how=Forming(spline=1), lattice=lattice)
 
 
 def preview_plan(camera: Lens, scene: Scene) -> Plan:
@@ -56,7 +56,7 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     One wavelength a channel, 3 × 3 places or fewer where kernels are wide, the smallest fit; rays in place of waves
     where the sum would take seconds, and where that fit does not describe the pencil.
     """
-    colours = tuple(reduced(channel, 1) for channel in scene.channels)
+    colours = tuple(reduce_spectrum(channel, 1) for channel in scene.channels)
     middle = colours[len(colours) // 2].wavelengths_um[0]
     vergence = float(scene.vergences(2)[0])
     recipe, counts = Recipe("fitted", levels_for(camera)[0].numbers), WAVE_COUNTS[0][1]
@@ -105,7 +105,7 @@ def _coarser(sensor: Sensor, times: int) -> Sensor:
     )
 
 
-def averaged(values: np.ndarray, times: int) -> np.ndarray:
+def block_means(values: np.ndarray, times: int) -> np.ndarray:
     """Return a picture averaged over blocks of ``times``² pixels; pixels that do not fill a block are dropped."""
     rows, columns = (n // times for n in values.shape[:2])
     cut = np.asarray(values, np.float32)[: rows * times, : columns * times]

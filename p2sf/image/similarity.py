@@ -31,15 +31,15 @@ def ssim(one: np.ndarray, two: np.ndarray, white: float = 1.0) -> float:
 
 def _of_plane(one: np.ndarray, two: np.ndarray, white: float) -> float:
     c1, c2 = (K1 * white) ** 2, (K2 * white) ** 2
-    mean1, mean2 = _windowed(one), _windowed(two)
+    mean1, mean2 = _window_means(one), _window_means(two)
     product, square1, square2 = mean1 * mean2, mean1 * mean1, mean2 * mean2
-    variances = _windowed(one * one) - square1 + _windowed(two * two) - square2
-    covariance = _windowed(one * two) - product
+    variances = _window_means(one * one) - square1 + _window_means(two * two) - square2
+    covariance = _window_means(one * two) - product
     found = (2 * product + c1) * (2 * covariance + c2) / ((square1 + square2 + c1) * (variances + c2))
     return float(found[RADIUS:-RADIUS, RADIUS:-RADIUS].mean(dtype=float))
 
 
-def _windowed(values: np.ndarray) -> np.ndarray:
+def _window_means(values: np.ndarray) -> np.ndarray:
     from scipy.ndimage import gaussian_filter
 
     found: np.ndarray = gaussian_filter(values, SIGMA, radius=RADIUS)

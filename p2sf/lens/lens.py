@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_fields, checked
+from p2sf.arguments import check_arguments, check_fields
 from p2sf.conventions import NM_PER_UM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium, transmittance_of
@@ -397,13 +397,13 @@ def with_aim(lens: Lens, aim: Aim) -> Lens:
     return lens if lens.aim == aim else replace(lens, aim=aim)
 
 
-@checked
+@check_arguments
 def with_absorption(lens: Lens, absorption: bool = True) -> Lens:
     """Return the same lens with the light that its media absorb taken from its rays, or left to them."""
     return lens if lens.absorption == absorption else replace(lens, absorption=absorption)
 
 
-@checked
+@check_arguments
 def with_mask(lens: Lens, mask: PupilMask) -> Lens:
     """Return the same lens with this mask in its stop."""
     return lens if lens.mask == mask else replace(lens, mask=mask)
@@ -433,7 +433,7 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
     return replace(lens, surfaces=surfaces, sensor_before=turned_breaks(lens.sensor_before, azimuth_deg))
 
 
-def scaled(surface: Surface, factor: float) -> Surface:
+def scale_surface(surface: Surface, factor: float) -> Surface:
     """Return a surface whose lengths are in units ``factor`` mm long, in mm."""
     if factor == 1:
         return surface

@@ -52,7 +52,7 @@ def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
 
 
 @lru_cache(maxsize=16)
-def straightened(lens: Lens) -> Lens:
+def straighten(lens: Lens) -> Lens:
     """Return the lens without tilts, decentres and what is not of revolution; its rims stay."""
     surfaces = tuple(
         replace(s, **{each.name: each.aligned(getattr(s, each.name)) for each in PROPERTIES}) for s in lens.surfaces
@@ -60,7 +60,7 @@ def straightened(lens: Lens) -> Lens:
     return replace(lens, surfaces=surfaces, sensor_before=())
 
 
-def averaged(lens: Lens) -> Lens:
+def average_azimuths(lens: Lens) -> Lens:
     """Return the lens as paraxial rays see it: with the mean over all azimuths of every shape, and without shading."""
     if lens.shading is None and all(s.shape is None or s.shape.radial for s in lens.surfaces):
         return lens

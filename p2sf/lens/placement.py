@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
 
 MOST_TILT_DEG = 90.0  # about x or y: there a surface is seen edge on
@@ -158,9 +158,9 @@ def _motion(placement: Placement) -> Motion:
     shift, pivot = np.array(placement.decentre), np.array(placement.pivot)
     if placement.tilt_first:
         rotation = turns[2] @ turns[1] @ turns[0]
-        return Motion(protected(rotation), protected(pivot + rotation @ (shift - pivot)))
+        return Motion(write_protect(rotation), write_protect(pivot + rotation @ (shift - pivot)))
     rotation = turns[0] @ turns[1] @ turns[2]
-    return Motion(protected(rotation), protected(shift + pivot - rotation @ pivot))
+    return Motion(write_protect(rotation), write_protect(shift + pivot - rotation @ pivot))
 
 
 def _turn(axis: int, angle: float) -> np.ndarray:

@@ -26,11 +26,11 @@ def _length(value: float, factor: float) -> float:
     return value * factor
 
 
-def _scaled(value: Any, factor: float) -> Any:
+def _multiply(value: Any, factor: float) -> Any:
     return value.scaled(factor) if value is not None else None
 
 
-def _turned(value: Any, angle_deg: float) -> Any:
+def _turn(value: Any, angle_deg: float) -> Any:
     return value.turned(angle_deg) if value is not None else None
 
 
@@ -140,8 +140,8 @@ PROPERTIES = (
         "shape",
         Message("its shape"),
         "aspheric",
-        _scaled,
-        _turned,
+        _multiply,
+        _turn,
         endings=lambda shape: shape.endings if shape else EVERY,
         aligned=lambda shape: shape and shape.mean,
         unseen=_unseen_shape,
@@ -153,7 +153,7 @@ PROPERTIES = (
         "diffraction",
         Message("its diffraction"),
         "aspheric",
-        _scaled,
+        _multiply,
         endings=_only(ZEMAX, CODE_V),
         short=lambda phase: phase and Message("diffractive"),
         words=lambda phase: phase and phase.words,
@@ -194,8 +194,8 @@ PROPERTIES = (
         "rim",
         Message("its clear rim"),
         "semi_diameter",
-        _scaled,
-        _turned,
+        _multiply,
+        _turn,
         endings=_only(ZEMAX, CODE_V),
         words=lambda rim: rim and rim.words,
         steps=True,
@@ -204,8 +204,8 @@ PROPERTIES = (
         "irregularity",
         Message("its irregularity"),
         "aspheric",
-        _scaled,
-        _turned,
+        _multiply,
+        _turn,
         endings=_only(),
         aligned=_nothing,
         short=lambda one: one and Message("irregular"),
@@ -216,7 +216,7 @@ PROPERTIES = (
         "transmission",
         Message("its transmission"),
         "medium",
-        _scaled,
+        _multiply,
         endings=_only(),
         unseen=lambda passed: (
             Message("passes a share of light that changes with the height") if passed and passed.per_mm2 else None

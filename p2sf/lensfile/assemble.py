@@ -7,7 +7,7 @@ from math import inf, isfinite
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium, TabulatedIndex, measured_index
-from p2sf.lens.lens import Aperture, Lens, Surface, scaled
+from p2sf.lens.lens import Aperture, Lens, Surface, scale_surface
 from p2sf.lens.placement import Placement
 from p2sf.lens.properties import PROPERTIES, words_of
 from p2sf.lens.shapes import RadialPolynomial
@@ -186,7 +186,7 @@ def _surface(raw: RawSurface, medium: Medium, unit: float, number: int) -> Surfa
     stated |= {"aspheric": _even(terms), "semi_diameter": raw.semi_diameter if raw.semi_diameter > 0 else inf}
     if odd:
         stated["shape"] = RadialPolynomial(tuple(odd.get(power, 0.0) for power in range(1, max(odd) + 1)))
-    return scaled(Surface(**stated), unit)
+    return scale_surface(Surface(**stated), unit)
 
 
 def _even(terms: dict[int, float]) -> tuple[float, ...]:

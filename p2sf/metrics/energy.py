@@ -17,7 +17,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebint, chebval, chebvander
 from scipy import fft
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
 from p2sf.metrics.mask_lines import box_edges, open_intervals, places_between
@@ -29,7 +29,10 @@ RADII = 128  # of a tabulated curve
 BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge
 FARTHEST = 48.0  # the same, where radii are asked for that are so large
 MOST_WAVES = 640.0  # of slope: 2 s and 0.5 GB; beyond, the landing points of rays are as exact
-NODES, NODES_LEAST = 0.7, 9  # per harmonic of the phase over half the pupil, and more; see `landed` for the margins
+NODES, NODES_LEAST = (
+    0.7,
+    9,
+)  # per harmonic of the phase over half the pupil, and more; see `landing_energy` for the margins
 FEWEST_LINES, LINE_EXCESS = 96, 1.5  # of a pupil with corners or a mask; nodes in an angle per even node
 CIRCLES, DIRECTIONS = 0.8, 0.75  # per harmonic that interference of opposite edges would have
 SINGLE, FINE_GRID = 3e-5, 1.25  # relative error and oversampling of the FFT
@@ -55,7 +58,7 @@ class EncircledLight:
         outside = (1 - found) * (self.top_um / np.maximum(radius_um, self.top_um))
         return np.where(inside > 0, np.clip(1 - outside, 0.0, 1.0), 0.0)
 
-    def tabulated(self) -> tuple[np.ndarray, np.ndarray]:
+    def table(self) -> tuple[np.ndarray, np.ndarray]:
         """Return RADII + 1 even radii from 0 to beyond the blur, µm, and the share within each."""
         radius = np.linspace(0, self.top_um, RADII + 1)
         # Energy rises, to 1 at most: held to that, the sum can only come closer to it.
@@ -78,7 +81,7 @@ class LandingPoints:
         within: np.ndarray = np.interp(radius_um, self.radius_um, self.light)
         return within
 
-    def tabulated(self) -> tuple[np.ndarray, np.ndarray]:
+    def table(self) -> tuple[np.ndarray, np.ndarray]:
         """Return RADII + 1 even radii from 0 to the outermost ray, µm, and the share within each."""
         radius = np.linspace(0, float(self.radius_um[-1]), RADII + 1)
         return radius, self.within(radius)
@@ -95,7 +98,7 @@ def energy_of(
     aside = pupil.centroid_x_um if aside_um is None else aside_um
     waves = blur_waves(pupil, centre, aside)
     if waves <= MOST_WAVES:
-        return landed(pupil, centre, aside, radius_um)
+        return landing_energy(pupil, centre, aside, radius_um)
     if not pupil.mask.clear:
         raise SamplingError(
             "a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or "
@@ -115,7 +118,7 @@ def departure_of_rays(pupil: FrequencyPupil, centre_um: float, aside_um: float =
     centroid = scale * pupil.centroid_um, scale * pupil.centroid_x_um
     smaller = replace(pupil, phase=scale * pupil.phase, centroid_um=centroid[0], centroid_x_um=centroid[1])
     centre, aside = scale * centre_um, scale * aside_um
-    waves, rays = landed(smaller, centre, aside), landing_points(smaller, centre, aside)
+    waves, rays = landing_energy(smaller, centre, aside), landing_points(smaller, centre, aside)
     radius = np.linspace(0, float(rays.radius_um[-1]), COMPARED)
     return float(np.abs(waves.within(radius) - rays.within(radius)).max())
 
@@ -130,7 +133,9 @@ def blur_waves(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -
     return max(across, up) * max(pupil.half_x, pupil.half_y) + more
 
 
-def landed(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0, radius_um: float = 0.0) -> EncircledLight:
+def landing_energy(
+    pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0, radius_um: float = 0.0
+) -> EncircledLight:
     """Return the energy about a point by waves, up to a radius or beyond the blur.
 
     The counts of nodes, circles and directions are less than the harmonics of |field|² would need: those at which
@@ -182,8 +187,8 @@ def _kept_circles(waves: int, halved: bool) -> Circles:
     starts = np.cumsum(directions) - directions
     angle = (np.arange(directions.sum()) - np.repeat(starts - 0.5, directions)) * np.repeat(pi / half, directions)
     reach = np.repeat(radius, directions)
-    x, y = (protected((reach * turn).astype(np.float32)) for turn in (np.sin(angle), np.cos(angle)))
-    return Circles(protected(radius), protected(directions), protected(starts), x, y, halved)
+    x, y = (write_protect((reach * turn).astype(np.float32)) for turn in (np.sin(angle), np.cos(angle)))
+    return Circles(write_protect(radius), write_protect(directions), write_protect(starts), x, y, halved)
 
 
 def _harmonics(order: float) -> float:
@@ -206,7 +211,7 @@ Nodes = tuple[np.ndarray, np.ndarray, np.ndarray, float]
 """x and y in the box's coordinates, area·density·exp(2πi·phase) (nodes,) complex64, and Σ area·density²."""
 
 
-def _counted(waves: float) -> int:
+def _node_count(waves: float) -> int:
     """Return how many even nodes resolve a phase of so many waves per radius over two radii."""
     return even_count(NODES * pi * waves + NODES_LEAST)
 
@@ -217,12 +222,12 @@ def _nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) 
     Those of an even pupil at fx < 0 mirror the others.
     """
     light, dark = box_edges(pupil)
-    lines = max(FEWEST_LINES, ceil(LINE_EXCESS * _counted(waves)))
+    lines = max(FEWEST_LINES, ceil(LINE_EXCESS * _node_count(waves)))
     places, weights = places_between([*light, *dark], lines, pupil.even)
     parts = []
     for low, high in zip(*open_intervals(light, dark, places), strict=True):
         length = (high - low)[:, None] / 2
-        node, weight = gauss_legendre(_counted(waves * float(length.max())))
+        node, weight = gauss_legendre(_node_count(waves * float(length.max())))
         y = (low + high)[:, None] / 2 + length * node
         parts.append(_column_nodes(pupil, centre_um, (places, y), weights[:, None] * length * weight))
     x, y, wave = (np.concatenate(column) for column in zip(*(part[:3] for part in parts), strict=True))

@@ -21,7 +21,7 @@ from numpy.polynomial.chebyshev import chebder, chebvander
 from scipy.fft import irfft, rfft
 from scipy.linalg import qr, solve_triangular
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_unmasked
 from p2sf.lens.source import Source
@@ -303,7 +303,7 @@ def _derivatives(table: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 @lru_cache(maxsize=16)
 def _derivative(order: int) -> np.ndarray:
     """Return the matrix (order, order + 1) from coefficients of Chebyshev polynomials to those of the derivative."""
-    return protected(chebder(np.eye(order + 1)))
+    return write_protect(chebder(np.eye(order + 1)))
 
 
 def uniform_disc(half: float = 1.0) -> FrequencyPupil:
@@ -337,10 +337,12 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         if whole and not rays.passed.all():
             raise GeometryError(UNFOLLOWED)
         kept = rays.passed  # where light is lost, an outline by directions misses a few rays
-        columns = np.stack([*columns, rays.amplitude, rays.phase, *turned(rays.fx, rays.fy, turn_deg)])[:, kept]
+        columns = np.stack([*columns, rays.amplitude, rays.phase, *rotate_frequencies(rays.fx, rays.fy, turn_deg)])[
+            :, kept
+        ]
         return _samples(columns, int(kept[-rim:].sum()), even, sampling.counts if whole else None)
 
-    found = behind_mask(_settled(traced, ORDERS), mask, float(source.wavelength_um))
+    found = behind_mask(_settle(traced, ORDERS), mask, float(source.wavelength_um))
     return with_spot(found, lens, source, clip, turn_deg)
 
 
@@ -366,11 +368,11 @@ def with_spot(
 
 def _spot_of(found: Landing, turn_deg: float) -> RayMoments:
     """Return the figures of the spot diagram, its centroid along turned axes."""
-    x, y = turned(*found.centroid_um, turn_deg)
+    x, y = rotate_frequencies(*found.centroid_um, turn_deg)
     return RayMoments(float(x), float(y), float(np.hypot(*found.rms_um)))
 
 
-def turned(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple[np.ndarray, np.ndarray]:
+def rotate_frequencies(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple[np.ndarray, np.ndarray]:
     """Return frequencies along axes that are turned from +y towards +x."""
     if not turn_deg:
         return fx, fy
@@ -386,10 +388,10 @@ def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
         columns, rim = _over_disc(sampling.counts, even)
         phase, fx, fy = found.at(*columns[:2])
         weight = found.amplitude_at(*columns[:2])
-        table = np.stack([*columns, weight, phase, *turned(fx, fy, turn_deg)])
+        table = np.stack([*columns, weight, phase, *rotate_frequencies(fx, fy, turn_deg)])
         return _samples(table, rim, even, sampling.counts)
 
-    known = _settled(evaluated, ORDERS)
+    known = _settle(evaluated, ORDERS)
     known = replace(known, rays=found.rays, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
     return behind_mask(known, found.mask, found.wavelength_um)
 
@@ -405,10 +407,10 @@ def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR, turn_deg: 
         columns, rim = _over_disc(sampling.counts, even)
         xi, eta, _ = columns
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
-        table = np.stack([*columns, one, phase, *turned(scale * xi, scale * eta, turn_deg)])
+        table = np.stack([*columns, one, phase, *rotate_frequencies(scale * xi, scale * eta, turn_deg)])
         return _samples(table, rim, even, sampling.counts)
 
-    found = replace(_settled(evaluated, (EXACT,)), rays=2)
+    found = replace(_settle(evaluated, (EXACT,)), rays=2)
     return behind_mask(found, mask, -float(six.wavelength_um))
 
 
@@ -417,7 +419,7 @@ def _over_disc(counts: tuple[int, int], even: bool) -> tuple[np.ndarray, int]:
     """Return ξ, η and shares of the area of nodes over the disc, of an even pupil over half of it, and on its rim."""
     angle = np.linspace(0, np.pi, RIM + 1) if even else np.arange(2 * RIM) * (np.pi / RIM)
     columns, rim = _with_edge(whole_nodes(counts), (np.sin(angle), np.cos(angle)), even)
-    return protected(columns), rim
+    return write_protect(columns), rim
 
 
 def _with_edge(inside: ClearNodes, edge: tuple[np.ndarray, np.ndarray], even: bool) -> tuple[np.ndarray, int]:
@@ -473,7 +475,7 @@ def _beside(cells: np.ndarray) -> np.ndarray:
     return beside
 
 
-def _settled(nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCounts, ...]) -> FrequencyPupil:
+def _settle(nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCounts, ...]) -> FrequencyPupil:
     """Return the pupil through nodes, of the first order whose residual is small enough."""
     counts, traced, before = (0, 0), 0, 0.0
     for sampling in orders:

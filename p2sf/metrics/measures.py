@@ -26,7 +26,7 @@ from p2sf.metrics.frequency_pupil import (
     pupil_of_coefficients,
     pupil_of_fit,
     pupil_of_rays,
-    turned,
+    rotate_frequencies,
     with_spot,
 )
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
@@ -221,7 +221,7 @@ def pupil_of_six(lens: Lens, source: Source, six: Coefficients, turn_deg: float 
         return pupil
 
 
-def _predicted(parts: "Parts") -> float:
+def _predicted_error(parts: "Parts") -> float:
     return min(sum(part.share * part.pupil.predicted_error for part in parts), 1.0)
 
 
@@ -244,7 +244,7 @@ def parts_of(
         return [PupilPart(pupil)], used
     waves, xyz = bands_through(lens, source, spectrum, COLOURS)
     share, (right, up) = xyz[:, 1] / xyz[:, 1].sum(), chief_places_um(lens, source, waves)
-    aside, shifts = turned(right, up, turn_deg)
+    aside, shifts = rotate_frequencies(right, up, turn_deg)
     found = []
     for wave, part, shift, beside in zip(waves, share, shifts, aside, strict=True):
         pupil, used = pupil_of(lens, replace(source, wavelength_um=float(wave)), method, clip, turn_deg)
@@ -290,7 +290,7 @@ def mtf_of(
         found = (_transfer(plain, [both[axis] for both in whole], np.abs(given) / UM_PER_MM)[1] for axis in (1, 0))
         clear = next(found), next(found)
     perfect = perfect_tangential, perfect_sagittal
-    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg, _predicted(parts))
+    return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg, _predicted_error(parts))
 
 
 def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -312,13 +312,13 @@ def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None) -> 
     given = None if radius_um is None else np.abs(number_list("radius_um", radius_um))
     largest = 0.0 if given is None else float(given.max(initial=0.0))
     found = [energy_of(part.pupil, centre - part.shift_um, right - part.aside_um, largest) for part in parts]
-    radius, fraction = _tabulated(parts, found)
+    radius, fraction = _common_table(parts, found)
     half, most = (_radius_of(parts, found, radius, fraction, part) for part in PARTS)
     if given is not None:
         radius, fraction = given, _within(parts, found, given)
     departure = max((one.departure for one in found if isinstance(one, LandingPoints)), default=0.0)
     return Energy(
-        radius, fraction, centre, half, most, _rms_of_rays(parts), method, departure, right, _predicted(parts)
+        radius, fraction, centre, half, most, _rms_of_rays(parts), method, departure, right, _predicted_error(parts)
     )
 
 
@@ -341,11 +341,11 @@ def _within(parts: Parts, found: Found, radius_um: np.ndarray) -> np.ndarray:
     return total
 
 
-def _tabulated(parts: Parts, found: Found) -> tuple[np.ndarray, np.ndarray]:
+def _common_table(parts: Parts, found: Found) -> tuple[np.ndarray, np.ndarray]:
     """Return a curve over radii that cover the blur of every part."""
     if len(found) == 1:
-        return found[0].tabulated()
-    radius = max((one.tabulated()[0] for one in found), key=lambda radii: float(radii[-1]))
+        return found[0].table()
+    radius = max((one.table()[0] for one in found), key=lambda radii: float(radii[-1]))
     return radius, _within(parts, found, radius)
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from scipy import fft
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
 from p2sf.metrics.line_ends import ENDS, end_weights
@@ -255,4 +255,4 @@ def _calibration(counts: Counts) -> np.ndarray:
     found = column_sum(uniform_disc(), counts)[1]
     found /= found[0]
     exact = circle_contrast(np.linspace(0, 1, counts[1] + 1))
-    return protected(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))
+    return write_protect(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))

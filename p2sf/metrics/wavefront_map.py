@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -191,7 +191,7 @@ def _power_tables(quality: str, odd: bool) -> tuple[np.ndarray, np.ndarray, np.n
 def _projection(known: MapTerms) -> np.ndarray:
     """Return the matrix from waves at nodes over the disc to the terms: their means over it, (terms, nodes)."""
     nodes = known.domain.nodes(RAYS[known.quality])
-    return protected(known.at(nodes.xi, nodes.eta) * nodes.weight)
+    return write_protect(known.at(nodes.xi, nodes.eta) * nodes.weight)
 
 
 def samples_of_rays(lens: Lens, source: Source, quality: str, clip: bool = False) -> WavefrontSamples:

@@ -63,7 +63,7 @@ def shape_factor(lens: Lens, first: int, last: int) -> float:
     return (one + two) / (one - two)
 
 
-def bent(lens: Lens, first: int, last: int, by_per_mm: float) -> Lens:
+def bend(lens: Lens, first: int, last: int, by_per_mm: float) -> Lens:
     """Return the lens with a curvature, 1/mm, added to every surface of an element: the same thin-lens power.
 
     Conic constants, aspheric terms and thicknesses stay. GeometryError for what is no element of `elements`.
@@ -74,12 +74,12 @@ def bent(lens: Lens, first: int, last: int, by_per_mm: float) -> Lens:
             first=first,
             last=last,
         )
-    made = (*(curved(surface, by_per_mm) for surface in lens.surfaces[first - 1 : last]),)
+    made = (*(add_curvature(surface, by_per_mm) for surface in lens.surfaces[first - 1 : last]),)
     return replace(lens, surfaces=(*lens.surfaces[: first - 1], *made, *lens.surfaces[last:]))
 
 
 def with_shape_factor(lens: Lens, first: int, last: int, shape: float) -> Lens:
-    """Return the lens with an element bent to a `shape_factor`, as `bent`; GeometryError for one without power."""
+    """Return the lens with an element bent to a `shape_factor`, as `bend`; GeometryError for one without power."""
     before = shape_factor(lens, first, last)
     if before == inf:
         raise GeometryError(
@@ -87,10 +87,10 @@ def with_shape_factor(lens: Lens, first: int, last: int, shape: float) -> Lens:
             first=first,
             last=last,
         )
-    return bent(lens, first, last, (shape - before) * (lens.curvatures[first - 1] - lens.curvatures[last - 1]) / 2)
+    return bend(lens, first, last, (shape - before) * (lens.curvatures[first - 1] - lens.curvatures[last - 1]) / 2)
 
 
-def curved(surface: Surface, by_per_mm: float) -> Surface:
+def add_curvature(surface: Surface, by_per_mm: float) -> Surface:
     """Return a surface with its curvature changed; a plane where only rounding is left."""
     curvature = surface.curvature + by_per_mm
     rounding = FLAT * max(abs(surface.curvature), abs(by_per_mm))

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import FloatOrArray, anywhere, is_number, protected, vergence
+from p2sf.conventions import FloatOrArray, anywhere, is_number, vergence, write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, surface_power
 
@@ -77,7 +77,7 @@ def basis_rays(lens: Lens, wavelength_um: FloatOrArray, beside: tuple[FloatOrArr
 def _basis_at(lens: Lens, wavelength_um: float) -> BasisRays:
     """Return the basis rays of one wavelength, kept while depth and field are dragged; write-protected."""
     rays = _basis(lens, np.asarray(wavelength_um))
-    _ = [protected(values) for values in (rays.a, rays.b, rays.c, rays.d, rays.index)]
+    _ = [write_protect(values) for values in (rays.a, rays.b, rays.c, rays.d, rays.index)]
     return rays
 
 
@@ -163,7 +163,7 @@ def _from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
 def _kept_from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the chief ray of one wavelength, kept while depth and field are dragged; write-protected."""
     y, nu = _from_stop(rays, at)
-    return protected(y), protected(nu)
+    return write_protect(y), write_protect(nu)
 
 
 def _branch(rays: BasisRays, power: tuple, gap: tuple) -> tuple[np.ndarray, np.ndarray]:

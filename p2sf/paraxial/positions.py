@@ -6,7 +6,7 @@ from functools import lru_cache
 from itertools import pairwise
 from math import isfinite
 
-from p2sf.arguments import checked
+from p2sf.arguments import check_arguments
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.positions import KEPT, PARAMETER, Axis, Kind, Positions, interpolate_lens, position_text
@@ -15,7 +15,7 @@ from p2sf.paraxial.first_order import basis_rays
 RTOL = 1e-12  # of a ring's travel
 
 
-@checked
+@check_arguments
 def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float | str | None = None) -> Lens:
     """Return a lens with its rings turned.
 
@@ -58,24 +58,24 @@ def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float |
         there if (value := asked[axis.kind]) is None else axis.place(value)
         for axis, there in zip(positions.axes, positions.place, strict=True)
     )
-    return lens if place == positions.place else _called(lens, _placed(positions, place))
+    return lens if place == positions.place else _with_names_of(lens, _lens_at(positions, place))
 
 
-def _called(lens: Lens, other: Lens) -> Lens:
+def _with_names_of(lens: Lens, other: Lens) -> Lens:
     """Return the other lens with what does not depend on the position as this one has it."""
     return replace(other, **{name: getattr(lens, name) for name in KEPT})
 
 
 @lru_cache(maxsize=128)
-def _placed(positions: Positions, place: tuple[float, ...]) -> Lens:
+def _lens_at(positions: Positions, place: tuple[float, ...]) -> Lens:
     """Return the lens with its rings at ``place``, one number for each axis, within its scale."""
     lens, axis = interpolate_lens(positions, place), positions.axes[0]
     if axis.kind == "zoom" and place[0] not in axis.at:
-        lens = _refocused(lens, axis, place[0], [interpolate_lens(positions, (at, *place[1:])) for at in axis.at])
+        lens = _refocus(lens, axis, place[0], [interpolate_lens(positions, (at, *place[1:])) for at in axis.at])
     return replace(lens, positions=replace(positions, place=place))
 
 
-def _refocused(lens: Lens, axis: Axis, place: float, columns: Sequence[Lens]) -> Lens:
+def _refocus(lens: Lens, axis: Axis, place: float, columns: Sequence[Lens]) -> Lens:
     """Return the lens between columns focused as these are: on a vergence that is a monotone cubic between theirs.
 
     Cubics of the spaces alone do not keep the image where the cams of a zoom do. Where it has no image, as it is.
@@ -127,7 +127,7 @@ def focused_inside(lens: Lens, focus_mm: float) -> Lens:
 
 def as_in_columns(lens: Lens) -> bool:
     """Return whether a lens is what its columns say for its position: not focused, opened or edited since then."""
-    return lens.positions is not None and _called(lens, _placed(lens.positions, lens.positions.place)) == lens
+    return lens.positions is not None and _with_names_of(lens, _lens_at(lens.positions, lens.positions.place)) == lens
 
 
 def each_column(lens: Lens, edit: Callable[[Lens], Lens]) -> Lens:
@@ -141,4 +141,4 @@ def with_columns(lens: Lens, columns: tuple[Lens, ...]) -> Lens:
     """Return a lens with positions with other columns, its rings where they are."""
     if lens.positions is None:
         return lens
-    return _called(lens, _placed(replace(lens.positions, lenses=columns), lens.positions.place))
+    return _with_names_of(lens, _lens_at(replace(lens.positions, lenses=columns), lens.positions.place))

@@ -10,7 +10,7 @@ from p2sf.conventions import UM_PER_MM, vergence
 from p2sf.errors import P2SFError
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stacked
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stack_pupils
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
@@ -159,7 +159,7 @@ class Kernels:
 
     def points(self, x_mm: ArrayLike, y_mm: ArrayLike) -> Points:
         """Return the light of points that land at (x, y up), (points,) each."""
-        x, y, angles = self.seen.fields.oriented(*np.asarray((x_mm, y_mm), float))
+        x, y, angles = self.seen.fields.orient(*np.asarray((x_mm, y_mm), float))
         lights = self._lights_at(x, y).turned(np.tile(angles, len(self.colour.wavelengths_um)))
         return Points(self.pixel_um, self.colour.weights, self.recipe, lights)
 
@@ -175,7 +175,7 @@ class Kernels:
         rays = [light for light in lights if isinstance(light, RaySpread)]
         of_waves = [light for light in lights if isinstance(light, PixelPupil)]
         landed = np.array(landings)
-        return PointLights(rays or stacked(of_waves), landed[:, 0], landed[:, 1:] * UM_PER_MM)
+        return PointLights(rays or stack_pupils(of_waves), landed[:, 0], landed[:, 1:] * UM_PER_MM)
 
     def lights(self, x_mm: float, y_mm: float) -> list[tuple[Light, ChannelLanding]]:
         """Return the light of a place in every wavelength, from its own rays."""

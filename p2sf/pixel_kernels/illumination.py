@@ -14,7 +14,7 @@ from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.clear_rim import clear_rim
 from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
-from p2sf.threads import mapped
+from p2sf.threads import map_threads
 
 NODES = 12, 32
 RIM_DIRECTIONS, RIM_ROUNDS = 96, 3  # corners between directions cost 3e-5 of the light, as do 16⁻³ of the radius
@@ -58,7 +58,7 @@ def relative_illumination(seen: SensorMap, x_mm: ArrayLike, y_mm: ArrayLike) -> 
     centre = landing_mm(seen.lens, Source(seen.depth_mm, 0.0, seen.wavelength_um))
     places = [centre, *zip(x.ravel().tolist(), y.ravel().tolist(), strict=True)]
     sources = (seen.source(*place, seen.wavelength_um) for place in places)
-    light = np.array(mapped(lambda source: light_collected(seen.lens, source, seen.clip), sources))
+    light = np.array(map_threads(lambda source: light_collected(seen.lens, source, seen.clip), sources))
     light *= seen.fields.thinning(*np.array(places).T)
     relative: np.ndarray = (light[1:] / light[0]).reshape(x.shape)
     return relative

@@ -7,9 +7,9 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import SamplingError
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stacked, turned
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stack_pupils, turn_pupils
 from p2sf.pixel_kernels.ray_spread import RaySpread
-from p2sf.pupil.binning import binned
+from p2sf.pupil.binning import bin_samples
 from p2sf.pupil.mask_cells import inside_share, open_share, turned_back, wings
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
@@ -67,7 +67,7 @@ def pixel_kernel(
     The field lies ``angle`` radians from +y towards +x. ``shift_um``: where the point's chief ray
     lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
     """
-    kernel: np.ndarray = pixel_kernels(stacked([pupil]), np.array([angle]), window, np.array([shift_um]))[0]
+    kernel: np.ndarray = pixel_kernels(stack_pupils([pupil]), np.array([angle]), window, np.array([shift_um]))[0]
     return kernel
 
 
@@ -78,7 +78,7 @@ def pixel_kernels(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
     for start in range(0, len(pupils), together):
         part = slice(start, start + together)
         light = sampled_light(pupils.some(part), angles[part], window, shifts_um[part])
-        pixels = binned(light, window.size, window.samples)
+        pixels = bin_samples(light, window.size, window.samples)
         total = pixels.sum((1, 2), dtype=float, keepdims=True).astype(np.float32)
         np.divide(pixels[:, ::-1], total, out=kernels[part])
     return kernels
@@ -94,7 +94,7 @@ def part_filled_kernel(pupil: PixelPupil, window: PixelWindow, fill_factor: floa
     """
     import scipy.fft
 
-    light = sampled_light(stacked([pupil]), np.zeros(1), window, np.zeros((1, 2)))[0]
+    light = sampled_light(stack_pupils([pupil]), np.zeros(1), window, np.zeros((1, 2)))[0]
     wide = window.samples * fill_factor**0.5  # of the square, in samples
     count = len(light)
     down, across = (np.sinc(wide * f).astype(np.float32) for f in (np.fft.fftfreq(count), np.fft.rfftfreq(count)))
@@ -125,7 +125,7 @@ def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
         )
     # Sample 0 of the transform is the window's lower left one; the samples of a pixel lie symmetrically in it.
     origin = -(count - 1) / 2 * pitch - shifts_um
-    field = _field(turned(pupils, angles), side, 1 / (side * pitch), origin)
+    field = _field(turn_pupils(pupils, angles), side, 1 / (side * pitch), origin)
     plane = scipy.fft.ifft2(field, overwrite_x=True)[:, :count, :count]
     light: np.ndarray = plane.real**2
     light += plane.imag**2
@@ -166,7 +166,7 @@ def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.nda
             amplitude *= inside_share(rim, np.hypot(rim_u, rim_v) * narrow)
         np.multiply(amplitude, np.cos(turns), out=field[:, rows].real)
         np.multiply(amplitude, np.sin(turns), out=field[:, rows].imag)
-    return _wrapped(field, half, side)
+    return _wrap(field, half, side)
 
 
 def _powers(axis: np.ndarray, count: int) -> np.ndarray:
@@ -217,7 +217,7 @@ def _behind_mask(
         turns += mask.path_um(xi, eta) / pupils.wavelength_um[:, None, None]
 
 
-def _wrapped(field: np.ndarray, half: int, side: int) -> np.ndarray:
+def _wrap(field: np.ndarray, half: int, side: int) -> np.ndarray:
     """Return the centred grids with frequency 0 at index 0, folded onto themselves where wider than ``side``."""
     planes = np.zeros((len(field), side, side), field.dtype)
     pieces = _pieces(half, side)

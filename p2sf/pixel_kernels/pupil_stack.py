@@ -111,7 +111,7 @@ def terms_of(basis: PupilBasis, form: str) -> Terms:
     return basis.fx if form == "xi" else basis.phase
 
 
-def stacked(pupils: Sequence[PixelPupil | PupilStack]) -> PupilStack:
+def stack_pupils(pupils: Sequence[PixelPupil | PupilStack]) -> PupilStack:
     """Return pupils and stacks of them as one stack, of the highest order; all with a weight, or none; of one mask."""
     stacks = [_as_stack(pupil) for pupil in pupils]
     order = max(stack.order for stack in stacks)
@@ -217,7 +217,7 @@ class Turned:
     angles: np.ndarray
 
 
-def turned(pupils: PupilStack, angles: np.ndarray) -> Turned:
+def turn_pupils(pupils: PupilStack, angles: np.ndarray) -> Turned:
     """Return the pupils of fields ``angles`` (pupils,) radians from +y towards +x: θ becomes θ − angle in every term.
 
     Rotation needs no interpolation: it turns cosine terms into sine terms of the same order, and the other way round.

@@ -27,7 +27,7 @@ REACHES = (1.35, 1.15, 1.04, 1.0, 0.9, 0.75)  # of the paraxial slope: the field
 class Fields(Protocol):
     """Which fields land where on the sensor, and which places share a pupil."""
 
-    def oriented(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def orient(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the places whose pupils, turned, are those of (x, y), and by which angles, radians from +y towards +x.
 
         About an axis of symmetry all points of a circle share the pupil of the one above the axis.
@@ -53,7 +53,7 @@ class RadialFields:
     along: np.ndarray
     heights_mm: np.ndarray
 
-    def oriented(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def orient(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the places above the axis, and the angles of (x, y), radians from +y towards +x."""
         height = np.hypot(x_mm, y_mm)
         return np.zeros_like(height), height, np.arctan2(x_mm, y_mm)
@@ -98,7 +98,7 @@ class PlaneFields:
     middle_mm: tuple[float, float]
     half_mm: tuple[float, float]
 
-    def oriented(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def orient(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the places themselves, and no angles."""
         x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
         return x, y, np.zeros(x.shape)
@@ -109,7 +109,7 @@ class PlaneFields:
 
     def slopes(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
         """Return the field slopes along x and y whose chief rays land at these places, mm."""
-        x, y = self._reduced(x_mm, y_mm)
+        x, y = self._reduce(x_mm, y_mm)
         return chebval2d(y, x, self.across), chebval2d(y, x, self.up)
 
     def polar(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
@@ -119,13 +119,13 @@ class PlaneFields:
 
     def thinning(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:
         """Return ∂(slopes)/∂(place), per mm²."""
-        x, y = self._reduced(x_mm, y_mm)
+        x, y = self._reduce(x_mm, y_mm)
         tables = [chebder(table, axis=axis) for table in (self.across, self.up) for axis in (1, 0)]
         one, two, three, four = (chebval2d(y, x, table) for table in tables)
         thinned: np.ndarray = np.abs(one * four - two * three) / (self.half_mm[0] * self.half_mm[1])
         return thinned
 
-    def _reduced(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
+    def _reduce(self, x_mm: FloatOrArray, y_mm: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
         x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
         (across, up), (wide, high) = self.middle_mm, self.half_mm
         return (x - across) / wide, (y - up) / high

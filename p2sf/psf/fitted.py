@@ -21,7 +21,7 @@ from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.vignetting import masked_blur
 from p2sf.threads import one_blas_thread
 
-__all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "fitted_waves", "psf_of_fit", "summed"]
+__all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "fitted_waves", "psf_of_fit", "sum_fit"]
 
 Values = tuple[np.ndarray, np.ndarray, np.ndarray]
 MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
@@ -121,7 +121,7 @@ def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:
     return on_disc(basis.domain, values, coarse, counts)
 
 
-def summed(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
+def sum_fit(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
     """Return the intensity of a fit, (pixels, pixels), in units of the unaberrated peak, and the nodes it took."""
     counts = counts_of(found, window_reach_um(pixels, pixel_um), quality)
     dtype = np.float64 if quality == "settled" else np.float32

@@ -8,7 +8,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import checked, real_array
+from p2sf.arguments import check_arguments, real_array
 from p2sf.conventions import NM_PER_UM, centred_axis
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
@@ -17,7 +17,7 @@ from p2sf.psf import pixel_integrals
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.peak import peak_on_demand
 from p2sf.psf.picture import Origin, psf_from_intensity, resolved
-from p2sf.psf.result import Psf, warned
+from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
 from p2sf.psf.sums.plane_waves import Waves
 from p2sf.pupil.quadrature import cell_areas
@@ -27,7 +27,7 @@ from p2sf.threads import one_blas_thread
 STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase cannot be told from a flatter one
 
 
-@checked
+@check_arguments
 @one_blas_thread
 def psf_of_opd(
     opd_waves: ArrayLike,
@@ -90,7 +90,7 @@ def psf_of_opd(
     # By Parseval, in units of the unaberrated peak; a cell that the rim cuts lets its covered part through.
     power = clear.sum() if amplitude is None else (clear**2).sum()
     pupil = _Pupil(opd, clear, power / clear.sum() ** 2, na, wavelength_nm / NM_PER_UM)
-    return warned(pixel_integrals.integrated(pupil.psf, pixels, pitch, critical_um, integrated), 5)
+    return warn_of_window(pixel_integrals.integrate(pupil.psf, pixels, pitch, critical_um, integrated), 5)
 
 
 @dataclass(frozen=True)

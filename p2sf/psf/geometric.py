@@ -12,7 +12,7 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.conventions import protected, vergence
+from p2sf.conventions import vergence, write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -120,7 +120,7 @@ def ray_blur(
     """
     if six:
         return _behind_mask(lens, source, _seidel_blur(six, GRIDS[quality]), six)
-    x, y, sent = _traced(lens, source, TRACED[quality], clip)
+    x, y, sent = _trace_grid(lens, source, TRACED[quality], clip)
     passed, even = np.isfinite(x), not lens.misaligned
     x, y = (_of_passed(values, passed, GRIDS[quality]) for values in (x, y))
     blur = _lit(x, y, finely(sent, GRIDS[quality]), even)
@@ -134,7 +134,7 @@ def ray_blur(
 def _coarse_blur(lens: Lens, source: Source, quality: str, clip: bool, six: Coefficients | None) -> RayBlur:
     """Return the blur without the mask, by the traced rays alone."""
     grid = TRACED[quality]
-    return _seidel_blur(six, grid) if six else _lit(*_traced(lens, source, grid, clip), not lens.misaligned)
+    return _seidel_blur(six, grid) if six else _lit(*_trace_grid(lens, source, grid, clip), not lens.misaligned)
 
 
 def _seidel_blur(c: Coefficients, grid: tuple[int, int]) -> RayBlur:
@@ -154,7 +154,7 @@ def _lit(x_um: np.ndarray, y_um: np.ndarray, light: np.ndarray, even: bool) -> R
 
 
 @lru_cache(maxsize=4)
-def _traced(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -> Columns:
+def _trace_grid(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -> Columns:
     """Return where exact rays through the cells of a grid land, and the light of unit share sent through each.
 
     A ray that cannot be aimed has none. Kept for the frame: the window's width asks for them first.
@@ -162,7 +162,7 @@ def _traced(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -> Co
     xi, eta, _ = polar(*grid, lens.misaligned)
     rays = pencil(lens, source, xi.ravel(), eta.ravel(), clip=clip, aim_error=SUM_AIM_ERROR)
     columns = rays.x_um, rays.y_um, np.nan_to_num(rays.launch * rays.transmission)
-    x, y, light = (protected(column.reshape(xi.shape)) for column in columns)
+    x, y, light = (write_protect(column.reshape(xi.shape)) for column in columns)
     return x, y, light
 
 
@@ -176,7 +176,7 @@ def polar(radii: int, directions: int, whole: bool = False) -> Columns:
     rho = ((np.arange(radii) + 0.5) / radii)[:, None]
     theta = (np.arange(directions) + 0.5) * (2 if whole else 1) * np.pi / directions
     share = np.broadcast_to(2 * rho / (radii * directions), (radii, directions))
-    return protected(rho * np.sin(theta)), protected(rho * np.cos(theta)), share
+    return write_protect(rho * np.sin(theta)), write_protect(rho * np.cos(theta)), share
 
 
 def _behind_mask(lens: Lens, source: Source, blur: RayBlur, six: Coefficients | None) -> RayBlur:
@@ -209,7 +209,7 @@ def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool =
     xi, eta, _ = polar(*grid, whole)
     across = mask.path_um(side * xi + SLOPE_STEP, eta) - mask.path_um(side * xi - SLOPE_STEP, eta)
     up = mask.path_um(side * xi, eta + SLOPE_STEP) - mask.path_um(side * xi, eta - SLOPE_STEP)
-    return protected(np.stack([across, up]) / (2 * SLOPE_STEP))
+    return write_protect(np.stack([across, up]) / (2 * SLOPE_STEP))
 
 
 @lru_cache(maxsize=16)
@@ -218,7 +218,7 @@ def passing(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool = Fal
     radii, directions = grid
     xi, eta, _ = polar(WITHIN * radii, WITHIN * directions, whole)
     light = mask.opens(side * xi, eta) * np.square(mask.amplitude(side * xi, eta))
-    return protected(light.reshape(radii, WITHIN, directions, WITHIN).mean(axis=(1, 3)))
+    return write_protect(light.reshape(radii, WITHIN, directions, WITHIN).mean(axis=(1, 3)))
 
 
 def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:

@@ -158,23 +158,23 @@ def _settle(
     """Return (plane waves, their intensity, agreement, rays traced) once two successive node counts agree."""
     axis, reach = centred_axis(*window), window_reach_um(*window)
     counts = first_counts(lens, source, reach, clip)
-    watch.expect(_nodes(counts) + _nodes(_raised(counts)))
+    watch.expect(_nodes(counts) + _nodes(_raise_counts(counts)))
     before = ray_waves(lens, source, counts, reach, clip, watch, pupil).waves.intensity(axis, axis)
     rays = _nodes(counts)
     while True:
-        counts = _raised(counts)
+        counts = _raise_counts(counts)
         found = ray_waves(lens, source, counts, reach, clip, watch, pupil)
         after = found.waves.intensity(axis, axis)
         rays += _nodes(counts)
         reached = float(np.linalg.norm(after - before) / np.linalg.norm(after))
-        if reached <= tolerance or _nodes(_raised(counts)) > MOST_NODES:
+        if reached <= tolerance or _nodes(_raise_counts(counts)) > MOST_NODES:
             watch.finish()
             return found, after, reached, rays
         before = after
-        watch.expect(_nodes(_raised(counts)))
+        watch.expect(_nodes(_raise_counts(counts)))
 
 
-def _raised(counts: Counts) -> Counts:
+def _raise_counts(counts: Counts) -> Counts:
     radial, angular = (2 * round(GROWTH * count / 2) for count in counts)
     return radial, angular
 

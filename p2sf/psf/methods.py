@@ -41,7 +41,7 @@ from p2sf.raytrace.fit import (
     LEVELS,
     RESIDUAL_WAVES,
     Judges,
-    behind,
+    behind_mask,
     fit,
     fit_rays,
     judging_rays,
@@ -184,7 +184,7 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
         return tried
     for level in levels_for(lens)[: len(QUICK_LEVELS)]:
         found = fit_rays(rays, level, level.rays, steep)
-        found = found if judges is None else behind(found, judges)
+        found = found if judges is None else behind_mask(found, judges)
         fitted = predicted_error(found.error_waves, "fitted")
         if fitted <= allowed:
             return replace(tried, method="fitted", predicted_error=fitted, numbers=level.numbers, fitted_error=fitted)

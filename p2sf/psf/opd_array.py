@@ -9,9 +9,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import SamplingError
-from p2sf.psf.sums.seidel_sum import unfolded
+from p2sf.psf.sums.seidel_sum import unfold
 from p2sf.pupil.phasors import cosine_sine
 
 Precision = type[np.float32] | type[np.float64]
@@ -40,7 +40,7 @@ def opd_intensity(
     parts = up @ (_pupil(opd[:, size // 2 :], right, dtype) @ across)
     even, odd = np.split(parts, 2, axis=1)
     turned = np.stack([-odd[1], odd[0]])  # i times the part odd in y
-    intensity: np.ndarray = unfolded(even[:, None], turned[:, None], pixels)[0] * dtype(1 / (2 * right.sum()) ** 2)
+    intensity: np.ndarray = unfold(even[:, None], turned[:, None], pixels)[0] * dtype(1 / (2 * right.sum()) ** 2)
     return intensity
 
 
@@ -59,4 +59,4 @@ def _kernels(size: int, cycles: float, pixels: int, dtype: np.dtype) -> tuple[np
     phase = 2 * np.pi * cycles * np.multiply.outer(cell, distance)
     across = 2 * np.cos(phase[size // 2 :])
     up = np.concatenate([np.cos(phase).T, np.sin(phase).T])
-    return protected(across.astype(dtype)), protected(up.astype(dtype))
+    return write_protect(across.astype(dtype)), write_protect(up.astype(dtype))

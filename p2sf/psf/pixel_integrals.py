@@ -17,7 +17,7 @@ from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.methods import AUTO, REFERENCE, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
-from p2sf.pupil.binning import binned
+from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.pencil import rays_through
 from p2sf.raytrace.vignetting import pupil_nodes
 
@@ -61,11 +61,11 @@ def light_per_pixel(fine: np.ndarray, pixels: int, across: int) -> np.ndarray:
     """Return the light per pixel, (…, pixels, pixels), of `fine_side` samples a side."""
     count = pixels * across
     planes = fine.reshape(-1, *fine.shape[-2:])[:, :count, :count]
-    light = np.stack([binned(plane, pixels, across) for plane in planes])
+    light = np.stack([bin_samples(plane, pixels, across) for plane in planes])
     return light.reshape(*fine.shape[:-2], pixels, pixels)
 
 
-def integrated(
+def integrate(
     render_at: Callable[[int, float], Psf],
     pixels: int,
     pixel_um: float,
@@ -120,7 +120,7 @@ def render_integrated(
     clip: bool = False,
     wanted: bool | None = None,
 ) -> Psf:
-    """Return `methods.render`'s PSF as light per pixel or as samples, as `integrated` has it; P2SFError as both.
+    """Return `methods.render`'s PSF as light per pixel or as samples, as `integrate` has it; P2SFError as both.
 
     Of a window too wide for a sum of waves the share of the light in it is that of rays.
     """
@@ -130,7 +130,7 @@ def render_integrated(
             render_integrated(lens, source, REFERENCE, pixels, pixel_um, tolerance, quality, clip, wanted)
         )
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    psf = integrated(
+    psf = integrate(
         lambda count, pitch: render(lens, source, method, count, pitch, quality, tolerance, clip),
         pixels,
         pixel_um or whole_pixel_um(lens, source, pixels),

@@ -122,12 +122,12 @@ def bands_through(lens: Lens, source: Source, spectrum: Spectrum, count: int) ->
     known = lens_range_um(lens)
     waves, weights = bands(spectrum, count, *((known,) if known else ()))
     if any(lens.absorbs):
-        weights = weights * [[_passed(lens, replace(source, wavelength_um=float(wave)))] for wave in waves]
+        weights = weights * [[_passing_share(lens, replace(source, wavelength_um=float(wave)))] for wave in waves]
         weights /= weights[:, 1].sum()
     return waves, weights
 
 
-def _passed(lens: Lens, source: Source) -> float:
+def _passing_share(lens: Lens, source: Source) -> float:
     """Return the share of the light that enters the pupil which surfaces and media pass."""
     nodes = pupil_nodes(lens, source, PASSING)
     rays = rays_through(lens, source, nodes)
@@ -184,10 +184,10 @@ def shifted_up(values: np.ndarray, rows: float) -> np.ndarray:
     """Return samples moved up by a number of rows, fractions linearly interpolated; what leaves the window is lost."""
     whole = int(np.floor(rows))
     part = rows - whole
-    return (1 - part) * _moved(values, whole) + (part * _moved(values, whole + 1) if part else 0.0)
+    return (1 - part) * _move_rows(values, whole) + (part * _move_rows(values, whole + 1) if part else 0.0)
 
 
-def _moved(values: np.ndarray, rows: int) -> np.ndarray:
+def _move_rows(values: np.ndarray, rows: int) -> np.ndarray:
     out = np.zeros_like(values)
     count = len(values)
     if abs(rows) < count:

@@ -180,7 +180,7 @@ class Psf:
         return picture.getvalue()
 
 
-def warned(psf: Psf, stacklevel: int = 3) -> Psf:
+def warn_of_window(psf: Psf, stacklevel: int = 3) -> Psf:
     """Return a PSF for a script to use, after a `P2SFWarning` where its window cuts it off."""
     if psf.caution:
         warnings.warn(str(psf.caution), P2SFWarning, stacklevel=stacklevel)

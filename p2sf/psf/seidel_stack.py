@@ -13,12 +13,12 @@ from math import ceil, sqrt
 import numpy as np
 from numpy.typing import DTypeLike
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of
-from p2sf.psf.fitted import summed
+from p2sf.psf.fitted import sum_fit
 from p2sf.psf.sums.seidel_sum import (
     BATCH,
     batch_intensities,
@@ -39,7 +39,7 @@ from p2sf.pupil.quadrature import (
 from p2sf.raytrace.fit import FittedPencil, Level
 from p2sf.raytrace.ray_field import Steepness
 from p2sf.raytrace.seen_mask import with_slopes
-from p2sf.threads import mapped, one_blas_thread, threads_or_default
+from p2sf.threads import map_threads, one_blas_thread, threads_or_default
 
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
@@ -101,7 +101,7 @@ def stack_of(
         with one_blas_thread:
             used = [fill([(slice(None), _rows(*steep, quality))])]
     else:
-        used = mapped(fill, _shares(stack_parts(terms, pixels, pixel_um, quality)), threads)
+        used = map_threads(fill, _shares(stack_parts(terms, pixels, pixel_um, quality)), threads)
     sampling = Message(
         "{nodes}, {precision}" if len(terms) <= 1 else "up to {nodes}, {precision}",
         nodes=max(used, key=_size).name if used else Message("no nodes"),
@@ -134,7 +134,7 @@ def _one_by_one(
     mask: PupilMask,
 ) -> SummedStack:
     """Return the PSFs of a stack of this shape one after the other, as those of fits with a linear map."""
-    found = mapped(lambda one: summed(as_fit(one, mask), *window, quality), coefficients, threads)
+    found = map_threads(lambda one: sum_fit(as_fit(one, mask), *window, quality), coefficients, threads)
     planes = np.reshape([plane for plane, _ in found], (*shape, window[0], window[0])).astype(dtype)
     total = planes.sum((-2, -1), dtype=float)
     nodes = found[-1][1] if found else Message("no nodes")
@@ -179,7 +179,7 @@ def _as_polynomials() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     values = SEIDEL_LEVEL.basis.values(nodes.xi, nodes.eta)
     phase = (values.phase * nodes.weight) @ shapes(nodes.xi, nodes.eta).T
     fx, fy = (values.fx * nodes.weight) @ nodes.xi, (values.fy * nodes.weight) @ nodes.eta
-    return protected(phase), protected(fx), protected(fy)
+    return write_protect(phase), write_protect(fx), write_protect(fy)
 
 
 def _size(rows: RowNodes) -> int:

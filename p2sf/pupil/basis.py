@@ -12,7 +12,7 @@ from typing import ClassVar, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
@@ -160,7 +160,7 @@ class Terms:
     @cached_property
     def indices(self) -> np.ndarray:
         """Return n and m of every term, (2, terms)."""
-        return protected(np.array([index for odd in self.parities for index in terms(self.order, odd)]).T)
+        return write_protect(np.array([index for odd in self.parities for index in terms(self.order, odd)]).T)
 
     def kinds(self, coefficients: np.ndarray) -> tuple[tuple[bool, np.ndarray], ...]:
         """Return coefficients, (…, terms), by parity."""
@@ -229,7 +229,7 @@ class Terms:
 def _harmonics(order: int) -> tuple[np.ndarray, np.ndarray]:
     """Return m of every even term, and the places of those with m > 0: the odd terms are these, in the same order."""
     harmonic = np.array([m for _, m in terms(order)])
-    return protected(harmonic), protected(np.flatnonzero(harmonic))
+    return write_protect(harmonic), write_protect(np.flatnonzero(harmonic))
 
 
 CONSTANT = Terms(0, (False,))

@@ -3,14 +3,14 @@
 import numpy as np
 
 
-def binned(light: np.ndarray, size: int, samples: int) -> np.ndarray:
+def bin_samples(light: np.ndarray, size: int, samples: int) -> np.ndarray:
     """Return the light of every pixel from its ``samples``² samples, (…, size, size), none of it negative."""
-    lines = np.ascontiguousarray(_edged(light, size, samples).swapaxes(-1, -2))
-    sums: np.ndarray = np.maximum(_edged(lines, size, samples).swapaxes(-1, -2), 0)
+    lines = np.ascontiguousarray(_edge_sums(light, size, samples).swapaxes(-1, -2))
+    sums: np.ndarray = np.maximum(_edge_sums(lines, size, samples).swapaxes(-1, -2), 0)
     return sums
 
 
-def _edged(light: np.ndarray, size: int, samples: int) -> np.ndarray:
+def _edge_sums(light: np.ndarray, size: int, samples: int) -> np.ndarray:
     """Return sums over samples in the middle of equal steps, (…, pixels · samples, columns) → (…, pixels, columns).
 
     The midpoint rule errs by h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.pupil.basis import PupilDomain
 from p2sf.pupil.quadrature import disc_axes, gauss_legendre
 
@@ -67,7 +67,7 @@ def _matrices(counts: tuple[int, int], radii: bytes, angles: bytes, odd: bool) -
     at_odd = harmonics % 2 == 1
     across = np.concatenate([analysis[:, some] @ wave[some] for some in (~at_odd, at_odd)], axis=1)
     up = np.concatenate([polynomial, rho[:, None] * polynomial / here], axis=1)
-    return protected(up), protected(across)
+    return write_protect(up), write_protect(across)
 
 
 @lru_cache(maxsize=8)
@@ -78,7 +78,7 @@ def _harmonics(angular: int, odd: bool) -> tuple[np.ndarray, np.ndarray]:
     number = np.arange(1, half + 1) if odd else np.arange(half)
     matrix = (np.sin if odd else np.cos)(np.outer(theta, number)) * (2 / half)
     matrix[:, number % half == 0] /= 2  # of the constant, and of the sine that alternates
-    return protected(matrix), protected(number)
+    return write_protect(matrix), write_protect(number)
 
 
 def _polynomials(radial: int, rho: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_fields, real_array
-from p2sf.conventions import FloatOrArray, protected
+from p2sf.conventions import FloatOrArray, write_protect
 from p2sf.errors import RequestError
 from p2sf.parameters import LONGEST_PATH_UM, OF_THE_MASK, check_between, check_finite, check_values
 from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
@@ -48,7 +48,7 @@ class PupilMap:
             )
         if not np.isfinite(table).all():
             raise RequestError("a map of the pupil has cells that are no finite numbers; give every cell one")
-        self.values = protected(table)
+        self.values = write_protect(table)
         self._digest = sha256(table.tobytes()).digest()
 
     @classmethod

@@ -13,7 +13,7 @@ from math import ceil, cos, inf, pi, sin, tan
 
 import numpy as np
 
-from p2sf.conventions import FloatOrArray, protected
+from p2sf.conventions import FloatOrArray, write_protect
 from p2sf.errors import GeometryError
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import MOST_KEPT, gauss_legendre
@@ -109,9 +109,9 @@ def shaded_nodes(mask: PupilMask, xi: np.ndarray, eta: np.ndarray, area: np.ndar
     share = float(area.sum())
     if not share > THINNEST:
         raise GeometryError("the mask in the stop leaves nothing open; make its obscuration or its vanes smaller")
-    amplitude = protected(mask.amplitude(xi, eta)) if mask.shaded else 1.0
-    path = protected(mask.path_um(xi, eta)) if mask.phased else 0.0
-    return ClearNodes(protected(xi), protected(eta), protected(area / share), share, amplitude, path, even)
+    amplitude = write_protect(mask.amplitude(xi, eta)) if mask.shaded else 1.0
+    path = write_protect(mask.path_um(xi, eta)) if mask.phased else 0.0
+    return ClearNodes(write_protect(xi), write_protect(eta), write_protect(area / share), share, amplitude, path, even)
 
 
 def ring_count(radial: int, width: float) -> int:

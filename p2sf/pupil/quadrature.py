@@ -13,7 +13,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import DTypeLike
 
-from p2sf.conventions import FloatOrArray, protected
+from p2sf.conventions import FloatOrArray, write_protect
 from p2sf.errors import SamplingError
 
 # Relative L2 error of a converged PSF in its window.
@@ -56,7 +56,7 @@ class _Cached(Generic[Nodes]):
 def disc_axes(radial: int, angular: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the radii, (radial,), and the angles from +η over half a turn, (angular/2,), of `disc_nodes`."""
     theta = (np.arange(angular // 2) + 0.5) * (2 * pi / angular)
-    return protected(np.sqrt((1 + gauss_legendre(radial)[0]) / 2)), protected(theta)
+    return write_protect(np.sqrt((1 + gauss_legendre(radial)[0]) / 2)), write_protect(theta)
 
 
 @_Cached
@@ -76,7 +76,7 @@ def disc_nodes(radial: int, angular: int) -> DiscNodes:
     rho, theta = disc_axes(radial, angular)
     xi, eta = np.outer(rho, np.sin(theta)), np.outer(rho, np.cos(theta))
     share = np.repeat(gauss_legendre(radial)[1] / angular, angular // 2)
-    return DiscNodes(protected(xi.ravel()), protected(eta.ravel()), protected(share))
+    return DiscNodes(write_protect(xi.ravel()), write_protect(eta.ravel()), write_protect(share))
 
 
 @_Cached
@@ -84,7 +84,7 @@ def whole_disc(radial: int, angular: int) -> tuple[np.ndarray, np.ndarray, np.nd
     """Return ξ, η and weights (sum 1) of the nodes of `disc_nodes` and their mirror images, each (radial·angular,)."""
     half = disc_nodes(radial, angular)
     xi, eta = np.append(half.xi, -half.xi), np.append(half.eta, half.eta)
-    return protected(xi), protected(eta), protected(np.append(half.weight, half.weight) / 2)
+    return write_protect(xi), write_protect(eta), write_protect(np.append(half.weight, half.weight) / 2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +122,9 @@ def chord_rows(rows: int, columns: int) -> RowNodes:
     along, weight = (x[columns // 2 :] for x in gauss_legendre(columns))
     share = np.outer(np.sin(angle) ** 2 * (4 / (rows + 1)), weight)
     name = f"{rows} × {columns} Gauss–Chebyshev × Gauss–Legendre nodes"
-    return RowNodes(protected(np.cos(angle)), protected(np.outer(np.sin(angle), along)), protected(share), name)
+    return RowNodes(
+        write_protect(np.cos(angle)), write_protect(np.outer(np.sin(angle), along)), write_protect(share), name
+    )
 
 
 @lru_cache(maxsize=8)
@@ -136,7 +138,7 @@ def grid_rows(size: int) -> RowNodes:
     centre = (np.arange(size // 2) + 0.5) * (2 / size)
     area = cell_areas(centre, centre, 2 / size)
     name = f"{size} × {size} uniform grid, edge cells weighted by area"
-    return RowNodes(protected(centre), protected(centre[None].copy()), protected(area / area.sum()), name)
+    return RowNodes(write_protect(centre), write_protect(centre[None].copy()), write_protect(area / area.sum()), name)
 
 
 def cell_areas(xi: FloatOrArray, eta: FloatOrArray, step: float, strips: int = 16) -> np.ndarray:
@@ -175,7 +177,9 @@ def gauss_legendre(count: int) -> tuple[np.ndarray, np.ndarray]:
             break
     _, slope = _legendre(count, x)
     weight = 2 / ((1 - x**2) * slope**2)
-    return protected(np.append(-x, x[::-1][count % 2 :])), protected(np.append(weight, weight[::-1][count % 2 :]))
+    return write_protect(np.append(-x, x[::-1][count % 2 :])), write_protect(
+        np.append(weight, weight[::-1][count % 2 :])
+    )
 
 
 def _legendre(order: int, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -199,7 +203,7 @@ def nodes_for(slope: float, reach: float, twist: float | None = None) -> tuple[i
     """
     radial = 0.85 * _harmonics(slope + reach, 7) + 0.15 * _harmonics(reach, 7)
     angular = _harmonics((slope if twist is None else twist) + reach, 7)
-    return _stepped(radial / 4 + 4), even_count(angular + 4)
+    return _next_count(radial / 4 + 4), even_count(angular + 4)
 
 
 def chords_for(
@@ -230,10 +234,10 @@ def _harmonics(slope: float, tail: float) -> float:
 
 def even_count(count: float) -> int:
     """Return the next even count with four significant bits."""
-    return 2 * _stepped(count / 2)
+    return 2 * _next_count(count / 2)
 
 
-def _stepped(count: float) -> int:
+def _next_count(count: float) -> int:
     """Return the next count with four significant bits, so that neighbouring requests share the cache.
 
     At most `UNCOUNTED`, also for what is no number, which whoever sums refuses.

@@ -170,7 +170,7 @@ def padded_fft(pupil: np.ndarray, pupil_samples: int, pixels: int) -> np.ndarray
     so that any pitch is allowed. Source: Pieroni et al. 2015. Raises SamplingError.
     """
     check_fft(pupil_samples, pixels)
-    plane: np.ndarray = np.fft.ifft2(_wrapped(pupil, pupil_samples), norm="forward")
+    plane: np.ndarray = np.fft.ifft2(_wrap(pupil, pupil_samples), norm="forward")
     shown = np.arange(pixels) - pixels // 2
     return plane[..., shown[:, None], shown]
 
@@ -191,7 +191,7 @@ def check_fft(pupil_samples: int, pixels: int) -> None:
         )
 
 
-def _wrapped(pupil: np.ndarray, size: int) -> np.ndarray:
+def _wrap(pupil: np.ndarray, size: int) -> np.ndarray:
     """Return the pupil on ``size``² samples, index 0 at its centre: padded with zeros, or folded if it is wider."""
     side = pupil.shape[-1]
     times = -(-side // size)

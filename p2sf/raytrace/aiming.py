@@ -179,7 +179,7 @@ def pupil_rays(
         return _through(enter, enter.radius * xi, enter.radius * eta)
     found = _stop_map(lens, source, aim_error) if stop is None and xi.size >= MANY and _single(enter) else None
     if found is None:
-        return _aimed(lens, source, enter, stop, xi, eta, aim_error)
+        return _aim(lens, source, enter, stop, xi, eta, aim_error)
     x, y, launch = found.at(xi, eta)
     return replace(_through(enter, x, y), launch=launch, stop_surface=int(np.max(enter.stop.surface)))
 
@@ -262,7 +262,7 @@ def _goal(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
     return rim * enter.upright * xi, rim * enter.upright * eta
 
 
-def _aimed(
+def _aim(
     lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes, aim_error: float
 ) -> PupilRays:
     """Solve for entrance points whose real rays meet the stop at (ξ, η) of its rim; wide fields by continuation."""
@@ -589,7 +589,7 @@ def _map_through_rays(
     at, enter = _terms_at(lens, order, counts), entrance(lens, source)
     turn = np.linspace(0, np.pi, RIM_RAYS)
     held, count = at.domain.points(np.sin(turn), np.cos(turn)), at.xi.size
-    rays = _aimed(lens, source, enter, None, np.append(at.xi, held[0]), np.append(at.eta, held[1]), AIM_ERROR)
+    rays = _aim(lens, source, enter, None, np.append(at.xi, held[0]), np.append(at.eta, held[1]), AIM_ERROR)
     if not np.isfinite(rays.x).all():
         return None, inf, inf
     true = rays.x, rays.y, np.asarray(rays.launch)

@@ -52,7 +52,7 @@ def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
 
 def chief_ray_error(lens: Lens, outcome: Message, surface: int) -> GeometryError:
     """Return the error that says what becomes of the chief ray at a surface, and which placement may be to blame."""
-    number, placement = _placed(lens, surface)
+    number, placement = _last_placement(lens, surface)
     if placement is None:
         return GeometryError("the chief ray {outcome}; choose a smaller field", outcome=outcome)
     return GeometryError(
@@ -65,7 +65,7 @@ def chief_ray_error(lens: Lens, outcome: Message, surface: int) -> GeometryError
     )
 
 
-def _placed(lens: Lens, surface: int) -> tuple[int, Placement | None]:
+def _last_placement(lens: Lens, surface: int) -> tuple[int, Placement | None]:
     """Return the last surface up to this one that is placed, else followed by a break, and its first break.
 
     A break behind a piece mostly takes back the one before it, and would name the piece by the opposite numbers.

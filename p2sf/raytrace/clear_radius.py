@@ -45,7 +45,7 @@ def clear_radius(
         passed, room, label = clearance(at, some)
         ended[some] = np.where(passed, ended[some], label)
         same = passed == new[2]
-        before, other = _swapped(new, other, ~same), _swapped(new, other, same)
+        before, other = _where(new, other, ~same), _where(new, other, same)
         new = at, room, passed
         radius[some] = np.where(passed, at, other[0])
         left, steps = np.abs(other[0] - at) > enough, steps + 1
@@ -55,7 +55,7 @@ def clear_radius(
     return radius, ended
 
 
-def _swapped(one: Ends, other: Ends, where: np.ndarray) -> Ends:
+def _where(one: Ends, other: Ends, where: np.ndarray) -> Ends:
     """Return the first of two points, the second ``where``."""
     at, room, passed = (np.where(where, b, a) for a, b in zip(one, other, strict=True))
     return at, room, passed

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aim, Lens
 from p2sf.lens.source import Source
@@ -103,7 +103,7 @@ SIZES: dict[tuple[PupilDomain, Aim], tuple[Level, ...]] = {
     (WHOLE, "paraxial"): NOT_SYMMETRIC,
     (WHOLE, "stop"): NOT_SYMMETRIC,
 }
-UNIFORM = protected(np.ones(1))  # the first polynomial is 1
+UNIFORM = write_protect(np.ones(1))  # the first polynomial is 1
 
 
 def levels(aim: Aim, domain: PupilDomain = HALF) -> tuple[Level, ...]:
@@ -203,7 +203,7 @@ def fit(
             traced += level.rays
         found = fit_rays(rays, level, traced)
         if judges is not None:
-            found = behind(found, judges)
+            found = behind_mask(found, judges)
         if numbers or found.error_waves < residual_waves:
             break
     if found is None:
@@ -240,10 +240,10 @@ def _judges_of(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.nda
     """Return points of the open part of a domain, and shares of the light."""
     nodes = domain.over(mask_nodes(replace(mask, vanes=0), *JUDGES))
     share: np.ndarray = nodes.weight * np.square(nodes.amplitude)
-    return nodes.xi, nodes.eta, protected(share / share.sum())
+    return nodes.xi, nodes.eta, write_protect(share / share.sum())
 
 
-def behind(found: FittedPencil, judges: Judges) -> FittedPencil:
+def behind_mask(found: FittedPencil, judges: Judges) -> FittedPencil:
     """Return the fit of the pupil behind a mask: steeper by its slopes, with residuals where it is open if larger."""
     data, share = judges.data, judges.share
     phase, fx, fy = found.at(judges.xi, judges.eta)

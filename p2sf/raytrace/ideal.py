@@ -24,14 +24,14 @@ def object_point(lens: Lens, beam: Beam, index: "np.ndarray | list[float]", numb
     if point is None:
         return None
     for place, surface in enumerate(lens.surfaces[:number]):
-        point = _seen(point, lens, place)
+        point = _in_next_axes(point, lens, place)
         if place + 1 < number:
             before, after = index[place], index[place + 1]
-            point = imaged(point, surface_power(surface, before, after, beam.wavelength_um), before, after)
+            point = image_point(point, surface_power(surface, before, after, beam.wavelength_um), before, after)
     return point
 
 
-def _seen(point: Point, lens: Lens, place: int) -> Point:
+def _in_next_axes(point: Point, lens: Lens, place: int) -> Point:
     """Return a point in the axes of the next surface."""
     rotation, origin = lens.motions[place]
     x, y, z = (part - shift * point[3] for part, shift in zip(point[:3], origin, strict=True))
@@ -39,7 +39,7 @@ def _seen(point: Point, lens: Lens, place: int) -> Point:
     return x, y, z, point[3]
 
 
-def imaged(point: Point, power: FloatOrArray, before: FloatOrArray, after: FloatOrArray) -> Point:
+def image_point(point: Point, power: FloatOrArray, before: FloatOrArray, after: FloatOrArray) -> Point:
     """Return the Gaussian image by a surface at z = 0: n'/z' = n/z + power, x'/x = nz'/(n'z) (Welford 1986, ch. 3)."""
     x, y, z, w = point
     return x, y, z * (after / before), w + power / before * z
@@ -62,7 +62,7 @@ def bend_ideally(
     if point is None:
         beam.path[...] = np.nan
         return
-    image = imaged(point, 1 / focal_length, before, after)
+    image = image_point(point, 1 / focal_length, before, after)
     beam.path += after * _lead(image, *here) - before * _lead(point, *here)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import UM_PER_MM, FloatOrArray, protected
+from p2sf.conventions import UM_PER_MM, FloatOrArray, write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
@@ -415,7 +415,7 @@ def pupil_grid(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     axis = (2 * np.arange(count) + 1 - count) / count
     xi, eta = np.meshgrid(axis, axis)
     inside = xi * xi + eta * eta <= 1
-    return protected(xi), protected(eta), protected(inside)
+    return write_protect(xi), write_protect(eta), write_protect(inside)
 
 
 def opd_map(lens: Lens, source: Source, count: int = 64) -> np.ndarray:

@@ -138,14 +138,14 @@ def landing(
 def _landing(lens: Lens, source: Source | Sources, clip: bool, follow_rims: bool, rings: int) -> Landing:
     mask = mask_of_rays(lens, source)
     domain = lens.pupil_domain if mask.even else WHOLE
-    found, whole = _traced(lens, source, _open_nodes(mask, rings, domain), _rim_points(mask, domain), clip)
+    found, whole = _trace_sources(lens, source, _open_nodes(mask, rings, domain), _rim_points(mask, domain), clip)
     if whole or not follow_rims or isinstance(source, Sources):
-        return _checked(found, clip)
+        return _check_light(found, clip)
     if mask.clear and not (clip and holes_of(lens)):
         rim = clear_rim(lens, source, clip, *CLEAR_RIM)
-        return _checked(_traced(lens, source, rim.nodes(rings), rim.points, False)[0], clip)
+        return _check_light(_trace_sources(lens, source, rim.nodes(rings), rim.points, False)[0], clip)
     nodes = _open_nodes(mask, FINER * rings, domain)
-    return _checked(_traced(lens, source, nodes, _rim_points(mask, domain), clip)[0], clip)
+    return _check_light(_trace_sources(lens, source, nodes, _rim_points(mask, domain), clip)[0], clip)
 
 
 _kept_landing = lru_cache(maxsize=32)(_landing)
@@ -179,7 +179,7 @@ def _rim_points(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.nd
     return xi[open_there], eta[open_there]
 
 
-def _traced(
+def _trace_sources(
     lens: Lens, source: Source | Sources, nodes: ClearNodes, rim: tuple[np.ndarray, np.ndarray], clip: bool
 ) -> tuple[Landing, bool]:
     """Return where rays through nodes and through points of the rim land, and whether all of them do."""
@@ -191,7 +191,7 @@ def _traced(
     return Landing(rays.x_um, rays.y_um, light, nodes.even, rounding), bool(rays.passed.all())
 
 
-def _checked(found: Landing, clip: bool) -> Landing:
+def _check_light(found: Landing, clip: bool) -> Landing:
     """Return it; GeometryError where no light of any source arrives."""
     if not np.isfinite(found.light).any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")

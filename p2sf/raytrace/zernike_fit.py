@@ -59,7 +59,7 @@ def zernike_fit(
     """
     terms = zernike_terms(order, count)
     nodes, waves = pupil_opd(lens, source, clip)
-    return decomposed(nodes, waves, order, terms)
+    return decompose(nodes, waves, order, terms)
 
 
 def pupil_opd(
@@ -96,7 +96,7 @@ def open_nodes(lens: Lens, source: Source, counts: tuple[int, int]) -> ClearNode
     return pupil_nodes(lens, source, (radial, counts[1]))
 
 
-def decomposed(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
+def decompose(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
     """Return the terms of a wavefront at nodes, (nodes,) waves; nodes of the half disc stand for one even in ξ.
 
     Terms that are odd in ξ are then zero. Each of the others is made orthogonal to those before it, as a QR

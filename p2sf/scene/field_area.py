@@ -36,7 +36,7 @@ class FieldArea:
 
     def point_of(self, x_mm: float, y_mm: float) -> Point:
         """Return the point of the area whose pupil, turned, is that of a place on the sensor."""
-        x, y, _ = self.fields.oriented(x_mm, y_mm)
+        x, y, _ = self.fields.orient(x_mm, y_mm)
         return round(float(x), DIGITS), round(float(y), DIGITS)
 
     def outwards(self, part: float) -> Point:
@@ -50,7 +50,7 @@ def field_area(fields: Fields, sensor: Sensor) -> FieldArea:
     x, y = sensor.ends_mm()
     beside, below = (float(np.clip(0.0, *ends)) for ends in (x, y))
     places = np.array([(beside, below), *product(x, y)]).T
-    across, up, _ = fields.oriented(*places)
+    across, up, _ = fields.orient(*places)
     near = float(across[0]), float(up[0])
     left, right, low, high = (float(end) for side in (across, up) for end in (side.min(), side.max()))
     corners = sorted(set(product((left, right), (low, high))) - {near}, key=lambda corner: (-hypot(*corner), corner))

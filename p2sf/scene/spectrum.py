@@ -6,7 +6,7 @@ from p2sf.pixel_kernels import Colour
 from p2sf.scene.scene import Channel
 
 
-def reduced(channel: Channel, count: int) -> Colour:
+def reduce_spectrum(channel: Channel, count: int) -> Colour:
     """Return ``count`` wavelengths and weights whose moments up to 2·count − 1 are the channel's.
 
     Lanczos on the given wavelengths, then the eigenvectors of the Jacobi matrix (Golub & Welsch 1969). Where

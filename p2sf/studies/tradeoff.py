@@ -12,7 +12,7 @@ from typing import BinaryIO
 
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import checked, number_list
+from p2sf.arguments import check_arguments, number_list
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, set_up_source, with_camera
 from p2sf.conventions import NM_PER_UM
 from p2sf.html import html_table
@@ -67,7 +67,7 @@ class TradeoffTable(list[MethodCost]):
 
 
 @one_blas_thread
-@checked
+@check_arguments
 @with_camera
 def tradeoff(
     lens: Lens,

@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import Cancelled, RequestError
 from p2sf.pupil import zernike
 from p2sf.pupil.quadrature import whole_disc
@@ -97,7 +97,7 @@ def evaluate(
             raise Cancelled("the builds were stopped before they were done")
         some = slice(begin, begin + TOGETHER)
         for _ in range(ROUNDS if compensators else 0):
-            errors[some][:, list(compensators)] += form.compensated(errors[some], tuple(compensators))
+            errors[some][:, list(compensators)] += form.compensation(errors[some], tuple(compensators))
         change = form.phase.change(errors[some])
         rms[some], strehl[some] = form.quality(change, form.wavefront.change(errors[some]))
         stretch = np.einsum("be,efx->bfx", errors[some], known.stretch)
@@ -200,7 +200,7 @@ class QuadraticForm:
                 both = zip(asked, near, strict=True)
                 self.patterns.append([(_Pattern(a), _Pattern(b)) if a and b else None for a, b in both])
 
-    def _rooted(self, change: np.ndarray, still: float) -> np.ndarray:
+    def _root(self, change: np.ndarray, still: float) -> np.ndarray:
         """Return numbers whose squares add to each field's mean square, (…, fields, terms + 1).
 
         Of a change of the wavefront alone where ``still`` is 0, and of the wavefront where it is 1.
@@ -208,18 +208,18 @@ class QuadraticForm:
         roots = [still * one.root[0] + change[..., k, :] @ one.root[1:] for k, one in enumerate(self.on_sphere)]
         return np.stack(roots, axis=-2)
 
-    def compensated(self, errors: np.ndarray, places: tuple[int, ...]) -> np.ndarray:
+    def compensation(self, errors: np.ndarray, places: tuple[int, ...]) -> np.ndarray:
         """Return the step of compensators, (builds, compensators), that makes the mean square of all fields least."""
-        waves = self._rooted(self.wavefront.change(errors), 1.0).reshape(len(errors), -1)
+        waves = self._root(self.wavefront.change(errors), 1.0).reshape(len(errors), -1)
         each = [self.wavefront.slope(errors, place) for place in places]
-        slopes = np.stack([self._rooted(one, 0.0).reshape(len(errors), -1) for one in each], axis=1)
+        slopes = np.stack([self._root(one, 0.0).reshape(len(errors), -1) for one in each], axis=1)
         normal = slopes @ slopes.swapaxes(1, 2)
         step: np.ndarray = -np.linalg.solve(normal, (slopes @ waves[..., None]))[..., 0]
         return step
 
     def quality(self, of_phase: np.ndarray, of_wavefront: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return RMS in waves and Strehl ratio, (builds, fields), of changes of both, (builds, fields, terms)."""
-        rms = np.sqrt(np.square(self._rooted(of_wavefront, 1.0)).sum(-1))
+        rms = np.sqrt(np.square(self._root(of_wavefront, 1.0)).sum(-1))
         strehl = np.zeros_like(rms)
         for k, field in enumerate(self.fields):
             near = rms[:, k] <= FEW_RAYS_RMS
@@ -250,7 +250,7 @@ def _few_rays(known: Differentials, field: int) -> FieldForm:
 @lru_cache(maxsize=1)
 def _to_terms() -> np.ndarray:
     """Return the matrix (rays, terms) from a smooth change at the rays of the differentials to its polynomials."""
-    return protected(np.linalg.pinv(_terms(*whole_disc(*NODES)[:2])))
+    return write_protect(np.linalg.pinv(_terms(*whole_disc(*NODES)[:2])))
 
 
 def _terms(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:

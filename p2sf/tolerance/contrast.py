@@ -109,7 +109,7 @@ def pairs_of(known: Differentials, field: int, frequency_per_mm: float) -> tuple
     check_positive("frequency_per_mm", frequency_per_mm)
     pupil, shift = _PupilMap(known, field), frequency_per_mm / UM_PER_MM
     source, lens = known.sources[field], known.lens
-    sagittal, tangential = (_settled(pupil, lens, source, shift * np.array(axis)) for axis in ((1.0, 0.0), (0.0, 1.0)))
+    sagittal, tangential = (_settle(pupil, lens, source, shift * np.array(axis)) for axis in ((1.0, 0.0), (0.0, 1.0)))
     return sagittal, tangential
 
 
@@ -119,7 +119,7 @@ def at_frequency(contrast: np.ndarray, near: np.ndarray, stretch: np.ndarray) ->
     return moved
 
 
-def _settled(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray) -> Pairs | None:
+def _settle(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray) -> Pairs | None:
     """Return as many pairs as the waves of the lens need."""
     corners = _corners(pupil, frequency)
     if corners is None:

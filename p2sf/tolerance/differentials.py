@@ -40,7 +40,7 @@ from p2sf.raytrace.pencil import (
 )
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
-from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, placed, source_of_build
+from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, placement_of, source_of_build
 
 NODES = 6, 12  # radii and directions of the rays
 FINE = 16, 40  # those of the lens without errors, which carry exp(2πiW) where the lens itself has waves of aberration
@@ -310,7 +310,7 @@ def _back_focus(lens: Lens, tolerances: tuple[Tolerance, ...]) -> list[int]:
 def with_moved_sensor(lens: Lens, rays: Rays, by_mm: float) -> tuple[Lens, Rays]:
     """Return the lens with its sensor farther behind its last surface, and its rays there."""
     moved = with_sensor(lens, lens.sensor_mm + by_mm)
-    axis = lens.frames[-1][0].T @ _behind(lens, len(lens.surfaces) - 1).rotation[:, 2]
+    axis = lens.frames[-1][0].T @ _axes_behind(lens, len(lens.surfaces) - 1).rotation[:, 2]
     way, chief = by_mm * axis[2] / rays.kz, by_mm * axis[2] / rays.chief_kz
     dx, dy = rays.dx + rays.kx * way - rays.chief_kx * chief, rays.dy + rays.ky * way - rays.chief_ky * chief
     return moved, replace(rays, dx=dx, dy=dy, path=rays.path + rays.index * (way - chief), crossings=None)
@@ -346,7 +346,7 @@ def _path_change(
         return np.zeros(found.points.shape[-1])
     if tolerance.kind == "thickness":
         behind = found.cosines[place + 1]
-        turn = _behind(lens, place).rotation[:, 2]
+        turn = _axes_behind(lens, place).rotation[:, 2]
         along: np.ndarray = turn @ behind
         return along
     if tolerance.kind == "index":
@@ -412,7 +412,7 @@ def _mount(
     here, still = lens.frames[tolerance.first - 1], Placement()
     if other.kind not in MOVES or other.first != tolerance.first:
         return here, still
-    there = placed({other.kind: error})
+    there = placement_of({other.kind: error})
     if other.piece == tolerance.piece:
         return here.then(there.motion.inverse), there
     order = [one.piece for one in tolerances if one.kind in MOVES]
@@ -421,7 +421,7 @@ def _mount(
     return (here.then(there.motion.inverse) if apart else here), still
 
 
-def _behind(lens: Lens, place: int) -> Motion:
+def _axes_behind(lens: Lens, place: int) -> Motion:
     """Return the axes behind a surface, along whose z its thickness runs."""
     motion = lens.frames[place]
     for placement in lens.surfaces[place].after:

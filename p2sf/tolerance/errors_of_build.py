@@ -142,13 +142,13 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
             piece[tolerance.kind] = piece.get(tolerance.kind, 0.0) + error
         else:
             place = tolerance.first - 1
-            surfaces[place] = _altered(lens, surfaces[place], tolerance, error)
+            surfaces[place] = _alter(lens, surfaces[place], tolerance, error)
     built = replace(with_fixed_stop(lens), surfaces=tuple(surfaces))
     for (first, last), numbers in moves.items():
         if first > count:
-            built = replace(built, sensor_before=(*lens.sensor_before, placed(numbers)))
+            built = replace(built, sensor_before=(*lens.sensor_before, placement_of(numbers)))
         else:
-            built = displaced(built, first, last, placed(numbers))
+            built = displaced(built, first, last, placement_of(numbers))
     return built
 
 
@@ -168,7 +168,7 @@ def source_of_build(designed: Lens, built: Lens, source: Source) -> Source:
     return replace(source, field_slope=source.field_slope * before / after)
 
 
-def _altered(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -> Surface:
+def _alter(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -> Surface:
     """Return a surface, number ``tolerance.first``, with an error that moves nothing, on top of what is off already."""
     if tolerance.kind == "radius":
         return replace(surface, radius=surface.radius * (1 + error / 100))
@@ -192,7 +192,7 @@ def clear_radius(lens: Lens, number: int) -> float:
     return stated if isfinite(stated) else float(needed_radii(lens)[number - 1])
 
 
-def placed(errors: Mapping[Kind, float]) -> Placement:
+def placement_of(errors: Mapping[Kind, float]) -> Placement:
     """Return the break of a piece with these decentres and tilts."""
     x, y, a, b = (errors.get(kind, 0.0) for kind in MOVES)
     return Placement(decentre_x=x, decentre_y=y, tilt_x_deg=a, tilt_y_deg=b)

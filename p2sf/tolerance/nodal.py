@@ -30,7 +30,7 @@ from p2sf.raytrace.chief_ray import check_chief_ray
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf.raytrace.trace import run
 from p2sf.threads import one_blas_thread
-from p2sf.tolerance.errors_of_build import MOVES, UNITS, Kind, placed
+from p2sf.tolerance.errors_of_build import MOVES, UNITS, Kind, placement_of
 
 RAYS = 8, 16  # radii and directions: coma and astigmatism of a wavefront up to degree 12, exactly
 STEP = 1e-4  # mm and degrees: a difference's error is its square, a rounding of 1e-13 over it
@@ -170,7 +170,7 @@ def nodal_sensitivities(
     rows = []
     for move in moves:
         more, less = (
-            _state(displaced(lens, move.first, move.last, placed({move.kind: step})), depth_mm, wavelength_um)
+            _state(displaced(lens, move.first, move.last, placement_of({move.kind: step})), depth_mm, wavelength_um)
             for step in (STEP, -STEP)
         )
         rows.append((more - less) / (2 * STEP))

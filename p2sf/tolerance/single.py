@@ -92,13 +92,13 @@ class _Opening:
 
     def __init__(self, known: Differentials, fine: Sequence[OpenRays]):
         self._known, self.fine = known, fine
-        self.still = self._reached(np.zeros(len(known.tolerances)))[1]
+        self.still = self._trace_opening(np.zeros(len(known.tolerances)))[1]
         each = zip(self.still, known.sources, strict=True)
         self._on_sphere = [wavefront_of(known.lens, source, rays) for rays, source in each]
 
     def waves(self, errors: np.ndarray) -> list[_Waves]:
         """Return the waves of every field of a build."""
-        built, reached = self._reached(errors)
+        built, reached = self._trace_opening(errors)
         return [self._straight(k, built, rays) for k, rays in enumerate(reached)]
 
     def slopes(self, there: list[_Waves], errors: np.ndarray, place: int) -> list[_Waves]:
@@ -118,7 +118,7 @@ class _Opening:
             for a, b in zip(more, there, strict=True)
         ]
 
-    def _reached(self, errors: np.ndarray) -> tuple[Lens, list[Rays]]:
+    def _trace_opening(self, errors: np.ndarray) -> tuple[Lens, list[Rays]]:
         known = self._known
         built = build(known.lens, known.tolerances, errors.tolist()) if errors.any() else known.lens
         each = zip(known.sources, self.fine, strict=True)

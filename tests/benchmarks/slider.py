@@ -33,7 +33,7 @@ from p2sf_explorer.charts.theme import configure_plots, screen_scale
 from p2sf_explorer.compute.quantities import OF_THE_LENS
 from p2sf_explorer.compute.setup import prescription, ranges, with_lens
 from p2sf_explorer.state.build_errors import with_error
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.window import window as shell
@@ -53,11 +53,11 @@ FIRST, FRAMES, SWING = 10, 100, 37  # frames that do not count, frames that do, 
 PARTS = {  # what is timed by ``--split``: the name that calls it, and what it is
     "p2sf_explorer.compute.live:paraxial_setup": "compute: first order",
     "p2sf_explorer.compute.live:layout_of": "compute: layout's rays",
-    "p2sf_explorer.compute.live:rendered": "compute: method and window",
+    "p2sf_explorer.compute.live:render_state": "compute: method and window",
     "p2sf.psf.geometric:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.method:main_reach_um": "compute: ray density",
     "p2sf_explorer.compute.method:geometric_psf": "compute: ray density",
-    "p2sf_explorer.compute.method:chosen": "compute: choice",
+    "p2sf_explorer.compute.method:choose_for_state": "compute: choice",
     "p2sf_explorer.compute.preview:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.preview:best_fit": "compute: fit",
     "p2sf_explorer.compute.method:best_fit": "compute: fit",
@@ -169,7 +169,7 @@ def wait(window: MainWindow) -> None:
 
 def opened(state: State, size: tuple[int, int]) -> MainWindow:
     """Return a window of a size, its first pictures painted."""
-    window = MainWindow(changed(state, scale_percent=100 * screen_scale(QSize(*size))), measured=False)
+    window = MainWindow(change(state, scale_percent=100 * screen_scale(QSize(*size))), measured=False)
     window.resize(*size)
     window.show()
     for _ in range(5):
@@ -223,7 +223,7 @@ def stages(options: argparse.Namespace, lenses: tuple[str, ...], clock: Clock) -
 def misaligned(clock: Clock) -> None:
     """Drag a misaligned Double Gauss: the sliders of the source, then the decentre of an element."""
     state = with_lens(new_state(theme="light", errors=MISALIGNED), LENSES[0])
-    state, size, found = changed(state, errors=MISALIGNED), SIZES[0], []
+    state, size, found = change(state, errors=MISALIGNED), SIZES[0], []
     found += measure("misaligned", state, size, ("field_deg", "field_x_deg", "depth_mm", "f_number"), clock)
     window, spent = opened(state, size), []
     clock.spent.clear()

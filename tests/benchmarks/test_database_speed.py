@@ -13,9 +13,9 @@ from threadpoolctl import threadpool_limits
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
-from p2sf.database.departure import scattered
+from p2sf.database.departure import scatter
 from p2sf.database.files import database_bytes
-from p2sf.database.render import Sampling, rendered
+from p2sf.database.render import Sampling, render_source
 from p2sf.lensfile.library import find_lens
 from p2sf.threads import using_threads
 
@@ -69,7 +69,7 @@ def test_look_up(benchmark, capsys, lens, interpolant):
     database = build_database(lens, WIDE, interpolant)
     cpu, wall = cpu_median(lambda: [database.coefficients(900.0, 0.1, 0.55) for _ in range(100)], 50)
     report(capsys, f"one look-up, {interpolant}", cpu / 100, wall / 100)
-    points = scattered(WIDE, 10_000, getattr(database, "last_depth_mm", np.inf))
+    points = scatter(WIDE, 10_000, getattr(database, "last_depth_mm", np.inf))
     report(capsys, f"10 000 look-ups, {interpolant}", *cpu_median(lambda: database.coefficients(*points)))
     benchmark(database.coefficients, 900.0, 0.1, 0.55)
 
@@ -79,12 +79,12 @@ def test_render_12_400(benchmark, capsys, lens):
     database = build_database(lens, NEAR_FOCUS)
     assert np.abs(database.coefficients(*NEAR_FOCUS.axes).wd).max() <= 10
     for sampling in (SAMPLING, Sampling(64, 1.0, "settled")):
-        cpu, wall = cpu_median(lambda sampling=sampling: rendered(database, NEAR_FOCUS.axes, sampling), 3)
+        cpu, wall = cpu_median(lambda sampling=sampling: render_source(database, NEAR_FOCUS.axes, sampling), 3)
         start = perf_counter()
-        rendered(database, NEAR_FOCUS.axes, sampling, threads=2)
+        render_source(database, NEAR_FOCUS.axes, sampling, threads=2)
         two = perf_counter() - start
         tracemalloc.start()
-        result = rendered(database, NEAR_FOCUS.axes, sampling)
+        result = render_source(database, NEAR_FOCUS.axes, sampling)
         beyond = (tracemalloc.get_traced_memory()[1] - result.nbytes) / MIB
         tracemalloc.stop()
         more = f", two threads wall {1e3 * two:.4g} ms, {beyond:.1f} MiB beyond the result"
@@ -92,7 +92,7 @@ def test_render_12_400(benchmark, capsys, lens):
     size = len(database_bytes(database, lens))
     assert result.nbytes >= 400 * size
     report(capsys, "coefficients are smaller than PSFs by", 0, 0, f" a factor {result.nbytes / size:.0f}")
-    benchmark.pedantic(rendered, (database, NEAR_FOCUS.axes, SAMPLING), rounds=1)
+    benchmark.pedantic(render_source, (database, NEAR_FOCUS.axes, SAMPLING), rounds=1)
 
 
 def test_render_beyond_ten_waves(benchmark, capsys, lens):
@@ -102,7 +102,7 @@ def test_render_beyond_ten_waves(benchmark, capsys, lens):
     found = np.broadcast_to(np.abs(database.coefficients(*space.axes).wd), space.shape)
     points = [x[found > 10] for x in np.broadcast_arrays(*space.axes)]
     some = [x[::20] for x in points]
-    cpu, wall = cpu_median(lambda: rendered(database, some, Sampling(64, 4.0)), 3)
+    cpu, wall = cpu_median(lambda: render_source(database, some, Sampling(64, 4.0)), 3)
     count = len(some[0])
     report(capsys, f"{count} PSFs of 10 to {found.max():.0f} waves", cpu, wall, f", {1e3 * cpu / count:.3g} ms each")
-    benchmark.pedantic(rendered, (database, some, Sampling(64, 4.0)), rounds=1)
+    benchmark.pedantic(render_source, (database, some, Sampling(64, 4.0)), rounds=1)

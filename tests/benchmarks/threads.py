@@ -71,7 +71,7 @@ def stack_calls(lens) -> Calls:
     """Return stacks of PSFs: of a database near focus and of large blur, of coefficients, of a fitted database."""
     import p2sf
     from p2sf.database import Space, build_database
-    from p2sf.database.render import Sampling, rendered
+    from p2sf.database.render import Sampling, render_source
     from p2sf.psf.seidel import seidel_psf
 
     blurred = Space(np.linspace(800, 1000, 4), np.linspace(0, 0.2, 5), np.array([0.5, 0.6]))
@@ -81,9 +81,9 @@ def stack_calls(lens) -> Calls:
     fitted = p2sf.build_database(lens, *axes, method="fitted").database
     six = sharp.coefficients(*near_focus.axes)
     return {
-        "stack near focus": lambda: rendered(sharp, near_focus.axes, Sampling(64, 1.0)),
-        "stack of blur": lambda: rendered(wide, blurred.axes, Sampling(64, 8.0)),
-        "stack fitted": lambda: rendered(fitted, fitted.space.axes, Sampling(64, 2.0)),
+        "stack near focus": lambda: render_source(sharp, near_focus.axes, Sampling(64, 1.0)),
+        "stack of blur": lambda: render_source(wide, blurred.axes, Sampling(64, 8.0)),
+        "stack fitted": lambda: render_source(fitted, fitted.space.axes, Sampling(64, 2.0)),
         "seidel_psf of arrays": lambda: seidel_psf(six, 64, 1.0),
     }
 
@@ -93,7 +93,7 @@ def shared_calls() -> Calls:
     import p2sf
     from p2sf.conventions import slope_from_degrees
     from p2sf.database import Space, build_database, depth_nodes
-    from p2sf.database.render import Sampling, rendered
+    from p2sf.database.render import Sampling, render_source
     from p2sf.image.charts import draw_chart
 
     lens = p2sf.load_lens("double_gauss_28")
@@ -102,8 +102,8 @@ def shared_calls() -> Calls:
     planned = p2sf.plan(lens, p2sf.Scene(p2sf.Sensor(832, 1248, 36000 / 1248)))
     picture, corner = draw_chart("landscape", 832, 1248), p2sf.Source(field_deg=10)
     return {
-        "12 400 PSFs preview": lambda: rendered(database, space.axes, Sampling(64, 1.0, "preview")),
-        "12 400 PSFs settled": lambda: rendered(database, space.axes, Sampling(64, 1.0)),
+        "12 400 PSFs preview": lambda: render_source(database, space.axes, Sampling(64, 1.0, "preview")),
+        "12 400 PSFs settled": lambda: render_source(database, space.axes, Sampling(64, 1.0)),
         "1 megapixel patches": lambda: p2sf.form_image(planned, picture),
         "1 megapixel lowrank": lambda: p2sf.form_image(planned, picture, method="lowrank"),
         "huygens 128²": lambda: p2sf.render(lens, corner, "huygens", pixels=128).values,

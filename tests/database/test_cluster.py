@@ -14,7 +14,7 @@ import pytest
 from p2sf import __version__
 from p2sf.cli import main
 from p2sf.database.files.stack import open_stack
-from p2sf.database.files.stack_cluster import connected, fill_chunks
+from p2sf.database.files.stack_cluster import connect, fill_chunks
 from p2sf.database.files.stack_write import StackProgress, write_stack
 from p2sf.errors import DatabaseError
 from tests.database.test_stack import SAMPLING, contents, small
@@ -57,7 +57,7 @@ def test_two_processes_of_a_cluster_write_the_same_bytes(plain, cluster, tmp_pat
 
 def on_the_way(cluster, act):
     """Return a ``progress`` that acts on one of two slowed workers once the first chunk is done, and its id."""
-    with connected(cluster.address) as client:
+    with connect(cluster.address) as client:
         victim = min(client.run(slowed).values())
     return (lambda now: act(victim) if now.done == 1 else None), victim
 
@@ -82,7 +82,7 @@ def test_a_worker_that_is_frozen_is_not_waited_for(plain, cluster, tmp_path):
 
 
 def test_another_version_or_none_is_a_sentence(cluster, tmp_path):
-    with connected(cluster.address) as client:
+    with connect(cluster.address) as client:
         victim = min(client.nthreads())
         for version, words in (("0.0.9", "has P2SF 0.0.9, and"), (None, "has no P2SF, and")):
             before = client.run(versioned, version, workers=[victim])
@@ -106,7 +106,7 @@ def versioned(version: str | None) -> str:
 
 
 def test_a_folder_that_workers_do_not_share_is_a_sentence(cluster, tmp_path):
-    with connected(cluster.address) as client:
+    with connect(cluster.address) as client:
         elsewhere = client.submit(fill_chunks, str(tmp_path / "other.zarr"), "", __version__, ((0, 0, 0),))
         with pytest.raises(DatabaseError, match=r"other.zarr is not there"):
             elsewhere.result()

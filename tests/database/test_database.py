@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database.departure import departures, largest, scattered
+from p2sf.database.departure import departures, largest, scatter
 from p2sf.database.exact import LENGTHS, NUMBERS
 from p2sf.database.parts import KINDS
 from p2sf.errors import DatabaseError, P2SFError
@@ -98,7 +98,7 @@ def test_the_sensor_moves_without_a_new_trace():
 @pytest.mark.parametrize("interpolant", ["exact", "table1", "linear"])
 def test_one_point_is_the_same_as_that_point_in_an_array(interpolant):
     database = build_database(dispersive_lens("tessar"), space_of("tessar"), interpolant)
-    points = scattered(database.space, 20, getattr(database, "last_depth_mm", np.inf))
+    points = scatter(database.space, 20, getattr(database, "last_depth_mm", np.inf))
     many = database.coefficients(*points)
     for k, point in enumerate(zip(*(x.tolist() for x in points), strict=True)):
         one = database.coefficients(*point)

@@ -8,14 +8,14 @@ from p2sf.database.departure import departures
 from p2sf.database.files import load_database, save_database
 from p2sf.database.fitted import FieldLine, powers, split
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted, held_out, ray_error
-from p2sf.database.render import Sampling, database_psf, rendered
+from p2sf.database.render import Sampling, database_psf, render_source
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.fitted import fitted_intensity, fitted_psf, summed
+from p2sf.psf.fitted import fitted_intensity, fitted_psf, sum_fit
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, fit, levels
 from p2sf.raytrace.pencil import pencil
@@ -90,7 +90,7 @@ def test_a_fitted_database_comes_back_from_its_file(lens, database, tmp_path):
 
 
 def test_stacks_are_rendered_from_it(database):
-    psfs = rendered(database, SPACE.axes, Sampling(16, 2.0))
+    psfs = render_source(database, SPACE.axes, Sampling(16, 2.0))
     assert psfs.shape == (20, 5, 5, 16, 16)
     np.testing.assert_allclose(psfs.sum((-2, -1)), 1, atol=1e-5)
     one = database.psf(Source(np.inf, float(SPACE.field_slopes[2]), 0.55), 16, 2.0).values
@@ -135,6 +135,6 @@ def test_a_database_of_the_real_stop_knows_the_weights_of_its_rays(lens, tmp_pat
 def test_the_settled_sum_of_what_is_looked_up_is_settled(database, source):
     """Against the plain sum over many nodes; the rows are chosen by the steepness of the looked-up polynomials."""
     found, (pixels, pixel_um) = database.fit_at(source), (48, 2.0)
-    settled, _ = summed(found, pixels, pixel_um)
+    settled, _ = sum_fit(found, pixels, pixel_um)
     dense = fitted_intensity(found, (300, 800), pixels, pixel_um)
     assert np.linalg.norm(settled - dense) <= SETTLED_TOLERANCE * np.linalg.norm(dense)

@@ -12,10 +12,10 @@ from p2sf.conventions import centred_axis
 from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
 from p2sf.database.files import Stored, database_bytes, database_from_bytes, provenance, same_database
 from p2sf.database.files.npz import MARK
-from p2sf.database.files.sealed import opened, sealed
+from p2sf.database.files.sealed import seal, unseal
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.parts import KINDS
-from p2sf.database.render import Sampling, database_psf, rendered
+from p2sf.database.render import Sampling, database_psf, render_source
 from p2sf.errors import DatabaseError, ExportError
 from p2sf.export.iset import write_iset
 from p2sf.lens.lens import with_mask
@@ -140,7 +140,7 @@ def test_an_inverted_pupil_shows_the_mask_upside_down():
 @pytest.mark.parametrize("mask", [RING, IRIS, MASKS[3]], ids=repr)
 def test_stacks_are_single_psfs(mask):
     database = build_database(with_mask(LENS, mask), SPACE)
-    stack = rendered(database, SPACE.axes, Sampling(24, 2.0), np.float64)
+    stack = render_source(database, SPACE.axes, Sampling(24, 2.0), np.float64)
     for place in product((0, 3), (0, 2), (1,)):
         point = (
             axis[k] for axis, k in zip((SPACE.depths_mm, SPACE.field_slopes, SPACE.wavelengths_um), place, strict=True)
@@ -186,10 +186,10 @@ def provenance_of(lens) -> dict:
 )
 def test_a_mask_that_cannot_be_is_refused_in_a_sentence(damage):
     lens = with_mask(LENS, RING)
-    arrays = opened(database_bytes(build_database(lens, SPACE), lens), MARK, "a.npz")
+    arrays = unseal(database_bytes(build_database(lens, SPACE), lens), MARK, "a.npz")
     arrays[MARK] = np.array(json.dumps({**json.loads(str(arrays[MARK])), "mask": damage}))
     with pytest.raises(DatabaseError, match=r"a\.npz lacks what a P2SF database holds"):
-        database_from_bytes(sealed(arrays), "a.npz")
+        database_from_bytes(seal(arrays), "a.npz")
 
 
 def test_the_public_database_and_its_export(tmp_path):

@@ -11,7 +11,7 @@ from p2sf.database.files import Stored, load_database, provenance, save_database
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.files.stack_write import write_stack
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted
-from p2sf.database.render import Sampling, database_psf, rendered
+from p2sf.database.render import Sampling, database_psf, render_source
 from p2sf.errors import DatabaseError, GeometryError
 from p2sf.export import open_cube, write_csv
 from p2sf.lens.lens import with_f_number, with_mask
@@ -127,7 +127,7 @@ def test_stacks_hold_a_psf_for_every_field(bad, database, tmp_path):
     source = Source(5000.0, field_deg=(6.0, -6.0), wavelength_um=0.6)
     one = database_psf(database, source, 16, 1.0).values
     assert distance(psfs[0, 0, 2, 1], one) <= 1e-4  # the sum's own tolerance
-    np.testing.assert_array_equal(rendered(database, SPACE.axes, Sampling(16, 1.0)), psfs)
+    np.testing.assert_array_equal(render_source(database, SPACE.axes, Sampling(16, 1.0)), psfs)
 
 
 @pytest.mark.parametrize(

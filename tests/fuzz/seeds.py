@@ -11,7 +11,7 @@ from PIL import Image
 
 from p2sf.database import Space, build_database
 from p2sf.database.files.npz import MARK, database_bytes
-from p2sf.database.files.sealed import sealed
+from p2sf.database.files.sealed import seal
 from p2sf.io.photo_files import write_photo
 from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens, lenses_folder
@@ -20,7 +20,7 @@ from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.files.embedded_state import with_state
 from p2sf_explorer.lessons.lesson import lesson_files
 from p2sf_explorer.state.link import link
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.state_files import state_to_json
 from tests.fuzz.targets import ENDINGS, PSF_ENDINGS, good_database
 from tests.support.lenses.lens_files import FILES, FOLDER
@@ -67,7 +67,7 @@ def seeds(target: str) -> list[bytes]:
     if target == "database":
         lens = find_lens("singlet_f6")
         raw = database_bytes(build_database(lens, Space((300.0,), (0.0,), (0.5, 0.6)), "table1"), lens)
-        plain = sealed({MARK: np.array("{}"), "series": np.zeros((2, 3))})
+        plain = seal({MARK: np.array("{}"), "series": np.zeros((2, 3))})
         head = str(good_database()[MARK]).encode()
         return [b"\x00" + raw, b"\x01" + raw, b"\x01" + plain, b"\x02" + head]
     more = {"psf_file": psf_files, "picture": pictures, "scene": scenes, "state": states, "lesson": lessons}
@@ -105,8 +105,8 @@ def scenes() -> list[bytes]:
 
 
 def states() -> list[bytes]:
-    edited = changed(State(), field_deg=3.0, lens_text=lens_to_toml(find_lens("singlet_f6")), windows=("mtf",))
-    pinned = changed(State(), pinned=edited)
+    edited = change(State(), field_deg=3.0, lens_text=lens_to_toml(find_lens("singlet_f6")), windows=("mtf",))
+    pinned = change(State(), pinned=edited)
     saved = [b"\1" + state_to_json(state).encode() for state in (State(), edited, pinned)]
     return saved + [b"\0" + link(state).encode() for state in (State(), edited, pinned)]
 

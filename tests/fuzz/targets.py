@@ -17,7 +17,7 @@ from p2sf.camera import Request, set_up
 from p2sf.cli import main
 from p2sf.database import Space, build_database
 from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes
-from p2sf.database.files.sealed import DIGITS, SEAL, opened, sealed
+from p2sf.database.files.sealed import DIGITS, SEAL, seal, unseal
 from p2sf.errors import P2SFError
 from p2sf.io.photo_files import read_photo
 from p2sf.io.psf_files import read_psf
@@ -106,7 +106,7 @@ def database(data: bytes) -> str:
         raw = raw.removesuffix(raw[-DIGITS:]) + SEAL
         raw += hashlib.sha256(raw).hexdigest().encode()
     if kind == 2:
-        raw = sealed({**good_database(), MARK: np.array(raw.decode("utf-8", "replace"))})
+        raw = seal({**good_database(), MARK: np.array(raw.decode("utf-8", "replace"))})
     return refused_or(lambda: database_from_bytes(raw, "hostile.npz"))
 
 
@@ -114,7 +114,7 @@ def database(data: bytes) -> str:
 def good_database() -> dict:
     """Return the arrays of a small database, its head among them."""
     lens = find_lens("singlet_f6")
-    return opened(
+    return unseal(
         database_bytes(build_database(lens, Space((300.0,), (0.0,), (0.5, 0.6)), "exact"), lens), MARK, "good"
     )
 

@@ -9,7 +9,7 @@ from p2sf.errors import Cancelled, RequestError
 from p2sf.image import Forming, Progress, form_image, preview, with_noise
 from p2sf.image.charts import draw_chart
 from p2sf.image.form import blur
-from p2sf.image.geometry import distorted, distortion_px, illumination
+from p2sf.image.geometry import distort, distortion_px, illumination
 from p2sf.image.lattice import build_lattice
 from p2sf.image.lowrank import decompose
 from p2sf.image.preview import preview_plan
@@ -138,7 +138,7 @@ def test_distortion_puts_points_where_real_chief_rays_land():
     assert 1 < distortion_px(seen, sensor) < 5
     row, column = np.mgrid[:400, :400]
     blob = np.exp(-((row - 40.0) ** 2 + (column - 330.0) ** 2) / 18)[..., None].astype(np.float32)
-    found = distorted(blob, seen, sensor)[..., 0]
+    found = distort(blob, seen, sensor)[..., 0]
     place = [(found * axis).sum() / found.sum() for axis in (row, column)]
     x, y = float(sensor.x_mm(330)), float(sensor.y_mm(40))
     from p2sf.lens.source import Source

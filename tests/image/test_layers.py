@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.image import Forming, form_image
-from p2sf.image.layers import layer_weights, merged
+from p2sf.image.layers import layer_weights, merge
 from p2sf.image.lowrank import _spline
 from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
@@ -61,8 +61,8 @@ def test_light_from_behind_does_not_spill_over_a_sharp_edge_in_front_but_a_blurr
 def test_a_layer_hides_all_but_its_neighbour():
     ones = np.ones((1, 1, 2), np.float32)  # light 1, coverage 1
     dark = np.array([[[0.0, 1.0]]], np.float32)
-    assert merged([ones, dark], [0, 2])[0, 0, 0] == 0  # hidden
-    assert merged([ones, dark], [0, 1])[0, 0, 0] == pytest.approx(0.5)  # shares the pixel
+    assert merge([ones, dark], [0, 2])[0, 0, 0] == 0  # hidden
+    assert merge([ones, dark], [0, 1])[0, 0, 0] == pytest.approx(0.5)  # shares the pixel
 
 
 def test_weights_between_nodes_add_up_to_one_and_are_straight_between_two():

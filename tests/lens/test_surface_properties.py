@@ -20,8 +20,8 @@ from p2sf.lens import (
     ZernikeFringeSag,
     ZernikeStandardSag,
 )
-from p2sf.lens.lens import scaled, seen_from
-from p2sf.lens.misalignment import straightened
+from p2sf.lens.lens import scale_surface, seen_from
+from p2sf.lens.misalignment import straighten
 from p2sf.lens.positions import Axis, interpolate_lens, steps_between, with_positions
 from p2sf.lens.properties import BY_NAME, CODE_V, EVERY, ISET, PROPERTIES, TOML, ZEMAX, words_of
 from p2sf.lens.shape_types import SHAPES
@@ -76,14 +76,14 @@ def test_every_field_is_in_every_table():
 
 
 def test_the_table_of_surfaces_has_a_column_for_every_property():
-    from p2sf_explorer.compute.editing import written
+    from p2sf_explorer.compute.editing import cell_text
     from p2sf_explorer.compute.views.lens_table import COLUMNS
 
     for name in NAMES:
         column = BY_NAME[name].column
         assert column in COLUMNS, name
         two = replace(sample(name), **{name: default(name)}), sample(name)
-        before, after = ((written(s, column), words_of(s, column)) for s in two)
+        before, after = ((cell_text(s, column), words_of(s, column)) for s in two)
         assert before != after, f"the table does not show {name}"
 
 
@@ -97,7 +97,7 @@ def test_a_lens_file_in_toml_keeps_it(name):
     text = lens_to_toml(lens)
     assert parse_toml(text, "lens.toml").surfaces == lens.surfaces
     inches = parse_toml(text.replace('unit = "mm"', 'unit = "in"'), "lens.toml").surfaces[0]
-    assert inches == scaled(lens.surfaces[0], 25.4) != lens.surfaces[0]
+    assert inches == scale_surface(lens.surfaces[0], 25.4) != lens.surfaces[0]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -129,7 +129,7 @@ def test_it_scales_with_the_lens(name):
     lens = lens_of(sample(name))
     if name == "diffraction":  # whose phase stays: its slope is a third, as with three times the wavelength
         pytest.skip("scales with the wavelength too; its TOML units are tested above")
-    large = replace(lens, surfaces=tuple(scaled(s, 3.0) for s in lens.surfaces))
+    large = replace(lens, surfaces=tuple(scale_surface(s, 3.0) for s in lens.surfaces))
     origins, ways = np.array([[0.3, 1.0, -2.0], [-1.5, 2.0, -2.0], [2.5, -2.5, -2.0]]), [0.03, -0.02, 1.0]
     one, three = trace(lens, origins, ways, 0.55, clip=True), trace(large, 3 * origins, ways, 0.55, clip=True)
     if name == "irregularity":  # fringes are of one height on every radius
@@ -154,7 +154,7 @@ def test_it_turns_with_the_lens(name):
 def test_six_coefficients_know_it_or_refuse_it_or_the_lens_counts_as_misaligned(name):
     """What six coefficients do not see changes exact rays; then they refuse, or a warning says what they leave out."""
     lens = lens_of(sample(name))
-    aligned = straightened(lens)
+    aligned = straighten(lens)
     assert not aligned.misaligned or name == "rim"
     if lens.misaligned:
         return

@@ -40,8 +40,8 @@ from p2sf.studies import validate
 from p2sf.tolerance.errors_of_build import Tolerance, build
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views import image
-from p2sf_explorer.compute.views.measured import answer, dated, into_image, question
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.compute.views.measured import answer, into_image, question, with_file_date
+from p2sf_explorer.state.state import State, change, new_state
 from tests.support.huygens_frames import cross_of_points, huygens_frame
 
 OPTICS = PictureOptics(0.125, 0.55, 2.2)  # pixels of λ/2NA
@@ -312,18 +312,18 @@ def deblur() -> None:
         write_photo(photo, blurred + np.random.default_rng(1).normal(0, noise, blurred.shape), "linear")
         entries = {"lens": "cooke_triplet", "f_number": 4.0, "wavelength_nm": 550.0, "field_deg": 2.0}
         state = new_state(**entries, measured_picture=str(points), method="seidel")
-        found = answer(dated(question(live(state))), lambda: False, lambda share: None).whole
-        taken = changed(state, **into_image(found, pitch, state), photo_source=str(photo))
+        found = answer(with_file_date(question(live(state))), lambda: False, lambda share: None).whole
+        taken = change(state, **into_image(found, pitch, state), photo_source=str(photo))
         print(f"deblurring, sensor {shift:g} µm too far, measured {taken.optics.sensor_shift_um:.2f} µm")
         for name, um in (("measured", taken.optics.sensor_shift_um), ("it is", shift), ("designed", 0.0)):
-            sharp, unsharp = levels(changed(taken, sensor_shift_um=um), truth)
+            sharp, unsharp = levels(change(taken, sensor_shift_um=um), truth)
             print(f"  by PSFs of the lens as {name}: {sharp:.2f} dB, unsharpened {unsharp:.2f} dB")
 
 
 def levels(state: State, truth: np.ndarray) -> tuple[float, float]:
     """Return the PSNR of a photo sharpened in the Image panel, and of the photo, without their borders."""
     asked = image.question(live(state))
-    made = image.planned(asked)
+    made = image.planned_picture(asked)
     top = round((truth.shape[0] - asked.shape[0]) / 2 - 1000 * asked.centre_mm / asked.pixel_um)
     left = (truth.shape[1] - asked.shape[1]) // 2
     wanted = truth[top : top + asked.shape[0], left : left + asked.shape[1]]

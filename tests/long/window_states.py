@@ -26,7 +26,7 @@ from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescription, ranges
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 LEAST = 0.99
 SAMPLES, FEW_SAMPLES = 64, 16  # a side, on which a picture is compared; where the reference has many rays
@@ -64,7 +64,7 @@ def random_state(rng: np.random.Generator) -> State:
     depth = distance() if made_for == inf else made_for * float(np.exp(rng.uniform(-0.5, 0.5)))
     focus = depth if rng.random() < 0.5 else (None if rng.random() < 0.5 else distance())
     f_number = float(np.exp(rng.uniform(*np.log(found.f_number)))) if rng.random() < 0.7 else None
-    return changed(
+    return change(
         state,
         **(random_mask(rng) if rng.random() < MASKED else {}),
         method="auto",

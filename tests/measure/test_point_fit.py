@@ -17,7 +17,7 @@ from p2sf.measure.fitting.pupil_nodes import paraxial_nodes
 from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.points import find_points
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.fitted import fit, summed
+from p2sf.psf.fitted import fit, sum_fit
 from p2sf.psf.pixel_integrals import render_integrated
 
 OPTICS = PictureOptics(0.125, 0.55, 2.2)  # pixels of λ/2NA
@@ -73,7 +73,7 @@ def test_light_of_26_numbers_is_that_of_the_fitted_method():
     optics = PictureOptics(na, source.wavelength_um, 1.0, fill=0.0)
     numbers = np.concatenate([-found.phase[2:], -found.fx / optics.cycles, -found.fy[1:] / optics.cycles])
     made, at = problem("26", numbers, 33, optics)
-    intensity, _ = summed(found, 33, 1.0)
+    intensity, _ = sum_fit(found, 33, 1.0)
     assert made.light(at, 0)[0] / made.sums[0].sums[0].scale == pytest.approx(intensity, abs=1e-4 * intensity.max())
 
 

@@ -14,7 +14,7 @@ from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics import energy
-from p2sf.metrics.energy import landed, landing_points
+from p2sf.metrics.energy import landing_energy, landing_points
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, energy_in
 from p2sf.psf.huygens import huygens_psf
@@ -68,12 +68,12 @@ def test_fewer_circles_and_nodes_than_all_harmonics_are_enough(monkeypatch, seed
     names = ("w40", "w31", "w22", "w20", "wd")
     chosen = rng.normal(size=5) * rng.choice([0.0, 1.0, 6.0, 20.0], 5)
     pupil = pupil_of_coefficients(waves(**dict(zip(names, chosen, strict=True))))
-    found = landed(pupil, pupil.centroid_um)
+    found = landing_energy(pupil, pupil.centroid_um)
     for name in ("NODES", "CIRCLES", "DIRECTIONS"):
         monkeypatch.setattr(energy, name, 1.3)
     monkeypatch.setattr(energy, "_circles", energy._kept_circles.__wrapped__)
     radius = np.linspace(0, found.top_um, 80)
-    np.testing.assert_allclose(found.within(radius), landed(pupil, pupil.centroid_um).within(radius), atol=2e-5)
+    np.testing.assert_allclose(found.within(radius), landing_energy(pupil, pupil.centroid_um).within(radius), atol=2e-5)
 
 
 @pytest.mark.parametrize("clear", [True, False])
@@ -81,7 +81,7 @@ def test_half_of_the_columns_give_what_all_do(clear):
     """With a faint filter too, which lets all light through."""
     pupil = pupil_of_coefficients(waves(w40=2.0, w31=3.0, wd=-1.5))
     mask = CLEAR if clear else PupilMask(apodisation=1e4)
-    half, other = (landed(one, pupil.centroid_um) for one in (pupil, replace(pupil, even=False, mask=mask)))
+    half, other = (landing_energy(one, pupil.centroid_um) for one in (pupil, replace(pupil, even=False, mask=mask)))
     radius = np.linspace(0, min(half.top_um, other.top_um), 60)
     np.testing.assert_allclose(half.within(radius), other.within(radius), atol=2e-5)
 
@@ -97,7 +97,7 @@ def test_known_radii_of_the_airy_pattern():
 def test_a_large_blur_tends_to_the_density_of_rays(w):
     pupil = pupil_of_coefficients(waves(**w))
     waves_sum, rays = (
-        landed(pupil, pupil.centroid_um),
+        landing_energy(pupil, pupil.centroid_um),
         landing_points(pupil, pupil.centroid_um),
     )
     radius = np.linspace(0, 1.2 * pupil.spot.rms_um, 40)

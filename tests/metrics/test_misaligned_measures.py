@@ -14,7 +14,7 @@ from p2sf.lens.misalignment import displaced, folding
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.energy import landed
+from p2sf.metrics.energy import landing_energy
 from p2sf.metrics.frequency_pupil import uniform_disc
 from p2sf.metrics.measures import PupilPart, energy_in, mtf_of, parts_of, spread_of
 from p2sf.metrics.perfect import circle_contrast
@@ -60,7 +60,7 @@ def test_a_disc_without_symmetry_is_the_disc():
         nu = np.linspace(0, 1, one.values.size)
         assert one.values == pytest.approx(circle_contrast(nu), abs=1e-6)  # what a calibrated rule leaves
     radius = np.linspace(0, 20, 9)
-    found = landed(disc, 0.0).within(radius)
+    found = landing_energy(disc, 0.0).within(radius)
     assert found == pytest.approx(circle_energy(0.2 * radius), abs=2e-5)
 
 

@@ -12,7 +12,7 @@ from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.paraxial.bending import bent, element_of, elements, shape_factor, thin_power, with_shape_factor
+from p2sf.paraxial.bending import bend, element_of, elements, shape_factor, thin_power, with_shape_factor
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.seidel import coefficients
 
@@ -40,7 +40,7 @@ def test_elements_of_the_double_gauss_are_four_singlets_and_doublets():
 def test_the_eye_has_its_vitreous_behind_and_no_element_in_air():
     assert elements(find_lens("eye_navarro")) == ()
     with pytest.raises(GeometryError, match="no element"):
-        bent(find_lens("eye_navarro"), 1, 2, 1e-3)
+        bend(find_lens("eye_navarro"), 1, 2, 1e-3)
 
 
 LONG = {"cassegrain_f10", "maksutov", "microscope_10x", "telecentric_relay", "zoom_3x"}  # seconds, and like others here
@@ -54,7 +54,7 @@ def test_bending_keeps_the_thin_power_at_every_wavelength(name, by):
     lens = find_lens(name)
     wavelengths = np.array([0.5, 0.5876, 0.65])
     for first, last in elements(lens):
-        made = bent(lens, first, last, by)
+        made = bend(lens, first, last, by)
         scale = sum(abs(lens.curvatures[k - 1]) + abs(by) for k in range(first, last + 1))
         # 1e-12 of the summed curvatures: the rounding of a dozen sums and reciprocals
         assert thin_power(made, first, last, wavelengths) == pytest.approx(
@@ -93,6 +93,6 @@ def test_spherical_aberration_is_least_where_the_textbook_bends_the_lens():
 
 def test_bent_to_a_plane_and_back():
     lens = thin(0.4)
-    plane = bent(lens, 1, 2, -lens.curvatures[0])
+    plane = bend(lens, 1, 2, -lens.curvatures[0])
     assert plane.surfaces[0].radius == inf
-    assert bent(plane, 1, 2, lens.curvatures[0]).curvatures == pytest.approx(lens.curvatures, rel=1e-12)
+    assert bend(plane, 1, 2, lens.curvatures[0]).curvatures == pytest.approx(lens.curvatures, rel=1e-12)

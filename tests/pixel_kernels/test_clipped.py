@@ -11,7 +11,7 @@ from p2sf.pixel_kernels import Recipe, sensor_map
 from p2sf.pixel_kernels.channel import own_light
 from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupil_map, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
-from p2sf.pixel_kernels.pupil_stack import cutting_rims, stacked
+from p2sf.pixel_kernels.pupil_stack import cutting_rims, stack_pupils
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
 from p2sf.raytrace.fit import levels
 from p2sf.scene.planning.reference import exact_pixels
@@ -67,7 +67,7 @@ def test_a_pupil_through_the_stop_has_the_weights_of_its_rays():
 def test_rims_that_clip_nothing_leave_the_kernel_alone():
     lens, at = find_lens("double_gauss_28"), source(3.0)
     clipped, whole = (pupil_map(lens, at, "fitted", clip=clip) for clip in (True, False))
-    assert len(clipped.rims) and not cutting_rims(stacked([clipped])).any()
+    assert len(clipped.rims) and not cutting_rims(stack_pupils([clipped])).any()
     window = PixelWindow(half_width(whole, 6.0), 6.0, 5)
     # Both describe the same rays to PHASE_RESIDUAL, 4πσ = 2.5e-3 of a kernel, on nodes of their own.
     assert relative(*(pixel_kernel(pupil, ANGLE, window) for pupil in (clipped, whole))) < 2.5e-3
@@ -83,7 +83,7 @@ def test_clipped_weighted_pupils_between_fitted_ones_are_those_of_rays():
     seen = sensor_map(lens, np.inf, WAVE, 25.0, clip=True)
     heights = chebyshev(18.0, 25.0, 5)
     pupils, landings = zip(*(own_light(seen, 0.0, h, WAVE, recipe) for h in heights), strict=True)
-    table = pupil_table(([0.0], heights, [0.0], [WAVE]), stacked(pupils), np.array(landings)[:, 1:])
+    table = pupil_table(([0.0], heights, [0.0], [WAVE]), stack_pupils(pupils), np.array(landings)[:, 1:])
     made, own = table.at(0.0, 22.3, 0.0, WAVE)[0].one(0), own_light(seen, 0.0, 22.3, WAVE, recipe)[0]
     assert made.rims.shape[0] == own.rims.shape[0] and made.energy == pytest.approx(own.energy, rel=0.02)
     window = PixelWindow(20, 8.0, 8)
@@ -99,7 +99,7 @@ def test_clipped_pupils_fitted_together_are_those_fitted_alone():
     together = pupils_of(lens, sources, forms, level, clip=True)
     for k, slope in enumerate(slopes):
         alone = pupil_map(lens, Source(np.inf, float(slope), WAVE), "fitted", level.numbers, clip=True)
-        one = stacked([alone]).of_order(together.order).one(0)
+        one = stack_pupils([alone]).of_order(together.order).one(0)
         assert together.one(k).energy == pytest.approx(alone.energy, rel=1e-6)  # weights of aimed rays are differences
         # Whatever the order, both describe the same rays to PHASE_RESIDUAL, 4πσ = 2.5e-3 of a kernel, and the rims.
         window = PixelWindow(20, 8.0, 8)

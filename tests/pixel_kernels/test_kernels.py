@@ -13,17 +13,17 @@ from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
 from p2sf.pixel_kernels.channel import own_light
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, pixel_kernels
-from p2sf.pixel_kernels.pupil_stack import stacked
+from p2sf.pixel_kernels.pupil_stack import stack_pupils
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange, pupil_table
 from p2sf.psf.huygens import huygens_psf
-from p2sf.pupil.binning import binned
+from p2sf.pupil.binning import bin_samples
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike import basis, basis_by_powers
 from p2sf.raytrace.fit import levels
 from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.scene.planning.reference import exact_pixels
 from p2sf.scene.scene import Channel
-from p2sf.scene.spectrum import reduced
+from p2sf.scene.spectrum import reduce_spectrum
 
 WAVE, PIXEL = 0.5876, 6.0
 FINE = Recipe("fitted", levels(find_lens("double_gauss_28").aim)[1].numbers, 4.0, 1.0)
@@ -128,11 +128,11 @@ def test_fewer_wavelengths_keep_the_spectrums_moments():
     channel = Channel("wide", (480.0, 510.0, 550.0, 600.0, 640.0), (1.0, 3.0, 2.0, 0.5, 1.0))
     waves, shares = channel.wavelengths_um, channel.shares
     for count in (1, 2, 3):
-        few = reduced(channel, count)
+        few = reduce_spectrum(channel, count)
         for power in range(2 * count):
             moment = np.array(few.weights) @ np.array(few.wavelengths_um) ** power
             assert moment == pytest.approx(shares @ waves**power, rel=1e-12)
-    assert reduced(channel, 5).wavelengths_um == tuple(waves)
+    assert reduce_spectrum(channel, 5).wavelengths_um == tuple(waves)
 
 
 def test_kernels_of_a_channel_have_unit_sum_and_carry_lateral_colour():
@@ -158,7 +158,7 @@ def test_pupils_between_a_few_are_the_ones_that_rays_give():
     nodes = heights, list(seen)[:3], waves
     fits = [own_light(seen[v], 0.0, h, w, recipe) for h in heights for v in nodes[1] for w in waves]
     pupils, landings = zip(*fits, strict=True)
-    table = pupil_table(((0.0,), *nodes), stacked(pupils), np.array(landings)[:, 1:])
+    table = pupil_table(((0.0,), *nodes), stack_pupils(pupils), np.array(landings)[:, 1:])
     between, landed = table.at(0.0, [3.1, 11.7], 1 / 9000.0, 0.545)
     for k, height in enumerate((3.1, 11.7)):
         made, (own, shift) = between.one(k), own_light(seen[1 / 9000.0], 0.0, height, 0.545, recipe)
@@ -178,7 +178,7 @@ def test_kernels_made_together_are_those_made_alone():
     pupils = [pupil_map(lens, source(degrees), "fitted") for degrees in (0.0, 7.0, 12.0, 16.0, 20.0)]
     angles, shifts = np.linspace(0.0, 2.0, 5), np.random.default_rng(0).uniform(-3, 3, (5, 2))
     for window in (PixelWindow(8, PIXEL, 5), PixelWindow(30, PIXEL, 6)):
-        together = pixel_kernels(stacked(pupils), angles, window, shifts)
+        together = pixel_kernels(stack_pupils(pupils), angles, window, shifts)
         for kernel, pupil, angle, shift in zip(together, pupils, angles, shifts, strict=True):
             alone = pixel_kernel(pupil, float(angle), window, tuple(shift))
             # float32; the pupils' grids are as wide as the widest of those made together
@@ -201,10 +201,10 @@ def test_samples_of_a_cubic_are_summed_over_inner_pixels_without_error():
     """The midpoint rule alone is off by h³/24 of the second derivative in each sample; edges' slopes mend it."""
     place = (np.arange(15) + 0.5) / 3
     values = np.repeat((place**3).astype(np.float32)[:, None], 15, axis=1)
-    pixels = binned(values, 5, 3)[1:-1, 2] / 9
+    pixels = bin_samples(values, 5, 3)[1:-1, 2] / 9
     start = np.arange(1, 4)
     np.testing.assert_allclose(pixels, ((start + 1.0) ** 4 - start**4.0) / 4, rtol=1e-5)
-    assert binned(values, 5, 3).sum() == pytest.approx(values.sum(), rel=1e-6)
+    assert bin_samples(values, 5, 3).sum() == pytest.approx(values.sum(), rel=1e-6)
 
 
 def test_powers_give_the_same_terms():

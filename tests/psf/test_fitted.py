@@ -8,7 +8,7 @@ from p2sf.lens.lens import with_aim, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf import fitted
-from p2sf.psf.fitted import counts_of, fit, fitted_psf, summed
+from p2sf.psf.fitted import counts_of, fit, fitted_psf, sum_fit
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.pupil.basis import at_nodes
@@ -167,7 +167,7 @@ def test_a_fitted_psf_is_settled_unless_told():
     found = fit(lens, source)
     settled, preview = (counts_of(found, window_reach_um(64, pixel), quality) for quality in ("settled", "preview"))
     assert settled[0] * settled[1] > preview[0] * preview[1]
-    intensity, sampling = summed(found, 64, pixel)
+    intensity, sampling = sum_fit(found, 64, pixel)
     assert fitted_psf(lens, source, 64, pixel).sampling == sampling and intensity.dtype == np.float64
-    fewer, _ = summed(found, 64, pixel, "preview")
+    fewer, _ = sum_fit(found, 64, pixel, "preview")
     assert fewer.dtype == np.float32 and r_squared(fewer, intensity) > 1 - 1e-5

@@ -7,7 +7,7 @@ from scipy.special import j1
 import p2sf
 from p2sf.database.build import build_database
 from p2sf.database.fitted_build import build_fitted
-from p2sf.database.render import Sampling, critical_pixel_um, pixels_psf, rendered, rendered_light
+from p2sf.database.render import Sampling, critical_pixel_um, pixels_psf, render_source, rendered_light
 from p2sf.database.space import Space
 from p2sf.errors import SamplingError
 from p2sf.lens.lens import with_aim, with_sensor
@@ -147,6 +147,6 @@ def test_a_databases_wide_pixels_hold_the_light_of_narrow_ones():
     points = database.space.axes
     pitch = critical_pixel_um(database)
     wide = rendered_light(database, points, Sampling(9, 5 * pitch), np.float64)
-    fine = rendered(database, points, Sampling(135, pitch / 3), np.float64)
+    fine = render_source(database, points, Sampling(135, pitch / 3), np.float64)
     sums = fine.reshape(*fine.shape[:-2], 9, 15, 9, 15).sum((-3, -1))
     np.testing.assert_allclose(wide, sums / sums.sum((-2, -1), keepdims=True), atol=5e-4 * sums.max())

@@ -15,7 +15,7 @@ from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, opd_map, pencil, pupil_grid
 from p2sf.raytrace.vignetting import whole_nodes
-from p2sf.raytrace.zernike_fit import decomposed, open_nodes, pupil_opd, zernike_fit
+from p2sf.raytrace.zernike_fit import decompose, open_nodes, pupil_opd, zernike_fit
 
 WHOLE = whole_nodes((24, 64))
 
@@ -31,7 +31,7 @@ WHOLE = whole_nodes((24, 64))
     ],
 )
 def test_powers_are_split_as_in_the_textbooks(shape, noll):
-    found = decomposed(WHOLE, shape(WHOLE.xi, WHOLE.eta), "noll", zernike_terms("noll", 37))
+    found = decompose(WHOLE, shape(WHOLE.xi, WHOLE.eta), "noll", zernike_terms("noll", 37))
     expected = np.zeros(37)
     expected[[number - 1 for number in noll]] = list(noll.values())
     assert np.allclose(found.waves, expected, rtol=0, atol=1e-14)
@@ -40,7 +40,7 @@ def test_powers_are_split_as_in_the_textbooks(shape, noll):
 
 def test_a_fringe_coefficient_is_the_peak_of_its_polynomial():
     waves = 0.7 * (6 * (WHOLE.xi**2 + WHOLE.eta**2) ** 2 - 6 * (WHOLE.xi**2 + WHOLE.eta**2) + 1)
-    found = decomposed(WHOLE, waves, "fringe", zernike_terms("fringe", 37))
+    found = decompose(WHOLE, waves, "fringe", zernike_terms("fringe", 37))
     assert found.waves[8] == pytest.approx(0.7, abs=1e-14)
     assert found.share[8] == pytest.approx(1.0, abs=1e-12) and found.rms == pytest.approx(0.7 / sqrt(5), rel=1e-13)
 
@@ -94,10 +94,10 @@ def test_terms_of_a_clipped_pupil_are_orthogonal_there_and_describe_the_wavefron
     bare = zernike_values(tuple(t for t in terms if t.even), nodes.xi, nodes.eta)
     assert not np.allclose((bare * nodes.weight) @ bare.T, np.eye(len(bare)), atol=0.01)
     for term, values in zip((t for t in terms if t.even), bare, strict=True):
-        one = decomposed(nodes, values, "noll", terms)
+        one = decompose(nodes, values, "noll", terms)
         assert np.allclose(one.rms_waves[term.number :], 0, atol=1e-10)  # a term is made of itself and those before it
         assert (one.rms_waves**2).sum() == pytest.approx(nodes.weight @ values**2, rel=1e-12)
-    assert decomposed(nodes, waves, "noll", terms).residual < 0.05  # of 3.6 waves
+    assert decompose(nodes, waves, "noll", terms).residual < 0.05  # of 3.6 waves
 
 
 @pytest.mark.parametrize(("name", "field"), [("double_gauss_28", 14), ("petzval", 7)])
@@ -162,7 +162,7 @@ def test_the_terms_of_a_misaligned_lens_add_up_to_its_wavefront():
 def test_rims_end_the_pupil_of_a_misaligned_lens():
     lens = displaced(find_lens("double_gauss_28"), 1, 3, Placement(1.5, 0.5))
     nodes, waves = pupil_opd(lens, Source(field_deg=14), clip=True, counts=(8, 20))
-    found = decomposed(nodes, waves, "noll", zernike_terms("noll", 37))
+    found = decompose(nodes, waves, "noll", zernike_terms("noll", 37))
     assert 0.2 < found.clear < 0.95 and found.residual < 0.2 * found.rms
 
 
@@ -181,12 +181,12 @@ def test_over_a_ring_terms_are_the_annular_polynomials(dark):
     """ρ⁴ in Legendre polynomials of 2(ρ² − ε²)/(1 − ε²) − 1, as Mahajan 1981 has them; coma by its moments."""
     nodes, gap = ring(dark), 1 - dark**2
     square, terms = nodes.xi**2 + nodes.eta**2, zernike_terms("noll", 37)
-    fourth = decomposed(nodes, square**2, "noll", terms)
+    fourth = decompose(nodes, square**2, "noll", terms)
     expected = np.zeros(37)
     expected[[0, 3, 10]] = moment(dark, 2), (1 + dark**2) * gap / (2 * sqrt(3)), gap**2 / (6 * sqrt(5))
     assert np.allclose(fourth.waves, expected, rtol=0, atol=1e-12)
     assert fourth.clear == pytest.approx(gap, rel=1e-12) and fourth.residual < 1e-12
-    coma = decomposed(nodes, square * nodes.eta, "noll", terms)
+    coma = decompose(nodes, square * nodes.eta, "noll", terms)
     left = sqrt(moment(dark, 3) / 2 - moment(dark, 2) ** 2 / (2 * moment(dark, 1)))
     assert abs(coma.waves[6]) == pytest.approx(left, rel=1e-9)
     assert coma.rms == pytest.approx(left, rel=1e-9)
@@ -201,7 +201,7 @@ def test_annular_terms_are_orthonormal_on_a_dense_grid():
     inside = (xi**2 + eta**2 < 1) & (xi**2 + eta**2 > dark**2)
     even = tuple(term for term in terms if term.even)
     plain = zernike_values(even, nodes.xi, nodes.eta)
-    found = np.array([decomposed(nodes, row, "noll", terms).waves[[t.even for t in terms]] for row in plain])
+    found = np.array([decompose(nodes, row, "noll", terms).waves[[t.even for t in terms]] for row in plain])
     annular = np.linalg.solve(found, zernike_values(even, xi[inside], eta[inside]))
     assert np.allclose(annular @ annular.T / inside.sum(), np.eye(len(even)), atol=3e-3)
 

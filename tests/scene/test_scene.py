@@ -18,7 +18,7 @@ from p2sf.scene.planning.sharing import TARGET_ERROR, share_pupils
 from p2sf.scene.planning.study import Place, Study, distance, first_allowed
 from p2sf.scene.planning.table import plan_rows
 from p2sf.scene.planning.verify import planned_kernel
-from p2sf.scene.spectrum import reduced
+from p2sf.scene.spectrum import reduce_spectrum
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = """
@@ -298,7 +298,7 @@ def test_a_colours_error_is_the_one_that_exact_rays_find_even_on_large_pixels():
     channel = Channel("orange", (571.0, 591.0, 611.0), (0.75, 1.0, 0.62))
     scene = Scene(Sensor(280, 280, 10.3), (channel,), f_number=5.84)
     study = Study(scene.camera(find_lens("wide_angle_35")), scene)
-    one = Channel("one", tuple(1000 * w for w in reduced(channel, 1).wavelengths_um), (1.0,))
+    one = Channel("one", tuple(1000 * w for w in reduce_spectrum(channel, 1).wavelengths_um), (1.0,))
     few, every = (reference_kernel(study.sensor_map(0.0), c, 0.0, 0.0, 6, 10.3) for c in (one, channel))
     exact = distance(few, every)
     assert exact > 0.01

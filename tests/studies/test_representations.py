@@ -8,7 +8,7 @@ from p2sf.database.fitted_build import build_fitted
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.fitted import fitted_psf, summed
+from p2sf.psf.fitted import fitted_psf, sum_fit
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.fit import levels
 from p2sf.studies.representations import pictures
@@ -92,7 +92,7 @@ def test_a_wavefront_on_an_ellipse_nearly_is_the_lens(space):
     points = space.random(3, 4)
     for source, wanted in zip(points.sources(), (traced_picture(space, s) for s in points.sources()), strict=True):
         found = pencil_of(wavefront(space, source, 8), 8, source.wavelength_um)
-        picture = space.window.light(summed(found, *space.window.fine)[0])
+        picture = space.window.light(sum_fit(found, *space.window.fine)[0])
         assert np.linalg.norm(picture - wanted) < 2e-2 * np.linalg.norm(wanted)
 
 

@@ -229,10 +229,10 @@ class Window:
     def state(self, at: Point, method: str, **changes: Any) -> Any:
         """Return the state of a point; it has the lens's own settings otherwise."""
         from p2sf_explorer.compute.setup import default_state
-        from p2sf_explorer.state.state import changed
+        from p2sf_explorer.state.state import change
 
         own = {"depth_mm": at.depth_mm, "field_deg": at.field_deg, "focus_mm": at.focus_mm, "method": method}
-        return changed(default_state(at.name), **own, **changes)
+        return change(default_state(at.name), **own, **changes)
 
     def panel(self, key: str, answer: Any) -> Any:
         """Return a panel that shows an answer; P2SFError where it has nothing to show."""
@@ -296,7 +296,7 @@ class Window:
 
     def matrix(self, points: Sequence[Point], method: str) -> Iterator[tuple[Point, Shown]]:
         """Yield the figures of *Matrix* for the fields of one lens: Strehl ratio or R80 under a PSF, RMS of a spot."""
-        from p2sf_explorer.compute.matrix.pictures import matrix, settled
+        from p2sf_explorer.compute.matrix.pictures import matrix, settle
         from p2sf_explorer.i18n.messages import WINDOW
 
         rows = {"matrix_across": "side", "matrix_fields_deg": tuple(at.field_deg for at in points)}
@@ -307,7 +307,7 @@ class Window:
             except P2SFError as error:
                 yield points[0], Shown("matrix", what, method, refused=str(error))
                 continue
-            tiles = settled(matrix(answer).request, lambda: False, lambda *_: None)
+            tiles = settle(matrix(answer).request, lambda: False, lambda *_: None)
             for at, (tile,) in zip(points, tiles, strict=True):
                 text = tile.figure.text(WINDOW) if tile.content is not None else ""
                 for word in named:

@@ -21,14 +21,14 @@ def report(error: TracebackException, state: State) -> str:
     optics, display = state.optics, state.display
     lens = optics.lens if optics.lens in shipped_lenses() and not optics.lens_text else OWN_LENS
     shown = f"{lens}; method {optics.method}; stage {display.stage}; tab {display.tab}; language {display.language}"
-    return f"{version_text()}\n\n{shown}\n\n{told(error)}"
+    return f"{version_text()}\n\n{shown}\n\n{traceback_text(error)}"
 
 
-def told(error: TracebackException) -> str:
+def traceback_text(error: TracebackException) -> str:
     """Return an error as Python would print it, with the packages' own paths in place of the machine's."""
     before = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     lines = "".join(place_lines(error.stack)) + without_paths("".join(error.format_exception_only()))
-    return f"{told(before)}\nthen\n{lines}" if before else lines
+    return f"{traceback_text(before)}\nthen\n{lines}" if before else lines
 
 
 def place_lines(stack: StackSummary) -> list[str]:

@@ -16,9 +16,9 @@ class LanguageSwitch(QObject):
         super().__init__(parent)
         self._make = make
         set_language(state.display.language)
-        self.window = self._made(state)
+        self.window = self._new_window(state)
 
-    def _made(self, state: State) -> MainWindow:
+    def _new_window(self, state: State) -> MainWindow:
         window = self._make(state)
         window.store.changed.connect(self._listen)
         return window
@@ -33,7 +33,7 @@ class LanguageSwitch(QObject):
         if language_of(old.store.state.display.language) == current_language():
             return
         set_language(old.store.state.display.language)
-        self.window = self._made(old.store.state)
+        self.window = self._new_window(old.store.state)
         self.window.store.take_over(old.store)
         self.window.restoreGeometry(old.saveGeometry())
         self.window.setVisible(old.isVisible())

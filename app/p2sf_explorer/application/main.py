@@ -14,7 +14,7 @@ from p2sf_explorer.application.display import display_problem
 from p2sf_explorer.application.registration import as_path, register, unregister
 from p2sf_explorer.compute.lens_files import is_file
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.files.opening import opened
+from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.scene3d import opengl_probe
 from p2sf_explorer.state.link import is_link, state_of_link
 from p2sf_explorer.state.state import State
@@ -27,7 +27,7 @@ def starting_state(argv: list[str]) -> State:
     if is_link(argv[0]):
         return state_of_link(argv[0])
     place = as_path(argv[0])
-    return opened(State(), place) if is_file(place) else default_state(place)
+    return open_file(State(), place) if is_file(place) else default_state(place)
 
 
 def main(argv: list[str]) -> int:

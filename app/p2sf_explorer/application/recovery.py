@@ -6,7 +6,7 @@ from p2sf_explorer.files.session import Session, forget_rescued, last_session, r
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import PERSONAL
 from p2sf_explorer.lessons.offer import Offer
-from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.store.store import Store
 
 OFFER = "The explorer did not close properly. What was on screen has been kept."
@@ -25,7 +25,7 @@ def session_to_open(asked: State | None, crashed: bool) -> Session:
     if asked is not None or not (crashed and rescued):
         return (asked, {}) if asked is not None else last_session()
     kept, geometry = rescued
-    return changed(State(), **{name: entry(kept, name) for name in PERSONAL}), geometry
+    return change(State(), **{name: entry(kept, name) for name in PERSONAL}), geometry
 
 
 def offer_rescued(store: Store, offers: QBoxLayout, window: QWidget) -> Offer | None:

@@ -123,7 +123,7 @@ def _icon_place() -> Path:
 
 
 def _linux_files() -> dict[Path, str]:
-    entry = ENTRY.format(command=" ".join(map(_quoted, command())), name=NAME, types=";".join(TYPES))
+    entry = ENTRY.format(command=" ".join(map(_quote, command())), name=NAME, types=";".join(TYPES))
     folder = _data_folder()
     return {
         folder / "applications" / f"{NAME}.desktop": entry,
@@ -131,7 +131,7 @@ def _linux_files() -> dict[Path, str]:
     }
 
 
-def _quoted(argument: str) -> str:
+def _quote(argument: str) -> str:
     """Return an argument as the freedesktop.org Desktop Entry Specification has it quoted in the key Exec."""
     escaped = re.sub(r'(["`$\\])', r"\\\1", argument)
     return '"' + escaped.replace("\\", "\\\\").replace("%", "%%") + '"'

@@ -16,12 +16,12 @@ from PySide6.QtGui import QAccessible, QColor, QFocusEvent, QImage, QPainter, QP
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
-from p2sf_explorer.charts.crosshair import boxed, paint_box, paint_crosshair, paint_marks, paint_pin
+from p2sf_explorer.charts.crosshair import paint_box, paint_crosshair, paint_marks, paint_pin, place_box
 from p2sf_explorer.charts.hand import Hand
 from p2sf_explorer.charts.painting import MARKS, paint_line_marks, pen, polylines
 from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.charts.view import AxisView, Span, panned, width, zoomed
+from p2sf_explorer.charts.view import AxisView, Span, pan, width, zoom
 from p2sf_explorer.i18n.tr import tr
 
 THICK = (0.5, 0.9)  # px between the thin lines of a thick one
@@ -198,13 +198,13 @@ class Chart(QWidget):
         (x, y), at = self.ranges(), self.from_pixels(about)
         axes = "xy" if self.round else axes
         self._move(
-            *(zoomed(span, v, factor) if name in axes else None for name, span, v in zip("xy", (x, y), at, strict=True))
+            *(zoom(span, v, factor) if name in axes else None for name, span, v in zip("xy", (x, y), at, strict=True))
         )
 
     def pan(self, by: QPointF) -> None:
         """Move the picture by some pixels."""
         area, (x, y) = self.area, self.ranges()
-        self._move(panned(x, -by.x() / area.width() * width(x)), panned(y, by.y() / area.height() * width(y)))
+        self._move(pan(x, -by.x() / area.width() * width(x)), pan(y, by.y() / area.height() * width(y)))
 
     def _move(self, x: Span | None, y: Span | None) -> None:
         axes = (self.x_axis.moved_to(x) if x else self.x_axis), (self.y_axis.moved_to(y) if y else self.y_axis)
@@ -314,9 +314,9 @@ class Chart(QWidget):
 
     def ranges(self) -> tuple[Span, Span]:
         """Return the shown ranges: those set, one of them widened where circles must be round."""
-        return self._rounded(self.x_axis.shown, self.y_axis.shown)
+        return self._round(self.x_axis.shown, self.y_axis.shown)
 
-    def _rounded(self, across: Span, up: Span) -> tuple[Span, Span]:
+    def _round(self, across: Span, up: Span) -> tuple[Span, Span]:
         if not self.round:
             return across, up
         area = self.area
@@ -327,7 +327,7 @@ class Chart(QWidget):
 
     def magnification(self) -> tuple[float, float]:
         """Return how many times larger than the whole plot the picture is along x and y."""
-        home, shown = self._rounded(self.x_axis.home, self.y_axis.home), self.ranges()
+        home, shown = self._round(self.x_axis.home, self.y_axis.home), self.ranges()
         return width(home[0]) / width(shown[0]), width(home[1]) / width(shown[1])
 
     def per_pixel(self) -> float:
@@ -424,7 +424,7 @@ class Chart(QWidget):
         for number, (_, read) in enumerate(self.pinned(), 1):
             reading = replace(read, head=f"{number}  {read.head}")
             if self.area.contains(self._pixel(reading.place)):
-                shown, box = boxed(reading, self, boxes)
+                shown, box = place_box(reading, self, boxes)
                 boxes.append(box)
                 paint_marks(painter, self, reading)
                 paint_pin(painter, self, reading.place)
@@ -432,7 +432,7 @@ class Chart(QWidget):
         if found := self.crosshair():
             paint_crosshair(painter, self, found)
             paint_marks(painter, self, found)
-            paint_box(painter, self, *boxed(found, self, boxes))
+            paint_box(painter, self, *place_box(found, self, boxes))
 
     def _paint_buttons(self, painter: QPainter) -> None:
         """Paint the locks that are closed, and all buttons while the pointer or the focus is here; and the focus."""

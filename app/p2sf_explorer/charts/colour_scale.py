@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from p2sf_explorer.compute.brightness import DECADES, stretched
+from p2sf_explorer.compute.brightness import DECADES, stretch
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 Labels = tuple[tuple[float, str], ...]
@@ -45,7 +45,7 @@ class ColourScale:
                 share = np.sign(share) * np.sqrt(np.abs(share))
             return (1 + share) / 2
         share = values / self.high if not self.low else (values - self.low) / (self.high - self.low)
-        return stretched(share, self.stretch)
+        return stretch(share, self.stretch)
 
     def labels(self) -> Labels:
         """Return parts of the bar and the values there."""
@@ -90,7 +90,7 @@ class ScaleLock:
         """Return the lock that keeps a scale as it is."""
         return cls(scale.measure, scale.low * scale.absolute, scale.high * scale.absolute)
 
-    def applied(self, scale: ColourScale) -> tuple[ColourScale, float] | None:
+    def apply_to(self, scale: ColourScale) -> tuple[ColourScale, float] | None:
         """Return the kept scale for another picture and the factor of its values; None for another measure."""
         if scale.measure != self.measure or not scale.absolute:
             return None

@@ -26,7 +26,7 @@ def lines_of(reading: Reading) -> list[tuple[str, str, str]]:
     return [*head, *((value.name, value.text, value.token) for value in reading.values)]
 
 
-def boxed(reading: Reading, chart: "Chart", taken: Iterable[QRectF] = ()) -> tuple[Reading, QRectF]:
+def place_box(reading: Reading, chart: "Chart", taken: Iterable[QRectF] = ()) -> tuple[Reading, QRectF]:
     """Return a reading with the place of its box, in pixels; in a small chart as many values as have room.
 
     The first ones are left out first: curves are read in the order they are painted, the most important last.

@@ -109,7 +109,7 @@ def letter_width(letter: str, size: int) -> float:
     return metrics(size).horizontalAdvance(letter)
 
 
-def elided(words: str, room: float, size: int = 11) -> str:
+def elide(words: str, room: float, size: int = 11) -> str:
     """Return a text whole if it fits, else cut at its end."""
     if width_of(words, size) <= room:
         return words

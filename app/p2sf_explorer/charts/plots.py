@@ -16,7 +16,7 @@ from p2sf_explorer.charts.colour_scale import ColourScale, ScaleLock
 from p2sf_explorer.charts.painting import width_of, write
 from p2sf_explorer.charts.reading import Samples
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.charts.view import Span, steadied
+from p2sf_explorer.charts.view import Span, keep_or_grow
 from p2sf_explorer.i18n.tr import tr
 
 BRIGHTNESS = "brightness"  # stands for the colour map that the theme has for brightness
@@ -35,7 +35,7 @@ def lookup(name: str) -> np.ndarray:
     return table
 
 
-def named(name: str, theme: Tokens) -> str:
+def colour_map_name(name: str, theme: Tokens) -> str:
     """Return the colour map that a name stands for: the theme's own for `BRIGHTNESS`."""
     return theme.brightness if name == BRIGHTNESS else name
 
@@ -91,11 +91,11 @@ class ColourBar(QWidget):
 
     def settled(self, scale: ColourScale) -> tuple[ColourScale, float]:
         """Show the scale for a picture and return it, locked or in coarse steps, with the factor of the values."""
-        found = self._lock.applied(scale) if self._lock else None
+        found = self._lock.apply_to(scale) if self._lock else None
         if found is None:
             self._lock = None
             if scale.steady:
-                self._automatic = steadied(self._automatic, (scale.low, scale.high))
+                self._automatic = keep_or_grow(self._automatic, (scale.low, scale.high))
                 scale = replace(scale, low=self._automatic[0], high=self._automatic[1])
             found = scale, 1.0
         self._scale = found[0]
@@ -145,7 +145,7 @@ class ColourBar(QWidget):
         painter.fillRect(self.rect(), QColor(theme.card))
         bar = QRectF(theme.px(4), theme.px(22), theme.px(11), self.height() - theme.px(46))
         gradient = QLinearGradient(bar.bottomLeft(), bar.topLeft())
-        table = lookup(named(self._name, theme))
+        table = lookup(colour_map_name(self._name, theme))
         for k in range(17):
             gradient.setColorAt(k / 16, QColor.fromRgb(int(table[min(254, round(254 * k / 16))])))
         painter.setPen(Qt.PenStyle.NoPen)
@@ -258,7 +258,7 @@ class HeatMap(QWidget):
         """Use a colour map by name."""
         if (name, self.chart.theme) != self._mapped:
             self._mapped, self._name = (name, self.chart.theme), name
-            self._table = lookup(named(name, self.chart.theme)).copy()
+            self._table = lookup(colour_map_name(name, self.chart.theme)).copy()
             self._table[EMPTY] = QColor(self.chart.theme.card).rgb()
 
     def restyle(self, theme: Tokens) -> None:

@@ -31,7 +31,7 @@ class Value:
 
 def value_of(name: str, number: float, label: str, token: str = "text", **more: Any) -> Value:
     """Return a value of a quantity called as an axis is, "OPD, waves"."""
-    return Value(name, with_unit(written(number), label), token, number=number, **more)
+    return Value(name, with_unit(format_number(number), label), token, number=number, **more)
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ class Samples:
         return left + (column + 0.5) * wide / columns, low + (row + 0.5) * tall / rows
 
 
-def parted(label: str) -> tuple[str, str]:
+def split_label(label: str) -> tuple[str, str]:
     """Return the name and the unit of an axis called "field, °"; what follows in brackets is neither."""
     name, _, unit = label.partition(" (")[0].rpartition(", ")
     return (name, unit) if name else (unit, "")
@@ -93,18 +93,18 @@ def parted(label: str) -> tuple[str, str]:
 
 def with_unit(number: str, label: str) -> str:
     """Return a number with the unit of a label; what is a sentence stands in brackets."""
-    unit = parted(label)[1]
+    unit = split_label(label)[1]
     if "=" in unit:
         return f"{number} ({unit})"
     return number + ("" if unit == "°" else " ") * bool(unit) + unit
 
 
-def worded(value: float, label: str) -> str:
+def describe_value(value: float, label: str) -> str:
     """Return a place with the name and the unit of its axis."""
-    return f"{parted(label)[0]} {with_unit(written(value), label)}"
+    return f"{split_label(label)[0]} {with_unit(format_number(value), label)}"
 
 
-def written(value: float, digits: int = DIGITS) -> str:
+def format_number(value: float, digits: int = DIGITS) -> str:
     """Return a number with so many digits, with a power of ten where zeros would hide it; "–" for none."""
     if not isfinite(value):
         return "–"
@@ -120,9 +120,9 @@ def written(value: float, digits: int = DIGITS) -> str:
 def worded_both(place: Sequence[float], labels: Sequence[str]) -> str:
     """Return a place with the names of both axes; a unit that they share is written once."""
     first, second = labels
-    if parted(first)[1] == parted(second)[1]:
-        return f"{parted(first)[0]} {written(place[0])}, {worded(place[1], second)}"
-    return ", ".join(map(worded, place, labels))
+    if split_label(first)[1] == split_label(second)[1]:
+        return f"{split_label(first)[0]} {format_number(place[0])}, {describe_value(place[1], second)}"
+    return ", ".join(map(describe_value, place, labels))
 
 
 def certain_digits(value: float, error: float) -> int:
@@ -185,7 +185,7 @@ def map_at(samples: Samples, x: float, y: float, labels: tuple[str, str]) -> Rea
         return None
     across, up = (round(v, 12) for v in samples.centre(*found))
     value = float(samples.values[found])
-    named = value_of(parted(samples.quantity)[0], value, samples.quantity)
+    named = value_of(split_label(samples.quantity)[0], value, samples.quantity)
     return Reading(across, up, worded_both((across, up), labels), (named,), "xy")
 
 
@@ -226,10 +226,10 @@ def curves_at(
     for curve, at, numbers in found:
         number, error = between(at, numbers, place)
         digits = certain_digits(number, max(error, least))
-        text = with_unit(written(number, digits) if not abs(number) < least else "0", other)
+        text = with_unit(format_number(number, digits) if not abs(number) < least else "0", other)
         mark = ((place, number) if flat else (number, place)) if isfinite(number) else None
-        values.append(Value(curve.name or parted(other)[0], text, curve.token, mark, number))
-    head = write(place) if write else worded(place, own)
+        values.append(Value(curve.name or split_label(other)[0], text, curve.token, mark, number))
+    head = write(place) if write else describe_value(place, own)
     x, y = (place, nan) if flat else (nan, place)
     return Reading(x, y, head, tuple(values), "x" if flat else "y")
 
@@ -252,7 +252,9 @@ def vertex_at(
 
 def point_reading(x: float, y: float, labels: tuple[str, str], token: str = "text", name: str = "") -> Reading:
     """Return both coordinates of a point as values, under its name."""
-    first, second = (value_of(parted(label)[0], at, label, token) for at, label in zip((x, y), labels, strict=True))
+    first, second = (
+        value_of(split_label(label)[0], at, label, token) for at, label in zip((x, y), labels, strict=True)
+    )
     return Reading(x, y, name, (replace(first, mark=(x, y)), second), "xy")
 
 

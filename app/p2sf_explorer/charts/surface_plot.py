@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from p2sf_explorer.charts.chart import image_of
 from p2sf_explorer.charts.painting import pen, polygon, width_of, write
 from p2sf_explorer.charts.plots import EMPTY, as_indices, lookup
-from p2sf_explorer.charts.reading import written
+from p2sf_explorer.charts.reading import format_number
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.camera import SceneCamera, turned
+from p2sf_explorer.state.camera import SceneCamera, turn_camera
 
 HEIGHT = 0.6  # pupil radii that the value at the colour bar's end rises
 HALF = 1.2  # pupil radii from the middle of the picture to its edge
@@ -62,13 +62,13 @@ class SurfaceGrid:
 def surface_picture(waves: np.ndarray, limit: float, view: Viewpoint) -> SurfacePicture:
     """Return the picture of W over the pupil, (n, n), NaN where there is none; ``limit`` waves are `HEIGHT` high."""
     known, tilt = np.isfinite(waves), np.deg2rad(view.tilt_deg)
-    grid = placed(known.tobytes(), len(waves), view)
+    grid = slice_map(known.tobytes(), len(waves), view)
     height = (grid.weights * np.where(known, waves, 0.0).ravel()[grid.samples]).sum(axis=0)
     level = grid.depth * np.sin(tilt) + height * (HEIGHT / limit * np.cos(tilt))
     slices, under = first_seen(np.take_along_axis(level, grid.nearest, 0), view.count)
     seen = (slices < len(level)) & grid.met[:, None]
     place = np.take_along_axis(grid.nearest, np.minimum(slices, len(level) - 1).T, 0), np.arange(view.count)
-    light = np.where(under.T, UNDERSIDE, 1.0) * lighted(height * (HEIGHT / limit), grid)[place]
+    light = np.where(under.T, UNDERSIDE, 1.0) * light_up(height * (HEIGHT / limit), grid)[place]
     return SurfacePicture(np.where(seen.T, height[place], np.nan), light)
 
 
@@ -89,7 +89,7 @@ def first_seen(level: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     return passed[0] + above, above > 0
 
 
-def lighted(height: np.ndarray, grid: SurfaceGrid) -> np.ndarray:
+def light_up(height: np.ndarray, grid: SurfaceGrid) -> np.ndarray:
     """Return the brightness of the surface: more where it faces front and left, less on the grid lines."""
     step, column = np.maximum(grid.depth[1] - grid.depth[0], 1e-6), 2 * HALF / height.shape[1]
     back = np.gradient(height, axis=0) / step
@@ -99,7 +99,7 @@ def lighted(height: np.ndarray, grid: SurfaceGrid) -> np.ndarray:
 
 
 @lru_cache(maxsize=4)
-def placed(known: bytes, count: int, view: Viewpoint) -> SurfaceGrid:
+def slice_map(known: bytes, count: int, view: Viewpoint) -> SurfaceGrid:
     """Return the slices over a map of ``count``² samples; ``known``: the bytes of which of them have a value."""
     across = (np.arange(view.count) + 0.5) * 2 * HALF / view.count - HALF
     rim, turn = np.sqrt(np.maximum(0.0, 1 - across**2)), np.deg2rad(view.turn_deg)
@@ -174,7 +174,7 @@ class SurfaceView(QWidget):
         seen = surface_picture(waves, limit, Viewpoint(camera.turn, camera.tilt, COUNTS[quality]))
         self.waves = seen.waves
         shade = (seen.light * (SHADES - 1)).astype(np.intp)
-        self.pixels = shaded(self._map)[shade, as_indices(seen.waves, -limit, limit)][::-1].copy()
+        self.pixels = shade_map(self._map)[shade, as_indices(seen.waves, -limit, limit)][::-1].copy()
         self.update()
 
     def restyle(self, theme: Tokens) -> None:
@@ -233,7 +233,7 @@ class SurfaceView(QWidget):
         """Paint the value of the surface under the pointer, above it."""
         if self.at is None or not isfinite(value := self.value_at(self.at)):
             return
-        words, theme = f"W {written(value)} λ", self._theme
+        words, theme = f"W {format_number(value)} λ", self._theme
         wide, tall = width_of(words, theme.label) + theme.px(10), float(theme.px(20))
         left = min(max(0.0, self.at.x() - wide / 2), self.width() - wide)
         above = self.at.y() - tall - 12
@@ -275,7 +275,7 @@ class SurfaceView(QWidget):
         if self._held:
             start, camera = self._held
             moved = event.position() - start
-            self._turn(turned(camera, -DEG_PER_PX * moved.x(), DEG_PER_PX * moved.y()))
+            self._turn(turn_camera(camera, -DEG_PER_PX * moved.x(), DEG_PER_PX * moved.y()))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Stop dragging."""
@@ -291,7 +291,7 @@ class SurfaceView(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Turn with the arrows, turn back with Home."""
         if event.key() in TURNS:
-            self._turn(turned(self.camera, *TURNS[event.key()]))
+            self._turn(turn_camera(self.camera, *TURNS[event.key()]))
         elif event.key() == KEYS.Key_Home:
             self.zoom = 1.0
             self._turn(FIRST)
@@ -303,7 +303,7 @@ class SurfaceView(QWidget):
 
 
 @lru_cache(maxsize=4)
-def shaded(name: str) -> np.ndarray:
+def shade_map(name: str) -> np.ndarray:
     """Return a colour map in `SHADES` brightnesses, (shade, index) of 0xAARRGGBB; no value is transparent."""
     colours = lookup(name)[None]
     light = np.arange(SHADES)[:, None] / (SHADES - 1)

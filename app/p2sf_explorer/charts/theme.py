@@ -117,11 +117,11 @@ DARK = Tokens(
 
 def tokens(choice: str, colours: str = "standard", scale: float = 1.0) -> Tokens:
     """Return the tokens of "light", "dark" or "system", with a colour map of `BRIGHTNESS` for the heat maps."""
-    return _completed(_theme(choice), colours, scale)
+    return _complete(_theme(choice), colours, scale)
 
 
 @lru_cache(maxsize=8)
-def _completed(theme: Tokens, colours: str, scale: float) -> Tokens:
+def _complete(theme: Tokens, colours: str, scale: float) -> Tokens:
     return replace(theme, brightness=BRIGHTNESS[colours], scale=scale)
 
 

@@ -32,7 +32,7 @@ class AxisView:
 
     def fitted(self, span: Span, steady: bool = False) -> "AxisView":
         """Return the axis for other data: exactly from end to end, or in ``steady`` coarse steps."""
-        automatic = steadied(self.automatic, span) if steady else span
+        automatic = keep_or_grow(self.automatic, span) if steady else span
         return self if automatic == self.automatic else replace(self, automatic=automatic)
 
     def at_home(self) -> "AxisView":
@@ -59,12 +59,12 @@ def allowed(span: Span, home: Span) -> bool:
     return DEEPEST * width(home) <= width(span) <= WIDEST * width(home) and far <= WIDEST * width(home)
 
 
-def zoomed(span: Span, about: float, factor: float) -> Span:
+def zoom(span: Span, about: float, factor: float) -> Span:
     """Return a range ``factor`` times as wide, in which ``about`` has kept its place on screen."""
     return about + factor * (span[0] - about), about + factor * (span[1] - about)
 
 
-def panned(span: Span, by: float) -> Span:
+def pan(span: Span, by: float) -> Span:
     """Return a range moved by some of its own units."""
     return span[0] + by, span[1] + by
 
@@ -76,16 +76,16 @@ def kind(span: Span) -> str:
     return "up" if span[0] == 0 else "down" if span[1] == 0 else ""
 
 
-def steadied(kept: Span, wanted: Span) -> Span:
+def keep_or_grow(kept: Span, wanted: Span) -> Span:
     """Return the automatic range for data from end to end: ``kept`` while they fit and fill it, else a round one.
 
     A drag thus changes the range rarely, and by a factor that is seen, with hysteresis.
     """
     fits = kept[0] <= wanted[0] and wanted[1] <= kept[1] and width(wanted) >= KEPT * width(kept)
-    return kept if fits and kind(wanted) in ("", kind(kept)) else rounded(wanted)
+    return kept if fits and kind(wanted) in ("", kind(kept)) else round_span(wanted)
 
 
-def rounded(wanted: Span) -> Span:
+def round_span(wanted: Span) -> Span:
     """Return a range of one of `STEPS`·10ᵏ, round ends and the symmetry of the data's.
 
     Where both ends are free, it is wider by a tenth if round ends ask for that.

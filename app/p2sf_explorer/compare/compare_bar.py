@@ -10,7 +10,7 @@ from p2sf_explorer.compare.contrasts import LINK_WORDS, contrasts
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CHOICES, LINKABLE
-from p2sf_explorer.state.pinning import link_toggled, pin, swapped, unpin
+from p2sf_explorer.state.pinning import link_toggled, pin, swap, unpin
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
@@ -96,7 +96,7 @@ class CompareBar(QFrame):
     def exchange(self) -> None:
         """Exchange A and B, if there is a B."""
         if self._store.state.compare.pinned:
-            self._store.replace(swapped(self._store.state))
+            self._store.replace(swap(self._store.state))
 
     def next_side(self) -> None:
         """Show the next of A, B, A − B; pins B first."""

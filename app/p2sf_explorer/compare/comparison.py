@@ -11,7 +11,7 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of_samples
 from p2sf.psf.methods import PsfRequest
-from p2sf_explorer.compare.differences import subtracted
+from p2sf_explorer.compare.differences import subtract
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
@@ -81,7 +81,7 @@ def answers(
     b = _b(other, conditions, prescription(other))
     if larger(window_of(b), window_of(a)):
         a = compute.live(state, quality, {}, a.method if state.optics.automatic else "", window_of(b), cache)
-    return Answers(a, b, seen(state, a, b, views, begun))
+    return Answers(a, b, choose_side(state, a, b, views, begun))
 
 
 @dataclass(frozen=True)
@@ -117,13 +117,13 @@ def larger(one: Least, other: Least) -> bool:
     return one[0] > other[0] or one[1] > other[1] * (1 + 1e-9)
 
 
-def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
+def choose_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer on screen, its views computed."""
     chosen = b if state.compare.shown == "b" else a
     chosen = compute.with_views(replace(chosen, sides=(a.state, b.state)), views, begun)
     if state.compare.shown != "difference":
         return replace(chosen, side=state.compare.shown.upper())
-    found = {name: subtracted(name, chosen.views[name], compute.attempted(view, b)) for name, view in views.items()}
+    found = {name: subtract(name, chosen.views[name], compute.try_view(view, b)) for name, view in views.items()}
     why = {entry.key: entry.minus for entry in REGISTRY if isinstance(entry.minus, Message)}
     why |= {name: message for name, (_, message) in found.items() if message}
     minus = replace(difference(a, b), why=why)
@@ -133,7 +133,7 @@ def seen(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], be
 def difference(a: Live, b: Live) -> Difference:
     """Return what differs; B's wavefront on A's samples, straight lines between its own."""
     peak = max(float(a.psf.values.max()), float(b.psf.values.max())) or 1.0
-    pupil = a.pupil.waves - resampled(b.pupil.waves, a.pupil.waves.shape[0])
+    pupil = a.pupil.waves - resample(b.pupil.waves, a.pupil.waves.shape[0])
     least = min((a.pupil, b.pupil), key=lambda side: side.clear)
     common = map_of_samples(pupil, disc(len(pupil))[2], DIFFERENCE)  # without the pixel that maps go on beyond the rim
     minus = replace(
@@ -148,7 +148,7 @@ def difference(a: Live, b: Live) -> Difference:
     return Difference((a.psf.values - b.psf.values) / peak, minus, six)
 
 
-def resampled(values: np.ndarray, count: int) -> np.ndarray:
+def resample(values: np.ndarray, count: int) -> np.ndarray:
     """Return a square map over the pupil at another number of samples; NaN where a neighbour is."""
     if values.shape[0] == count:
         return values

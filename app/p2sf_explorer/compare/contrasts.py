@@ -54,10 +54,14 @@ def contrasts(state: State) -> tuple[Contrast, ...]:
 def distinct(write: Callable[[float], str], first: float, second: float) -> tuple[Message, Message]:
     """Return how two values are written, with more digits where the usual ones hide what differs."""
     a, b = write(first), write(second)
-    return (written(a), written(b)) if a != b else (written(f"{first:.9g}"), written(f"{second:.9g}"))
+    return (
+        (value_message(a), value_message(b))
+        if a != b
+        else (value_message(f"{first:.9g}"), value_message(f"{second:.9g}"))
+    )
 
 
-def written(value: str) -> Message:
+def value_message(value: str) -> Message:
     """Return a value as a control writes it."""
     return Message(BEYOND) if value == BEYOND else Message("{value}", value=Number(value))
 

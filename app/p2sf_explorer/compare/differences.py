@@ -17,7 +17,7 @@ from p2sf_explorer.compute.views.seidel import PerSurface
 from p2sf_explorer.compute.views.through_focus import Strip
 from p2sf_explorer.compute.views.zernike import ZernikeView
 from p2sf_explorer.state.panels import PANELS, difference_of
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 
 
 def curves(a: Any, b: Any) -> Any:
@@ -101,10 +101,10 @@ def _less(mine: object, other: object) -> object:
         return mine - other
     places = max(len(str(number).partition(".")[2]) for number in (mine, other))
     first, second = (float(str(number).replace("−", "-")) for number in (mine, other))
-    return Number(signed(first - second, places))
+    return Number(with_sign(first - second, places))
 
 
-def subtracted(key: str, a: object, b: object) -> tuple[object, Message | None]:
+def subtract(key: str, a: object, b: object) -> tuple[object, Message | None]:
     """Return what a panel shows for A − B of two views, and a message where that is A alone."""
     minus = difference_of(PANELS[key])
     if minus is None or isinstance(minus, Message) or isinstance(a, Refused):

@@ -11,7 +11,7 @@ from p2sf.raytrace.clear_pieces import CLIPPED, LOST
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.what_if import check_focusable
 
 RAYS = 12, 32  # radii and directions over the disc
@@ -64,7 +64,7 @@ def open_nodes(setup: ParaxialSetup, exact: bool, clip: bool) -> ClearNodes:
 
 def _waves(state: State, shift_um: float, nodes: ClearNodes, by_coefficients: bool) -> np.ndarray:
     """Return the displayed W at the nodes, waves, where the sensor is shifted."""
-    setup = paraxial_setup(changed(state, sensor_shift_um=shift_um))
+    setup = paraxial_setup(change(state, sensor_shift_um=shift_um))
     if by_coefficients:
         waves = np.asarray(wavefront(setup.coefficients, nodes.xi, nodes.eta))
     else:

@@ -7,7 +7,7 @@ UNITS = (("peak", "peak = 1"), ("sum", "sum = 1"), ("strehl", "Strehl"))
 DECADES = 5  # shown by the logarithmic scale, below the peak
 
 
-def stretched(values: np.ndarray, scale: str) -> np.ndarray:
+def stretch(values: np.ndarray, scale: str) -> np.ndarray:
     """Return brightness 0 to 1 of values 0 to 1 on a scale."""
     if scale == "linear":
         return values

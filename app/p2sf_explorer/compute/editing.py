@@ -17,9 +17,9 @@ from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import each_column, with_columns
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
 from p2sf_explorer.compute.autofocus import best_shift_um
-from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, turned
+from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, with_rings
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 STEEPEST = 0.9  # of a hemisphere's sag
 SAME = 1e-12  # of the sensor's distance: less is rounding
@@ -46,7 +46,7 @@ def edited_state(state: State, lens: Lens) -> State:
 
 
 def _with_lens(state: State, lens: Lens) -> State:
-    edited = changed(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
+    edited = change(state, lens_text=None if _as_filed(state, lens) else lens_to_toml(lens))
     paraxial_setup(edited)
     return edited
 
@@ -123,7 +123,7 @@ def best_focused(state: State, lens: Lens) -> tuple[State, Lens]:
 
     Where no shift focuses, the lens as it is.
     """
-    plain = changed(state, focus_mm=None, sensor_shift_um=0.0)
+    plain = change(state, focus_mm=None, sensor_shift_um=0.0)
     try:
         shift = best_shift_um(_with_lens(plain, lens))
     except GeometryError:  # an image at infinity, or a pupil without a lens
@@ -133,7 +133,7 @@ def best_focused(state: State, lens: Lens) -> tuple[State, Lens]:
 
 def _as_filed(state: State, lens: Lens) -> bool:
     try:
-        return turned(load(state.optics.lens), state) == lens
+        return with_rings(load(state.optics.lens), state) == lens
     except P2SFError:  # the file is gone or broken; the edited lens stands for itself
         return False
 
@@ -293,10 +293,10 @@ def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
     return (square + bulge * sag**2) / (2 * sag) if sag else inf
 
 
-def inserted(lens: Lens, number: int) -> Lens:
+def insert_surface(lens: Lens, number: int) -> Lens:
     """Return the lens with a plane in the middle of the space after surface ``number``: optically the same lens."""
     if lens.positions is not None:
-        return each_column(lens, lambda column: inserted(column, number))
+        return each_column(lens, lambda column: insert_surface(column, number))
     before = lens.surfaces[number - 1]
     half = before.thickness / 2
     plane = Surface(thickness=half, medium=before.medium)
@@ -305,13 +305,13 @@ def inserted(lens: Lens, number: int) -> Lens:
     return replace(lens, surfaces=surfaces, stop_surface=stop + 1 if stop and stop > number else stop)
 
 
-def deleted(lens: Lens, number: int) -> Lens:
+def delete_surface(lens: Lens, number: int) -> Lens:
     """Return the lens without surface ``number``; all others stay where they are. GeometryError for stop and last one.
 
     The medium before the surface reaches on to the next one.
     """
     if lens.positions is not None:
-        return each_column(lens, lambda column: deleted(column, number))
+        return each_column(lens, lambda column: delete_surface(column, number))
     stop, before = lens.stop_surface, lens.surfaces[: number - 1]
     if len(lens.surfaces) == 1:
         raise GeometryError("a lens needs at least one surface; insert another before deleting this one")
@@ -326,16 +326,16 @@ def deleted(lens: Lens, number: int) -> Lens:
     return replace(lens, surfaces=surfaces, stop_surface=stop - 1 if stop and stop > number else stop)
 
 
-def written(surface: Surface, column: str, full: bool = False) -> str:
+def cell_text(surface: Surface, column: str, full: bool = False) -> str:
     """Return one entry as a table shows it, or with every digit for editing."""
     value = getattr(surface, column)
     if column == "medium":
         return "air" if value == AIR else value.label
     numbers = value if column == "aspheric" else (value,)
-    return "  ".join(repr(x) if full and isfinite(x) else shown(x) for x in numbers)
+    return "  ".join(repr(x) if full and isfinite(x) else number_text(x) for x in numbers)
 
 
-def shown(value: float) -> str:
+def number_text(value: float) -> str:
     """Return a number as a table shows it: ten digits, a true minus, ∞ for a plane or an unlimited rim."""
     if not isfinite(value):
         return "∞" if value > 0 else "−∞"

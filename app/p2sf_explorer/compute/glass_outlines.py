@@ -8,7 +8,7 @@ from math import isfinite
 import numpy as np
 
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_mask, with_sensor
-from p2sf.lens.misalignment import straightened
+from p2sf.lens.misalignment import straighten
 from p2sf.lens.placement import Motion
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import needed_radii
@@ -198,7 +198,7 @@ def vertices(lens: Lens) -> list[float]:
 
 def drawn_rims(lens: Lens) -> tuple[float, ...]:
     """Return the half-heights to draw the surfaces of a lens with: those of the lens set straight."""
-    return clear_rims(straightened(lens))
+    return clear_rims(straighten(lens))
 
 
 @lru_cache(maxsize=32)

@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, seen_from, with_sensor
-from p2sf.lens.misalignment import straightened
+from p2sf.lens.misalignment import straighten
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.lens_checks import unless_symmetric
@@ -32,9 +32,9 @@ from p2sf_explorer.compute.glass_outlines import (
     vertices,
     widest_exit,
 )
-from p2sf_explorer.compute.meridional import aimed, path
+from p2sf_explorer.compute.meridional import aim_ray, path
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription
-from p2sf_explorer.state.built import exaggerated, with_errors
+from p2sf_explorer.state.built import exaggerate, with_errors
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 
@@ -143,7 +143,7 @@ def layout_of(state: State, setup: ParaxialSetup) -> Layout:
     """Return the `layout` as a state wants it drawn."""
     display, factor = state.display, 1
     if state.optics.errors and display.exaggerated > 1:
-        _, factor = exaggerated(state.optics.errors, display.exaggerated)
+        _, factor = exaggerate(state.optics.errors, display.exaggerated)
     shown = shown_lens(state, setup) if factor > 1 else None
     made = layout(setup, state.optics.clip, display.rays_coloured, display.rays_count, shown)
     return replace(made, exaggerated=factor, file_tilted=prescription(state).misaligned) if factor > 1 else made
@@ -151,7 +151,7 @@ def layout_of(state: State, setup: ParaxialSetup) -> Layout:
 
 def shown_lens(state: State, setup: ParaxialSetup) -> Lens:
     """Return the lens whose glass, stop and sensor are drawn: with its tilts and decentres enlarged as a state says."""
-    larger, factor = exaggerated(state.optics.errors, state.display.exaggerated)
+    larger, factor = exaggerate(state.optics.errors, state.display.exaggerated)
     if factor == 1 or not state.optics.errors:
         return setup.lens
     return with_sensor(with_errors(prescription(state), larger), setup.lens.sensor_mm)
@@ -227,7 +227,7 @@ def widest_image(lens: Lens) -> float:
 
     That of a misaligned lens is taken of the lens set straight: what is drawn keeps its scale while a part is moved.
     """
-    y, slope = widest_exit(straightened(still(lens)))
+    y, slope = widest_exit(straighten(still(lens)))
     return abs(y + slope * lens.sensor_mm)
 
 
@@ -372,7 +372,7 @@ class _Entry:
         guess = eta * self.radius
         if self.lens.aim == "paraxial":
             return guess
-        found = aimed(self._landing, eta * self.rim, guess, self.rim / self.radius, AIM_MOVE * abs(self.rim))
+        found = aim_ray(self._landing, eta * self.rim, guess, self.rim / self.radius, AIM_MOVE * abs(self.rim))
         if found is not None:
             return found
         return float(pupil_rays(self.lens, self.source, np.zeros(1), np.array([eta])).y.item())

@@ -13,7 +13,7 @@ from p2sf.psf.methods import PsfRequest
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.layout import Layout, layout_of
-from p2sf_explorer.compute.method import ALONE, Least, Rendered, rendered
+from p2sf_explorer.compute.method import ALONE, Least, Rendered, render_state
 from p2sf_explorer.compute.pupil import dominant, pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
 from p2sf_explorer.compute.warnings import warnings
@@ -82,7 +82,7 @@ def live(
     setup = paraxial_setup(state)
     drawing = layout_of(state, setup)
     placed = perf_counter()
-    picture = rendered(state, setup, quality, kept_method, least, cache)
+    picture = render_state(state, setup, quality, kept_method, least, cache)
     psf, finished = picture.psf, perf_counter()
     pupil = picture.pupil or pupil_of(setup, picture.exact, quality, state.optics.clip)
     answer = Live(
@@ -108,12 +108,12 @@ def live(
 
 def with_views(answer: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer with the open panels' views and the total time."""
-    results = {name: attempted(view, answer) for name, view in views.items()}
+    results = {name: try_view(view, answer) for name, view in views.items()}
     total = 1e3 * (perf_counter() - begun)
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
 
 
-def attempted(view: ResultFunction, answer: Live) -> object:
+def try_view(view: ResultFunction, answer: Live) -> object:
     """Return what one panel shows, or Refused: the other panels have their pictures all the same."""
     try:
         return view(answer)

@@ -47,7 +47,7 @@ def path(
             return *places, False
         if number + 1 == last:
             return *places, True
-        turned = _behind(surface, met, (cz, cy), index[number : number + 2], wavelength_um)
+        turned = _after_surface(surface, met, (cz, cy), index[number : number + 2], wavelength_um)
         if turned is None:
             return *places, False
         cz, cy = turned
@@ -57,7 +57,7 @@ def path(
     return *places, True
 
 
-def aimed(
+def aim_ray(
     landing: Callable[[float], float | None], goal: float, guess: float, gain: float, close: float
 ) -> float | None:
     """Return the height at which a ray enters so that ``landing`` of it is ``goal``, by the secant method.
@@ -114,7 +114,7 @@ def _on_asphere(surface: Surface, z: float, y: float, cz: float, cy: float) -> M
     return None
 
 
-def _behind(
+def _after_surface(
     surface: Surface, met: Meeting, along: tuple[float, float], index: Sequence[float], wavelength_um: float
 ) -> tuple[float, float] | None:
     """Return the direction behind a surface of a ray that meets it along (cz, cy); None where totally reflected."""
@@ -122,17 +122,17 @@ def _behind(
         tangent = (index[0] * along[1] / along[0] - met[1] / surface.ideal_focal_length) / index[1]
         cosine = copysign(1 / hypot(1.0, tangent), index[1])
         return cosine, tangent * cosine
-    return refracted(met[2], *along, index[0], index[1], steered(surface, met[1], wavelength_um))
+    return refract(met[2], *along, index[0], index[1], diffract(surface, met[1], wavelength_um))
 
 
-def steered(surface: Surface, y: float, wavelength_um: float) -> float:
+def diffract(surface: Surface, y: float, wavelength_um: float) -> float:
     """Return what a diffractive surface adds to the optical cosine along y, (λ/2π)dφ/dy."""
     if surface.diffraction is None:
         return 0.0
     return 2 * y * WAVES_MM * wavelength_um * float(surface.diffraction.phase_and_slope(y * y)[1])
 
 
-def refracted(
+def refract(
     slope: float, cz: float, cy: float, before: float, after: float, kick: float = 0.0
 ) -> tuple[float, float] | None:
     """Return the direction behind a surface of slope dz/dy, Snell's law as a vector; None where totally reflected.

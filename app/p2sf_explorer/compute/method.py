@@ -167,7 +167,7 @@ class Extent:
         return AIRY_RADIUS * self.landing_um / self.airy_um
 
 
-def rendered(
+def render_state(
     state: State,
     setup: ParaxialSetup,
     quality: str,
@@ -186,7 +186,7 @@ def rendered(
         method = SEIDEL.name
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
-        method, why = (kept_method, NO_REASON) if kept_method else chosen(state, setup)
+        method, why = (kept_method, NO_REASON) if kept_method else choose_for_state(state, setup)
     refused = without_coefficients(setup.lens) if by_six(method) and not state.what_if.free_pupil else None
     if refused:
         method = TRACED.name  # for the pupil; the picture itself is covered
@@ -205,14 +205,14 @@ def resting(task: Task) -> Rendered:
     samples = nodes_beyond(request, fitted)
     if samples and own and task.least[1] <= task.own_width_um:
         refused = too_many(task, samples)
-        return replace(blurred(task, window), why=refused, refused=refused)
+        return replace(ray_density_picture(task, window), why=refused, refused=refused)
     if samples or task.coarse:
-        return blurred(task, window)
+        return ray_density_picture(task, window)
     if task.cache is None or not slow(request, fitted):
-        return summed(task, psf_of(request), request)
+        return settled_picture(task, psf_of(request), request)
     result = task.cache.get(request)
     if isinstance(result, Psf):
-        return summed(task, result, request)
+        return settled_picture(task, result, request)
     stand_in = moving(task, "settled")
     if result is not None:
         return replace(stand_in, why=result)
@@ -220,7 +220,7 @@ def resting(task: Task) -> Rendered:
     return replace(stand_in, why=soon, pending=request)
 
 
-def summed(task: Task, psf: Psf, request: PsfRequest) -> Rendered:
+def settled_picture(task: Task, psf: Psf, request: PsfRequest) -> Rendered:
     """Return the settled picture that a sum made."""
     finest = task.finest(request.window[0] * request.window[1])
     return Rendered(psf, task.why, task.exact, task.method, request=request, finest=finest)
@@ -248,14 +248,14 @@ def moving(task: Task, quality: str) -> Rendered:
     traced = preview(task.setup, True) if task.state.optics.clip else task.traced
     pupil = preview_pupil(traced) if traced and quality == "preview" else None
     if task.coarse or (traced and not quickly(task, window)):
-        return replace(blurred(task, window, quality), pupil=pupil)
+        return replace(ray_density_picture(task, window, quality), pupil=pupil)
     if traced:
         psf = preview_psf(traced, *window, task.fitted)
         return Rendered(psf, instead(task, psf), True, task.method, pupil)
     if task.cache is None:
         waited = replace(psf_request(task.state, task.setup, TRACED.name, window), quality="preview")
         return Rendered(psf_of(waited), NO_REASON, True, task.method)
-    found = rimmed(task, window, quality)
+    found = clipped_picture(task, window, quality)
     return replace(found, why=instead(task, found.psf))
 
 
@@ -270,7 +270,7 @@ def moving_coefficients(task: Task, window: Window, quality: str) -> Rendered:
     """Return the picture of six coefficients while it moves; the density of their rays where it has many waves."""
     mask = mask_seen(task.setup.lens, task.setup.source)
     if task.coarse or quality == "settled" or steep_coefficients(task, window, mask):
-        return blurred(task, window, quality)
+        return ray_density_picture(task, window, quality)
     return Rendered(preview_of_coefficients(task.setup, window, quality), task.why, False, task.method)
 
 
@@ -311,16 +311,16 @@ def quickly(task: Task, window: Window) -> bool:
     return True
 
 
-def rimmed(task: Task, window: Window, quality: str) -> Rendered:
+def clipped_picture(task: Task, window: Window, quality: str) -> Rendered:
     """Return the moving picture where rims clip: the fit to all rays, summed over those that pass, else ray density."""
     try:
         psf = clipped_psf(task.traced, *window) if task.traced and quickly(task, window) else None
     except GeometryError:  # every ray is clipped, or the fit is no map: the density says which
         psf = None
-    return Rendered(psf, NO_REASON, True, task.method) if psf else blurred(task, window, quality)
+    return Rendered(psf, NO_REASON, True, task.method) if psf else ray_density_picture(task, window, quality)
 
 
-def blurred(task: Task, window: Window, quality: str = "settled") -> Rendered:
+def ray_density_picture(task: Task, window: Window, quality: str = "settled") -> Rendered:
     """Return the density of rays over a window."""
     psf = geometric_psf(task.setup.lens, task.setup.source, window, quality, task.state.optics.clip, task.six)
     return Rendered(psf, density_reason(psf), task.exact, task.method)
@@ -386,7 +386,7 @@ def edge_pencil(setup: ParaxialSetup) -> Rays:
     return pencil(setup.lens, setup.source, *edge_points())
 
 
-def chosen(state: State, setup: ParaxialSetup) -> tuple[str, Message]:
+def choose_for_state(state: State, setup: ParaxialSetup) -> tuple[str, Message]:
     """Return the method in use and why: a person's choice needs no reason."""
     if not state.optics.automatic:
         return state.optics.method, NO_REASON

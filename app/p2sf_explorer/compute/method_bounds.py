@@ -16,7 +16,7 @@ from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import psf_request, slow
 from p2sf_explorer.compute.method import ALONE, NO_REASON, Task
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 NAMES = tuple(method.name for method in METHODS if method.pupil)  # from fast to exact
 EXACTEST, COARSEST = 1e-5, 0.3  # 1 − R² at the ends of the slider
@@ -68,7 +68,7 @@ class PredictedCost:
 
 def costs(state: State) -> tuple[PredictedCost, ...]:
     """Return what each method costs at a state's point, in the window that it shows, fast ones first."""
-    return tuple(_cost(changed(state, method=method)) for method in NAMES)
+    return tuple(_cost(change(state, method=method)) for method in NAMES)
 
 
 def _cost(state: State) -> PredictedCost:

@@ -19,9 +19,9 @@ from p2sf_explorer.state.scales import (
     read_distance,
     read_f_number,
     read_number,
-    signed,
     significant,
     ticks,
+    with_sign,
     written_distance,
 )
 from p2sf_explorer.state.state import State, entry
@@ -89,12 +89,12 @@ def _distances(ranges: Ranges) -> Vergence:
     return Vergence(ranges.closest_mm, ranges.middle_mm)
 
 
-def _focused(state: State, ranges: Ranges) -> float:
+def _focus_distance(state: State, ranges: Ranges) -> float:
     return ranges.focused_mm if state.optics.focus_mm is None else state.optics.focus_mm
 
 
 def _shift_text(value: float) -> str:
-    return f"{signed(value, 0)} µm" if value else "0"
+    return f"{with_sign(value, 0)} µm" if value else "0"
 
 
 def _angle_text(value: float) -> str:
@@ -122,7 +122,7 @@ DEPTH = Quantity(
     shown=_plain("depth_mm"),
     buttons=(("∞", inf, "Put the source at infinity"),),
     ticks=lambda ranges: distance_ticks(ranges.closest_mm),
-    marks=lambda state, ranges: (_focused(state, ranges),),
+    marks=lambda state, ranges: (_focus_distance(state, ranges),),
 )
 FINE_DEG = 0.1  # below it a field, such as a telescope's, is written to 1e-4°
 FIELD = Quantity(
@@ -133,7 +133,7 @@ FIELD = Quantity(
         "fields of the lens file."
     ),
     scale=lambda ranges: Linear(-ranges.field_deg if ranges.both_sides else 0.0, ranges.field_deg),
-    write=lambda value: f"{signed(value, 2 if not value or abs(value) >= FINE_DEG else 4)}°",
+    write=lambda value: f"{with_sign(value, 2 if not value or abs(value) >= FINE_DEG else 4)}°",
     read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_deg"),
     ticks=lambda ranges: _field_ticks(ranges),
@@ -172,7 +172,7 @@ FOCUS = Quantity(
     scale=_distances,
     write=lambda value: BEYOND if value < 0 else written_distance(value),
     read=read_distance,
-    shown=_focused,
+    shown=_focus_distance,
     buttons=(("∞", inf, "Focus at infinity"), ("file", None, "Return the sensor to where the lens file has it")),
     ticks=lambda ranges: distance_ticks(ranges.closest_mm),
     marks=lambda state, ranges: (state.optics.depth_mm,),
@@ -182,7 +182,7 @@ SHIFT = Quantity(
     title="Sensor shift",
     tip="Sensor shift Δz away from the lens, in addition to focus; it adds the defocus Wd = NA²Δz/(2n′λ).",
     scale=lambda ranges: Linear(-ranges.shift_um, ranges.shift_um),
-    write=lambda value: f"{signed(value, 1)} µm",
+    write=lambda value: f"{with_sign(value, 1)} µm",
     read=_reader("sensor shift", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
     shown=_plain("sensor_shift_um"),
     ticks=lambda ranges: tuple((part * ranges.shift_um, _shift_text(part * ranges.shift_um)) for part in (0, -1, 1)),
@@ -243,11 +243,11 @@ def _labels(*values: float) -> tuple[tuple[float, str], ...]:
 
 
 def _degrees(value: float) -> str:
-    return f"{signed(value, 1)}°"
+    return f"{with_sign(value, 1)}°"
 
 
 def _angles(*values: float) -> tuple[tuple[float, str], ...]:
-    return tuple((value, f"{signed(value, 0)}°") for value in values)
+    return tuple((value, f"{with_sign(value, 0)}°") for value in values)
 
 
 READ_ANGLE = {"°": 1.0, "deg": 1.0}
@@ -334,9 +334,9 @@ CUBIC = _in_the_stop(
     "Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, so one "
     "deconvolution can remove the blur.",
     Linear(-LARGE_CUBIC_UM, LARGE_CUBIC_UM),
-    lambda value: f"{signed(value, 2)} µm",
+    lambda value: f"{with_sign(value, 2)} µm",
     _reader("cubic phase", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
-    tuple((value, f"{signed(value, 0)} µm") for value in (0.0, -LARGE_CUBIC_UM, LARGE_CUBIC_UM)),
+    tuple((value, f"{with_sign(value, 0)} µm") for value in (0.0, -LARGE_CUBIC_UM, LARGE_CUBIC_UM)),
 )
 
 
@@ -363,7 +363,7 @@ def _ring(kind: Kind, key: str, title: str, tip: str, place: Callable[[State], f
 
 
 def _on_a_ring(value: float) -> str:
-    return signed(value, 1) if abs(value) >= 10 else signed(value, 2)
+    return with_sign(value, 1) if abs(value) >= 10 else with_sign(value, 2)
 
 
 ZOOM = _ring(

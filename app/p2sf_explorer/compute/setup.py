@@ -35,8 +35,8 @@ from p2sf_explorer.state.build_errors import BuildErrors
 from p2sf_explorer.state.built import with_errors
 from p2sf_explorer.state.limits import MASK, RINGS, SLIDERS
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import Optics, State, changed, new_state
-from p2sf_explorer.state.what_if import altered
+from p2sf_explorer.state.state import Optics, State, change, new_state
+from p2sf_explorer.state.what_if import alter
 
 HERE = {*RINGS, *MASK, "field_deg", "field_x_deg"}
 ASKED = {part.name for part in fields(Optics)} & {part.name for part in fields(Request)} - HERE
@@ -126,19 +126,19 @@ def _load(name: str, _changed: int) -> Lens:
 def prescription(state: State) -> Lens:
     """Return the state's lens before it is opened and focused: as edited, else as its file has it, its rings turned.
 
-    It is without the errors of its build, which `built` adds. LensFileError for a file that cannot be read.
+    It is without the errors of its build, which `built_lens` adds. LensFileError for a file that cannot be read.
     """
-    lens = load(state.optics.lens) if state.optics.lens_text is None else _edited(state.optics.lens_text)
-    return lens if lens.positions is None else turned(lens, state)
+    lens = load(state.optics.lens) if state.optics.lens_text is None else _read_edited(state.optics.lens_text)
+    return lens if lens.positions is None else with_rings(lens, state)
 
 
-def built(state: State) -> Lens:
+def built_lens(state: State) -> Lens:
     """Return the state's `prescription` with the errors of its build; P2SFError where these cannot be."""
     lens, errors = prescription(state), state.optics.errors
     return with_errors(lens, errors) if errors else lens
 
 
-def turned(lens: Lens, state: State) -> Lens:
+def with_rings(lens: Lens, state: State) -> Lens:
     """Return a lens with its rings where the state has them.
 
     A ring that the lens does not have is passed over, and one is turned to its end at most: a state may be of another
@@ -148,7 +148,7 @@ def turned(lens: Lens, state: State) -> Lens:
     if rings is None:
         return lens
     by_hand = optics.focus_position if optics.focus_mm is None else None
-    return _turned(lens, _within(rings.axis("zoom"), optics.zoom), _within(rings.axis("focus"), by_hand))
+    return _with_rings(lens, _within(rings.axis("zoom"), optics.zoom), _within(rings.axis("focus"), by_hand))
 
 
 def _within(axis: Axis | None, place: float | None) -> float | None:
@@ -156,7 +156,7 @@ def _within(axis: Axis | None, place: float | None) -> float | None:
 
 
 @lru_cache(maxsize=64)
-def _turned(lens: Lens, zoom: float | None, focus_position: float | None) -> Lens:
+def _with_rings(lens: Lens, zoom: float | None, focus_position: float | None) -> Lens:
     return lens_at(lens, zoom, focus_position)
 
 
@@ -179,7 +179,7 @@ def focus_place(state: State) -> float | None:
 
 
 @lru_cache(maxsize=128)
-def _edited(text: str) -> Lens:
+def _read_edited(text: str) -> Lens:
     from p2sf.lensfile.toml.lens import parse_toml
 
     return parse_toml(text, "the edited lens")
@@ -196,7 +196,7 @@ def title(name: str) -> str:
         return name
 
 
-def shipped() -> tuple[str, ...]:
+def shipped_names() -> tuple[str, ...]:
     """Return the names of the lenses that come with the program."""
     from p2sf.lensfile.library import shipped_lenses
 
@@ -207,7 +207,7 @@ def paraxial_setup(state: State) -> ParaxialSetup:
     """Return everything paraxial about the state; P2SFError where there is no answer."""
     axial = _axial(prescription(state), _request(state, None), state.optics.errors)
     setup = _with_fields(axial, state)
-    lens, source, stop = masked(setup.lens, state), setup.source, setup.stop
+    lens, source, stop = with_state_mask(setup.lens, state), setup.source, setup.stop
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     gap = source.depth_mm + float(axial.pupils.entrance_from_first)
     return ParaxialSetup(
@@ -219,7 +219,7 @@ def paraxial_setup(state: State) -> ParaxialSetup:
         pupils=axial.pupils,
         cardinal=axial.cardinal,
         rays=axial.rays,
-        coefficients=altered(own, state),
+        coefficients=alter(own, state),
         own=own,
         object_y_mm=0.0 - source.field_slope * gap if isfinite(source.depth_mm) else None,
         focal_length_mm=float(axial.cardinal.effective_focal_length),
@@ -230,7 +230,7 @@ def request_setup(state: State) -> Setup:
     """Return the state as the library's own setup, which is also what a file says about where it comes from."""
     axial = _axial(prescription(state), _request(state, None), state.optics.errors)
     setup = _with_fields(axial, state)
-    return replace(setup, lens=masked(setup.lens, state))
+    return replace(setup, lens=with_state_mask(setup.lens, state))
 
 
 def _with_fields(axial: "_Axial", state: State) -> Setup:
@@ -243,13 +243,13 @@ def _with_fields(axial: "_Axial", state: State) -> Setup:
     return replace(found, source=source_of_build(axial.designed, found.lens, source))
 
 
-def masked(lens: Lens, state: State) -> Lens:
+def with_state_mask(lens: Lens, state: State) -> Lens:
     """Return the lens with the mask in its stop that the state asks for; the lens's own where it asks for none."""
-    return _masked(lens, tuple(state.optics.mask.items())) if state.optics.mask else lens
+    return _with_mask(lens, tuple(state.optics.mask.items())) if state.optics.mask else lens
 
 
 @lru_cache(maxsize=16)
-def _masked(lens: Lens, mask: tuple[tuple[str, float], ...]) -> Lens:
+def _with_mask(lens: Lens, mask: tuple[tuple[str, float], ...]) -> Lens:
     return with_mask(lens, mask_of(lens, Camera(**dict(mask))))  # type: ignore[arg-type]  # each of its field's own type
 
 
@@ -269,7 +269,7 @@ def _axial(prescription: Lens, request: Request, errors: BuildErrors) -> _Axial:
     setup = set_up(prescription, request)
     designed = setup.lens
     if errors:
-        setup = _built(setup, errors)
+        setup = _with_errors(setup, errors)
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     return _Axial(
         setup=setup,
@@ -280,7 +280,7 @@ def _axial(prescription: Lens, request: Request, errors: BuildErrors) -> _Axial:
     )
 
 
-def _built(setup: Setup, errors: BuildErrors) -> Setup:
+def _with_errors(setup: Setup, errors: BuildErrors) -> Setup:
     """Return a setup with errors in its lens, whose sensor and rings stay where a lens without errors has them."""
     lens = with_errors(setup.lens, errors)
     stop = find_stop(lens, setup.source.depth_mm, setup.source.wavelength_um)
@@ -344,13 +344,13 @@ def _defaults(state: State, lens: Lens) -> State:
     focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
     depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
     wavelength = lens.reference_wavelength_um * NM_PER_UM
-    return changed(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
+    return change(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
 
 
 def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
     """Return the state moved to another lens: its defaults for the source, the person's choices for the rest."""
     fresh = default_state(name, lens_text)
-    return changed(
+    return change(
         state,
         lens=name,
         lens_text=lens_text,

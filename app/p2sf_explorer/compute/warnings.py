@@ -42,9 +42,9 @@ def warnings(
         _by_hand(setup),
         unless_symmetric(setup.lens, OF_THE_ALIGNED) if pupil is None and not setup.altered else None,
         _image_at_infinity(setup),
-        _blurred(setup) if geometric else None,
-        _lost(sum(ray.lost for ray in rays)),
-        _crossed(setup.lens, rays),
+        _blur_warning(setup) if geometric else None,
+        _loss_warning(sum(ray.lost for ray in rays)),
+        _crossing_warning(setup.lens, rays),
         None if pupil else _defocus(setup),
         None if pupil else _paraxial(setup),
         _not_paraxial(setup, pupil) if pupil else None,
@@ -85,7 +85,7 @@ def _image_at_infinity(setup: ParaxialSetup) -> Message | None:
     return Message("The object lies in the front focal plane, so its image is at infinity; move the source.")
 
 
-def _blurred(setup: ParaxialSetup) -> Message:
+def _blur_warning(setup: ParaxialSetup) -> Message:
     return Message(
         "The blur is so large that the picture is ray density, no diffraction; {remedy}.", remedy=remedy(setup)
     )
@@ -98,7 +98,7 @@ def remedy(setup: ParaxialSetup) -> Message:
     return NEARER if setup.source.field_slope else SMALLER
 
 
-def _lost(count: int) -> Message | None:
+def _loss_warning(count: int) -> Message | None:
     if not count:
         return None
     if count == 1:
@@ -113,7 +113,7 @@ def _lost(count: int) -> Message | None:
     )
 
 
-def _crossed(lens: Lens, rays: tuple[RayPath, ...]) -> Message | None:
+def _crossing_warning(lens: Lens, rays: tuple[RayPath, ...]) -> Message | None:
     met = [ray.z[1 : len(lens.surfaces) + 1] for ray in rays]
     whole = [z for z in met if len(z) == len(lens.surfaces)]
     together = [np.stack(whole, axis=-1)] if whole else []

@@ -10,7 +10,7 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.files.embedded_state import foreign, state_inside
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.state_files import SCHEMA, read_state
 
 SNAPSHOTS = "*.png *.npz *.tiff *.fits *.csv"
@@ -34,7 +34,7 @@ class Refusal:
     substituted: Import | None
 
 
-def opened(state: State, path: str) -> State:
+def open_file(state: State, path: str) -> State:
     """Return the state after opening a file; its content decides what it is. A foreign lens comes with its report.
 
     Raises P2SFError where the file is neither a state nor a lens.
@@ -49,7 +49,7 @@ def opened(state: State, path: str) -> State:
     if reason:
         raise LensFileError(reason, path)
     fresh = with_lens(state, path)
-    return fresh if import_of(path).report.format == OWN_FORMAT else changed(fresh, tab=REPORT_TAB)
+    return fresh if import_of(path).report.format == OWN_FORMAT else change(fresh, tab=REPORT_TAB)
 
 
 def is_state(path: str) -> bool:

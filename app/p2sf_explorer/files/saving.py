@@ -7,9 +7,9 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from p2sf.errors import P2SFError
 from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
-from p2sf_explorer.compute.setup import built
+from p2sf_explorer.compute.setup import built_lens
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.store.store import Store
 
 KINDS = "P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)"
@@ -22,12 +22,12 @@ def save_lens(store: Store, path: str) -> bool:
     file; the other formats may not.
     """
     try:
-        write_lens(built(store.state), path)
+        write_lens(built_lens(store.state), path)
     except P2SFError as error:
         store.refused.emit(error)
         return False
     if Path(path).suffix.lower() == ".toml":
-        store.replace(changed(store.state, lens=str(Path(path).resolve()), lens_text=None, errors=()))
+        store.replace(change(store.state, lens=str(Path(path).resolve()), lens_text=None, errors=()))
     store.said.emit(Message("Saved {name}", name=Path(path).name))
     return True
 

@@ -30,9 +30,9 @@ class SessionKeeper(QObject):
     ) -> None:
         super().__init__(window)
         self._window, self._store, self._open_windows = window, store, open_windows
-        window.restoreGeometry(unpacked(geometry.get("window", "")))
+        window.restoreGeometry(unpack(geometry.get("window", "")))
         for key, own in open_windows().items():
-            own.restoreGeometry(unpacked(geometry.get(OWN + key, "")))
+            own.restoreGeometry(unpack(geometry.get(OWN + key, "")))
         self._waiting: Session | None = None
         self._closed = False
         self._changed, self._writing = Condition(), Lock()
@@ -62,7 +62,7 @@ class SessionKeeper(QObject):
     def _session(self) -> Session:
         places = {"window": self._window.saveGeometry()}
         places |= {OWN + key: own.saveGeometry() for key, own in self._open_windows().items()}
-        return self._store.state, {name: packed(place) for name, place in places.items()}
+        return self._store.state, {name: pack(place) for name, place in places.items()}
 
     def _on_change(self) -> None:
         with self._changed:
@@ -107,11 +107,11 @@ class RunMark:
         self._lock.unlock()
 
 
-def packed(place: QByteArray) -> str:
+def pack(place: QByteArray) -> str:
     """Return Qt's bytes as text."""
     return place.toBase64().toStdString()
 
 
-def unpacked(text: str) -> QByteArray:
-    """Return the bytes of `packed`; for any other text, bytes that Qt ignores."""
+def unpack(text: str) -> QByteArray:
+    """Return the bytes of `pack`; for any other text, bytes that Qt ignores."""
     return QByteArray.fromBase64(text.encode("ascii", "ignore"))

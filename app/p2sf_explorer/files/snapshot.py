@@ -11,12 +11,12 @@ from p2sf.files.writing import write_beside
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe, versions
 from p2sf.psf.methods import psf_of
-from p2sf.psf.pixel_integrals import critical_pixel_um, fine_side, integrated, samples_across
+from p2sf.psf.pixel_integrals import critical_pixel_um, fine_side, integrate, samples_across
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import request_setup
 from p2sf_explorer.files.embedded_state import with_state
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.state_files import state_to_json
 
 PathLike = str | os.PathLike[str]
@@ -67,7 +67,7 @@ def light_of(live: Live) -> Psf:
     across = samples_across(pixels, psf.pixel_um, finest)
     if across == 1 or fine_side(pixels, across) > live.finest:
         return psf
-    light = integrated(
+    light = integrate(
         lambda count, pitch: psf_of(replace(request, window=(count, pitch))), pixels, psf.pixel_um, finest
     )
     return replace(light, azimuth_deg=psf.azimuth_deg)
@@ -101,4 +101,4 @@ def _entries(state: State) -> str:
 
 def _portable(state: State) -> State:
     path = Path(state.optics.lens)
-    return changed(state, lens=str(path.resolve())) if path.is_file() else state
+    return change(state, lens=str(path.resolve())) if path.is_file() else state

@@ -58,7 +58,7 @@ def page(name: str) -> str:
     return (FOLDER / f"{name}.md").read_text(encoding="utf-8")
 
 
-def shown(name: str) -> str:
+def window_page(name: str) -> str:
     """Return a page for the window: without marks for those who run its code, and without pictures of the window.
 
     Such pictures are made for the site, when it is built; in the window the thing itself is there to be seen.
@@ -117,7 +117,7 @@ def with_pictures(text: str, link: str = "formula:") -> str:
 
 
 @lru_cache(maxsize=512)
-def rendered(formula: str, size_px: float) -> Formula:
+def render_formula(formula: str, size_px: float) -> Formula:
     """Return a formula by matplotlib's mathtext at a font size in pixels; ValueError for one it does not know."""
     from matplotlib.font_manager import FontProperties
     from matplotlib.mathtext import MathTextParser

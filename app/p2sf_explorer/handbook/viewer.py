@@ -27,8 +27,8 @@ from p2sf_explorer.handbook.pages import (
     headings,
     page,
     pictures,
-    rendered,
-    shown,
+    render_formula,
+    window_page,
     with_pictures,
 )
 from p2sf_explorer.i18n.tr import tr
@@ -113,7 +113,7 @@ class Handbook(QDialog):
 
     def _document(self, name: str) -> QTextDocument:
         """Return a page as Qt lays it out; its formulas are pictures in the text's colour."""
-        document, source, ratio = QTextDocument(self.text), shown(name), self.devicePixelRatioF()
+        document, source, ratio = QTextDocument(self.text), window_page(name), self.devicePixelRatioF()
         scale = self._theme.scale
         document.setDefaultStyleSheet(BODY.format(line=self._theme.line, accent=self._theme.accent))
         font = self.text.font()
@@ -122,10 +122,12 @@ class Handbook(QDialog):
         document.setDocumentMargin(18)
         document.setMarkdown(with_pictures(source))  # which forgets the pictures known before
         for number, formula in enumerate(formulas(source)):
-            picture = painted(rendered(formula, FORMULA_PX * scale * ratio), self._theme.text, ratio, scale)
+            picture = paint_formula(render_formula(formula, FORMULA_PX * scale * ratio), self._theme.text, ratio, scale)
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"formula:{number}"), picture)
         for picture_file in pictures(source):
-            picture = fitted(QImage(str(FOLDER / "pictures" / picture_file)), round(PICTURE_PX * scale * ratio), ratio)
+            picture = fit_width(
+                QImage(str(FOLDER / "pictures" / picture_file)), round(PICTURE_PX * scale * ratio), ratio
+            )
             document.addResource(QTextDocument.ResourceType.ImageResource, QUrl(f"pictures/{picture_file}"), picture)
         lay_out(document)
         rule_tables(document, self._theme)
@@ -155,7 +157,7 @@ def _branch(name: str, title: str) -> QTreeWidgetItem:
     return top
 
 
-def painted(formula: Formula, colour: str, ratio: float, scale: float = 1.0) -> QImage:
+def paint_formula(formula: Formula, colour: str, ratio: float, scale: float = 1.0) -> QImage:
     """Return a formula as a picture in one colour, as deep below the line as letters are, or deeper if it is."""
     rows, columns = formula.opacity.shape
     below = max(0, round(DESCENT * TEXT_PX * scale * ratio - formula.depth))  # so that picture and line end together
@@ -170,7 +172,7 @@ def painted(formula: Formula, colour: str, ratio: float, scale: float = 1.0) -> 
     return picture
 
 
-def fitted(picture: QImage, width: int, ratio: float) -> QImage:
+def fit_width(picture: QImage, width: int, ratio: float) -> QImage:
     """Return a picture no wider than so many pixels of the screen."""
     made = picture.scaledToWidth(min(width, picture.width()), Qt.TransformationMode.SmoothTransformation)
     made.setDevicePixelRatio(ratio)

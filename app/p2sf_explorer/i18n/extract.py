@@ -82,10 +82,10 @@ class Function:
 def missing(language: str) -> tuple[str, ...]:
     """Return the texts that a language has no translation for."""
     known = texts(language)
-    return tuple(sorted(text for text in needed() if text not in known))
+    return tuple(sorted(text for text in required_texts() if text not in known))
 
 
-def unneeded(language: str) -> tuple[str, ...]:
+def obsolete_texts(language: str) -> tuple[str, ...]:
     """Return the texts of a language file that are no longer written anywhere in the sources."""
     written = {
         node.value
@@ -97,7 +97,7 @@ def unneeded(language: str) -> tuple[str, ...]:
 
 
 @cache
-def needed() -> frozenset[str]:
+def required_texts() -> frozenset[str]:
     """Return all texts that need a translation."""
     return frozenset(text for text in _Sources().texts() | _lens_texts() if LETTERS.search(FIELD.sub("", text)))
 
@@ -192,12 +192,12 @@ class _Sources:
     def _shown_arguments(self, module: Module, scope: ast.AST) -> Iterator[tuple[ast.expr, int | None]]:
         """Yield the arguments of a scope's calls that are shown, each with the item that is."""
         for call in _calls(scope):
-            for function in self._called(call, module):
+            for function in self._functions_of(call, module):
                 if shown := self.shown.get(function):
                     named = _arguments(call, function, module, scope)
                     yield from ((named[name], item) for name, item in shown if name in named)
 
-    def _called(self, call: ast.Call, module: Module) -> list[Function]:
+    def _functions_of(self, call: ast.Call, module: Module) -> list[Function]:
         """Return the functions that a call may mean: those of the method's name where the object is not known."""
         if isinstance(call.func, ast.Name):
             where, name = module.imports.get(call.func.id, (module.name, call.func.id))
@@ -316,7 +316,7 @@ def _of_name(name: str, module: Module, scope: ast.AST) -> list[ast.expr]:
             for source, position in looped
             for value in _items(_values(source, module, scope), position, module, scope)
         ]
-    local = [] if isinstance(scope, ast.Module) else _assigned(scope).get(name, [])
+    local = [] if isinstance(scope, ast.Module) else _assignments(scope).get(name, [])
     if local:
         return [value for node in local for value in _values(node, module, scope)]
     where, original = module.imports.get(name, (module.name, name))
@@ -325,7 +325,7 @@ def _of_name(name: str, module: Module, scope: ast.AST) -> list[ast.expr]:
 
 
 @cache
-def _assigned(scope: ast.AST) -> dict[str, list[ast.expr]]:
+def _assignments(scope: ast.AST) -> dict[str, list[ast.expr]]:
     found: dict[str, list[ast.expr]] = {}
     for node in _own(scope):
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
@@ -396,7 +396,7 @@ def _elements(node: ast.expr, at: object) -> list[ast.expr]:
 def begin(language: str) -> Path:
     """Write the file of a new language with every text still to be translated, and return its path."""
     path = FOLDER / f"{language}.ts"
-    entries = (f"<message><source>{escape(text)}</source>{UNFINISHED}</message>\n" for text in sorted(needed()))
+    entries = (f"<message><source>{escape(text)}</source>{UNFINISHED}</message>\n" for text in sorted(required_texts()))
     write_text(BEGINNING.format(language=language) + "".join(entries) + END, path)
     return path
 
@@ -410,7 +410,7 @@ def main(arguments: list[str]) -> int:
     if not (FOLDER / f"{language}.ts").is_file():
         print(f"{begin(language)} is new; translate it with Qt Linguist or an editor")
     lacking = missing(language)
-    for title, listed in (("missing", lacking), ("no longer needed", unneeded(language))):
+    for title, listed in (("missing", lacking), ("no longer needed", obsolete_texts(language))):
         print(f"{len(listed)} texts {title} in {language}")
         for text in listed:
             print(f"  {text}")

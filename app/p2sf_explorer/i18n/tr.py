@@ -36,14 +36,14 @@ def cached_per_language(size: int) -> Callable[[Callable[..., T]], Callable[...,
 
 def tr(text: str, **values: object) -> str:
     """Return a text in the present language, ``values`` put into its braces; English where there is no other."""
-    said = _translated(text)
+    said = _translate(text)
     return local(said.format(**values)) if values else said
 
 
 @cached_per_language(1)
 def decimal_separator() -> str:
     """Return what stands before the decimals of a number in the present language."""
-    found = _translated("decimal separator")
+    found = _translate("decimal separator")
     return "." if found == "decimal separator" else found
 
 
@@ -58,7 +58,7 @@ def local(text: str) -> str:
 
 
 @cached_per_language(4096)
-def _translated(text: str) -> str:
+def _translate(text: str) -> str:
     core = sys.modules.get("PySide6.QtCore")
     if not core or not text:
         return text

@@ -10,7 +10,7 @@ from p2sf.tolerance.errors_of_build import Kind
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.build_errors import BuildError
 from p2sf_explorer.state.limits import ADDED, PLAIN
-from p2sf_explorer.state.state import ENTRIES, State, changed, entry
+from p2sf_explorer.state.state import ENTRIES, State, change, entry
 from p2sf_explorer.state.state_files import present_name
 from p2sf_explorer.state.terms import TERMS
 
@@ -20,7 +20,7 @@ TRUTH = {"yes": True, "no": False}
 Changes = tuple[tuple[str, Any], ...]
 
 
-def applied(state: State, changes: Changes) -> State:
+def apply_changes(state: State, changes: Changes) -> State:
     """Return the state with (name, value) changes made; another lens brings its own defaults."""
     for name, value in changes:
         if name == "lens":
@@ -28,9 +28,9 @@ def applied(state: State, changes: Changes) -> State:
         elif name.startswith(ADDED) and name != "added_waves":
             waves = list(state.what_if.added_waves)
             waves[TERMS.index(name.removeprefix(ADDED))] = value
-            state = changed(state, added_waves=tuple(waves))
+            state = change(state, added_waves=tuple(waves))
         else:
-            state = changed(state, **{name: value})
+            state = change(state, **{name: value})
     return state
 
 
@@ -42,7 +42,7 @@ def read_changes(text: str, number: int, where: str) -> Changes:
         name = present_name(name)  # lessons of version 0.1 go on
         try:
             value = beside(word.strip(), where) if name == "lens" else _value(name, word.strip())
-            applied(State(), ((name, value),))
+            apply_changes(State(), ((name, value),))
         except P2SFError as error:
             raise fault(where, number, error.message) from None
         made.append((name, value))

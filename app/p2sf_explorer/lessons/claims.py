@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.lessons.changes import Changes, applied
+from p2sf_explorer.lessons.changes import Changes, apply_changes
 from p2sf_explorer.state.state import State
 
 NUMBER = r"[-−+]?\d[\d.]*(?:e[-+]?\d+)?"
@@ -62,15 +62,15 @@ def _number(text: str) -> float:
         raise P2SFError('"{text}" in a claim is not a number; write one such as 0.25 or 1e-3', text=text) from None
 
 
-def measured(claim: Claim, state: State) -> float:
+def measure_claim(claim: Claim, state: State) -> float:
     """Return the value of a claim's left side at a state; P2SFError where it cannot be measured."""
     from p2sf_explorer.lessons.measures import MEASURES
 
     measure = MEASURES[claim.measure]
-    value = measure(applied(state, claim.first))
+    value = measure(apply_changes(state, claim.first))
     if not claim.how:
         return value
-    other = measure(applied(state, claim.second))
+    other = measure(apply_changes(state, claim.second))
     return value / other if claim.how == "/" else value - other
 
 

@@ -16,7 +16,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
 from p2sf_explorer.lessons.offer import Offer
-from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
@@ -87,7 +87,7 @@ class LessonController(QObject):
                 QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
         return self._lessons
 
-    def arranged(self) -> Workspace | None:
+    def workspace(self) -> Workspace | None:
         """Return how the step under way arranges the window, None without one."""
         place = self.store.state.lesson
         lesson = self.lessons().get(place.name) if place.name else None
@@ -123,10 +123,10 @@ class LessonController(QObject):
 
     def leave(self) -> None:
         """End the lesson and go back to the state before it, which is among the steps of undo."""
-        here = changed(self.store.state, lesson_name="", lesson_step=0, lesson_told=False)
+        here = change(self.store.state, lesson_name="", lesson_step=0, lesson_told=False)
         kept = {name: entry(here, name) for name in PERSONAL}
         before = self.store.latest(lambda state: not state.lesson.name)
-        self.store.replace(changed(before, **kept) if before else here)
+        self.store.replace(change(before, **kept) if before else here)
         if not before:
             self.store.said.emit(NOTHING_BEFORE)
 

@@ -13,10 +13,10 @@ from pathlib import Path
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
-from p2sf_explorer.lessons.changes import Changes, LessonError, applied, beside, fault, read_changes
+from p2sf_explorer.lessons.changes import Changes, LessonError, apply_changes, beside, fault, read_changes
 from p2sf_explorer.lessons.claims import Claim, parse_claim
 from p2sf_explorer.state.limits import SLIDERS
-from p2sf_explorer.state.state import State, changed, entry
+from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, with_workspace
 
 FOLDER = Path(__file__).parent
@@ -66,12 +66,12 @@ class Lesson:
 
     def state(self, number: int, like: State = FIRST) -> State:
         """Return the state at a step (from 0), with the PERSONAL entries of ``like``; P2SFError where there is none."""
-        made = changed(default_state(self.lens), **{name: entry(like, name) for name in PERSONAL})
+        made = change(default_state(self.lens), **{name: entry(like, name) for name in PERSONAL})
         made = with_workspace(made, TEACH, WORKSPACES[TEACH])
         for changes in (self.changes, *(step.changes for step in self.steps[: number + 1])):
             shown = {"show_rail": True} if {"rail", "tab"} & {name for name, _ in changes} else {}
-            made = applied(changed(made, **shown), changes)
-        return changed(made, lesson_name=self.name, lesson_step=number)
+            made = apply_changes(change(made, **shown), changes)
+        return change(made, lesson_name=self.name, lesson_step=number)
 
 
 @lru_cache(maxsize=1)

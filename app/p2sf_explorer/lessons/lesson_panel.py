@@ -30,13 +30,13 @@ class LessonPanel(QFrame):
         self.choice = chooser(numbered, "Choose a lesson", self)
         self.choice.setSizeAdjustPolicy(self.choice.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.exit = tool("Exit", "End the lesson and restore everything as it was before (F3)")
-        self.title, self.count = wrapped("title"), wrapped("muted")
+        self.title, self.count = wrapped_label("title"), wrapped_label("muted")
         self.about, self.text, self.attempt = (
-            wrapped("muted"),
-            wrapped("", Qt.TextFormat.RichText),
-            wrapped("task", Qt.TextFormat.RichText),
+            wrapped_label("muted"),
+            wrapped_label("", Qt.TextFormat.RichText),
+            wrapped_label("task", Qt.TextFormat.RichText),
         )
-        self.question, self.answer = wrapped("sentence"), wrapped("task", Qt.TextFormat.RichText)
+        self.question, self.answer = wrapped_label("sentence"), wrapped_label("task", Qt.TextFormat.RichText)
         self.reveal = QPushButton(tr("Show the answer"))
         self.reveal.setToolTip(tr("Show the answer (Alt+Down)"))
         self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
@@ -178,7 +178,7 @@ def rich(text: str) -> str:
     )
 
 
-def wrapped(name: str, form: Qt.TextFormat = Qt.TextFormat.PlainText) -> QLabel:
+def wrapped_label(name: str, form: Qt.TextFormat = Qt.TextFormat.PlainText) -> QLabel:
     """Return a label of several lines whose text a mouse can select."""
     made = QLabel()
     made.setObjectName(name)

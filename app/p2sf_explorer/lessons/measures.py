@@ -25,7 +25,7 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import measure_request, measured_parts
 from p2sf_explorer.compute.setup import ParaxialSetup, paraxial_setup
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 if TYPE_CHECKING:
     from p2sf_explorer.compute.views.image import ImageResult
@@ -164,7 +164,7 @@ def sharpening_db(state: State) -> float:
 def _coarse(state: State) -> "ImageResult":
     from p2sf_explorer.compute.views.image import coarse, question
 
-    return coarse(question(_live(changed(state, method="seidel"))))
+    return coarse(question(_live(change(state, method="seidel"))))
 
 
 def _spread(axis: str) -> Measure:

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QToolButton
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.state.panels import PanelEntry, resolved
+from p2sf_explorer.state.panels import PanelEntry, resolve
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
@@ -64,6 +64,6 @@ class FilmedPanel(Panel, Protocol):
 def build(entry: PanelEntry, store: Store) -> Panel:
     """Return a new panel of a registry entry, whose store does not put values of B into A."""
     own = PanelStore(store)
-    made: Panel = resolved(f"panels.{entry.panel}")(own)
+    made: Panel = resolve(f"panels.{entry.panel}")(own)
     own.setParent(made.widget)
     return made

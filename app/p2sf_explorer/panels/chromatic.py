@@ -7,7 +7,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import C_NM, D_NM, F_NM
 from p2sf_explorer.compute.views.chromatic import Chromatic
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart, legend, reach
@@ -50,7 +50,7 @@ class ChromaticPanel:
 
     def _say(self, view: Chromatic) -> None:
         paraxial = view.shift_um[0]
-        spread = signed(float(paraxial.max() - paraxial.min()), 1)
+        spread = with_sign(float(paraxial.max() - paraxial.min()), 1)
         shift = tr("{shift} µm over the spectrum", shift=spread)
         depth = tr("±{half} µm depth of focus", half=f"{view.depth_of_focus_um:.3g}")
         self.widget.set_readout(f"{legend(LOOKS, self._theme)} &nbsp; {shift} · {depth}")

@@ -14,7 +14,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
@@ -131,7 +131,7 @@ class ColourPanel:
         self.spectrum.show_colours(found)
         spread = float(np.ptp(found.psf.shift_um))
         count_said = tr("{count} wavelengths", count=len(found.psf.wavelengths_um))
-        lateral = tr("lateral colour {shift} µm", shift=signed(spread, 2))
+        lateral = tr("lateral colour {shift} µm", shift=with_sign(spread, 2))
         return f"{count_said} · {lateral} · {1e3 * found.psf.seconds:.0f} ms"
 
     def _choose(self) -> None:

@@ -7,7 +7,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.field import FieldView
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import ChartsCard, NotedChart, legend, reach
 
@@ -103,7 +103,7 @@ def edge(view: FieldView, difference: bool = False) -> str:
     """Return the distortion at the edge of the field in words, or by how much it differs."""
     known = np.flatnonzero(np.isfinite(view.heights.distortion))[-1]
     share = 100 * float(view.heights.distortion[known])
-    values = {"part": f"{signed(share, 2)} %", "field": f"{view.field_deg[known]:.3g}°"}
+    values = {"part": f"{with_sign(share, 2)} %", "field": f"{view.field_deg[known]:.3g}°"}
     if difference:
         return tr("A − B {part} at {field}", **values)
     return tr("barrel {part} at {field}", **values) if share < 0 else tr("pincushion {part} at {field}", **values)

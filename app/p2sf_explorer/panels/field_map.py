@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 from p2sf.conventions import degrees_from_slope
 from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.brightness import stretched
+from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.field_map import SHAPE, FieldMapRequest, answer, place_of, places
 from p2sf_explorer.i18n.tr import tr
@@ -181,7 +181,7 @@ class FieldMapPanel:
         self.chart.places = np.array([where[place] for place in kept]).reshape(-1, 2)
         self.chart.asked = asked
         self.chart.fields_deg = np.array([asked.field_of(where[place]) for place in kept]).reshape(-1, 2)
-        shown = (tile(stretched(found[place], self._scale), *map(float, where[place])) for place in kept)
+        shown = (tile(stretch(found[place], self._scale), *map(float, where[place])) for place in kept)
         self.chart.show_tiles(shown, spacing, SHAPE[0])
         heads = (
             tr("at ({x}, {y}) of the corner: share of the peak", x=f"{x:.3g}", y=f"{y:.3g}")

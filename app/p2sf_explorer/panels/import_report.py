@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QPushButton, QTextBrowser
 from p2sf.errors import P2SFError
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.import_report import REFUSED, Report, refused
+from p2sf_explorer.compute.views.import_report import REFUSED, Report, describe_refusal
 from p2sf_explorer.files.opening import Refusal, with_substitutes
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
@@ -49,7 +49,7 @@ class ImportReportPanel:
         """Show why a file was not opened; the present lens stays."""
         self._refusal = refusal
         self._refused_beside = self._store.state.optics.lens, self._store.state.optics.lens_text
-        self._write(refused(Path(refusal.path).name, refusal.path, refusal.message))
+        self._write(describe_refusal(Path(refusal.path).name, refusal.path, refusal.message))
         self.accept.setVisible(bool(refusal.substituted))
 
     def restyle(self, theme: Tokens) -> None:

@@ -35,15 +35,15 @@ from p2sf_explorer.compute.views.measured import (
     PointPictures,
     answer,
     as_free_pupil,
-    dated,
     encoding_words,
     has_lens_as_built,
     into_image,
     own_six,
     point_lines,
+    point_pictures,
     point_rows,
-    shown,
     whole_rows,
+    with_file_date,
 )
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
@@ -52,7 +52,7 @@ from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.drop import MeasuredDrop
 from p2sf_explorer.widgets.plan_note import small_button
-from p2sf_explorer.widgets.readout import FactTable, scrolled
+from p2sf_explorer.widgets.readout import FactTable, in_scroll_area
 from p2sf_explorer.widgets.tiles import TilesChart, tile
 from p2sf_explorer.widgets.value_edit import NumberBox
 
@@ -164,7 +164,7 @@ class MeasuredPanel:
         self._measure()
 
     def _measure(self) -> None:
-        asked = dated(self._asked) if self._asked else None
+        asked = with_file_date(self._asked) if self._asked else None
         if asked is None or asked == self._request:
             return
         if self._request is None or asked.picture != self._request.picture:
@@ -229,7 +229,7 @@ class MeasuredPanel:
         self.table.show_rows((*point_rows(found, number, own_six(found, number)), *whole_rows(found)))
         fit = found.fits[number]
         self.take.setEnabled(fit is not None and fit.reliable)
-        parts = shown(found, number)
+        parts = point_pictures(found, number)
         if parts is None:
             self.chart.show_tiles((), 1.0)
             return
@@ -335,7 +335,7 @@ class MeasuredBody(QWidget):
         below = QHBoxLayout()
         below.setSpacing(12)
         below.addWidget(points, 1)
-        below.addWidget(scrolled(table, at_foot=False), 1)
+        below.addWidget(in_scroll_area(table, at_foot=False), 1)
         self._whole.addWidget(chart, 2)
         self._whole.addLayout(below, 3)
 

@@ -14,8 +14,8 @@ from p2sf_explorer.panels.lens_table.sliders import LensSlider
 from p2sf_explorer.state.build_errors import BuildErrors, amount_of, with_error, without_piece
 from p2sf_explorer.state.built import Adjustment, Piece
 from p2sf_explorer.state.pinning import with_links
-from p2sf_explorer.state.scales import Linear, signed, significant
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.scales import Linear, significant, with_sign
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, Chooser
 
@@ -104,7 +104,7 @@ class ErrorRow(QWidget):
     def _with(self, state: State, amount: float) -> State:
         grain = self.adjustment.reach / GRAIN
         held = round(round(amount / grain) * grain, 9) if self._store.moving else amount
-        return changed(state, **with_links(state, {"errors": self._errors(state, held)}))
+        return change(state, **with_links(state, {"errors": self._errors(state, held)}))
 
     def show_adjustment(self, one: Adjustment, amount: float, lens: Lens) -> None:
         """Follow the lens."""
@@ -182,7 +182,9 @@ class MisalignPanel:
 
     def _reset_piece(self) -> None:
         if self._shown:
-            self._store.update(errors=without_piece(self._store.state.optics.errors, self._chosen(self._shown).span))
+            self._store.update(
+                errors=without_piece(self._store.state.optics.errors, self._selected_piece(self._shown).span)
+            )
 
     def _reset_all(self) -> None:
         self._store.update(errors=())
@@ -191,7 +193,7 @@ class MisalignPanel:
         if self._shown:
             self._show(self._shown)
 
-    def _chosen(self, shown: Misalignment) -> Piece:
+    def _selected_piece(self, shown: Misalignment) -> Piece:
         """Return the piece that is selected; of another selection the piece that it lies in, else the first."""
         found = self._store.selection or self.piece.currentData() or (0, 0)
         known = [piece for piece in shown.pieces if piece.span == tuple(found)]
@@ -213,7 +215,7 @@ class MisalignPanel:
             self.piece.clear()
             for each in shown.pieces:
                 self.piece.addItem(said(each.name), each.span)
-        piece = self._chosen(shown)
+        piece = self._selected_piece(shown)
         self.piece.setCurrentIndex(shown.pieces.index(piece))
         wanted = of_piece(shown.lens, piece)
         self._place(wanted)
@@ -234,7 +236,7 @@ class MisalignPanel:
         words = tr("nothing is off") if not count else tr("{count} numbers are off", count=count)
         if count == 1:
             kind, first, _, amount = shown.errors[0]
-            value = f"{signed(amount, DIGITS.get(kind, 3))}{_unit(kind)}"
+            value = f"{with_sign(amount, DIGITS.get(kind, 3))}{_unit(kind)}"
             words = f"{tr(WORDS[kind], surface=first)} {value}"
         return f"{words} · {tr('on top of the tilts of its file')}" if shown.file_tilted else words
 

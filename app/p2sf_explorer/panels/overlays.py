@@ -66,10 +66,10 @@ class OverlaysPanel:
         self._live: Live | None = None
         self._theme = LIGHT
         self.widget.bind(store, curves_of=self.of)
-        self.frequencies.listed.connect(self._listed)
+        self.frequencies.listed.connect(self._list_values)
         self.frequencies.refused.connect(store.refused.emit)
 
-    def _listed(self, values: tuple[float, ...]) -> None:
+    def _list_values(self, values: tuple[float, ...]) -> None:
         self._store.update(curves_frequencies_per_mm=values)
 
     def show(self, live: Live) -> None:

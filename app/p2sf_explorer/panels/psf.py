@@ -71,7 +71,7 @@ class PsfPanel:
 
     def _refine(self, live: Live) -> None:
         """Paint the samples that are there, and ask for finer ones where the panel has more pixels."""
-        wanted = self._wanted(live)
+        wanted = self._finer_request(live)
         known = self._finer is not None and self._finer[0] == wanted
         self._paint(live, self._finer[1] if self._finer and known else live.psf)
         if wanted is None:
@@ -80,14 +80,14 @@ class PsfPanel:
         elif not known:
             self.asking.ask(wanted)
 
-    def _wanted(self, live: Live) -> PsfRequest | None:
+    def _finer_request(self, live: Live) -> PsfRequest | None:
         """Return the sum with a sample for each pixel of the panel; None where the picture is as fine as that."""
         found = None if live.difference else live.views.get("psf")
         return finer(found, self.map.device_pixels) if isinstance(found, SettledSum) else None
 
     def _take(self, request: PsfRequest, psf: Psf) -> str:
         """Show a finer picture if it is that of the present answer."""
-        if self._live and request == self._wanted(self._live):
+        if self._live and request == self._finer_request(self._live):
             self._finer = request, psf
             self._paint(self._live, psf)
         return ""

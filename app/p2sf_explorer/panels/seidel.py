@@ -12,7 +12,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.seidel import PerSurface
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 
@@ -81,7 +81,7 @@ class SeidelPanel:
             marks = (f'<span style="color:{HUES[t]}">■</span> {NAMES[t]}' for t in TERMS)
             self.widget.set_readout(" &nbsp; ".join((*marks, colours(view))))
         else:
-            whole = tr("sum {sum} λ", sum=signed(float(view.waves[chosen].sum()), 3))
+            whole = tr("sum {sum} λ", sum=with_sign(float(view.waves[chosen].sum()), 3))
             self.widget.set_readout(f"{whole} · {colours(view)}" if chosen in ("c1", "c2") else whole)
 
     def restyle(self, theme: Tokens) -> None:

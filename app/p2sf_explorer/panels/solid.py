@@ -97,12 +97,12 @@ class SolidPanel:
     def _probe(self) -> None:
         self.view.say(tr(PREPARING))
         self.process = QProcess(self.widget)
-        self.process.finished.connect(self._probed)
-        self.process.errorOccurred.connect(lambda _: self._probed(probe.NO_CONTEXT))
+        self.process.finished.connect(self._on_probed)
+        self.process.errorOccurred.connect(lambda _: self._on_probed(probe.NO_CONTEXT))
         program, argument = probe.command()
         self.process.start(program, [argument])
 
-    def _probed(self, code: int, status: QProcess.ExitStatus = QProcess.ExitStatus.NormalExit) -> None:
+    def _on_probed(self, code: int, status: QProcess.ExitStatus = QProcess.ExitStatus.NormalExit) -> None:
         crashed = status == QProcess.ExitStatus.CrashExit
         sentence = probe.sentence(probe.NO_CONTEXT if crashed else code)
         if sentence:

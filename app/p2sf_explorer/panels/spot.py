@@ -11,7 +11,7 @@ from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.reading import Reading, closest, point_reading
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.rays import figures, landed
+from p2sf_explorer.compute.views.rays import figures, landing_points
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.terms import FILLED
 from p2sf_explorer.store.store import Store
@@ -78,7 +78,7 @@ class SpotPanel:
     def show(self, live: Live) -> None:
         """Paint the points."""
         spot: Spot = live.views["spot"]
-        points = landed(spot)
+        points = landing_points(spot)
         self.chart.show_points(points)
         turn = np.linspace(0, 2 * np.pi, 73)
         self.chart.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))

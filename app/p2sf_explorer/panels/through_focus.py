@@ -9,12 +9,12 @@ from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 from p2sf.messages import Message
 from p2sf_explorer.charts.plots import BRIGHTNESS
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.brightness import stretched
+from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.compute.views.through_focus import Focused, Strip, answer
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
@@ -134,19 +134,21 @@ class ThroughFocusPanel:
         step = shifts[1] - shifts[0]
         self.chart.set_range((float(shifts[0] - 0.6 * step), float(shifts[-1] + 0.6 * step)), (0.0, 1.0))
         top = np.nanmax(np.abs(found.light)) if np.isfinite(found.light).any() else 1.0
-        light = np.sign(found.light) * stretched(np.abs(found.light) / (top or 1.0), self._scale)
+        light = np.sign(found.light) * stretch(np.abs(found.light) / (top or 1.0), self._scale)
         low, self.chart.colours = (-1.0, DIFFERENCE_MAP) if asked.less else (0.0, BRIGHTNESS)
         shown = zip(light, shifts, strict=True)
         self.chart.show_tiles((tile(values, float(at), 0.46, low) for values, at in shown), step)
-        heads = (tr("sensor shift {shift} µm: share of the perfect peak", shift=signed(float(at), 1)) for at in shifts)
+        heads = (
+            tr("sensor shift {shift} µm: share of the perfect peak", shift=with_sign(float(at), 1)) for at in shifts
+        )
         self.chart.means(zip(heads, found.light, strict=True), asked.window[1])
         names = (("S", "marginal"), ("T", "positive"), (tr("best"), "text"))
         foci = zip(names, (found.sagittal, found.tangential, found.best), strict=True)
         self.chart.show_notes((x, inf, f"▾ {name}", token, 0) for (name, token), x in foci if np.isfinite(x))
         wide = asked.window[0] * asked.window[1]
-        best = tr("best {shift} µm", shift=signed(found.best, 1))
+        best = tr("best {shift} µm", shift=with_sign(found.best, 1))
         pictures = tr("pictures {wide} µm wide", wide=f"{wide:.3g}")
-        return f"S {signed(found.sagittal, 1)} · T {signed(found.tangential, 1)} · {best} · {pictures}"
+        return f"S {with_sign(found.sagittal, 1)} · T {with_sign(found.tangential, 1)} · {best} · {pictures}"
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -10,7 +10,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.ybar import YBar, field_free
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NotedChart
@@ -81,7 +81,7 @@ class YBarPanel:
         if field_free(view):
             self.widget.set_readout(tr("the source is on the axis: no chief ray, so the diagram is a line"))
             return
-        self.widget.set_readout(f"{tr('Lagrange invariant H = {h} mm', h=signed(invariant, 4))} · {tr('stop ▪')}")
+        self.widget.set_readout(f"{tr('Lagrange invariant H = {h} mm', h=with_sign(invariant, 4))} · {tr('stop ▪')}")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

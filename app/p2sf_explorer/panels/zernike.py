@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QPainter
 from p2sf.messages import Message, Number
 from p2sf.raytrace.zernike_fit import ZernikeFit
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.reading import Reading, parted, value_of
+from p2sf_explorer.charts.reading import Reading, split_label, value_of
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.zernike import ZernikeView, csv_rows, rows
@@ -17,7 +17,7 @@ from p2sf_explorer.state.scales import significant
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser
 from p2sf_explorer.widgets.chart_card import ChartsCard
-from p2sf_explorer.widgets.readout import FactTable, scrolled
+from p2sf_explorer.widgets.readout import FactTable, in_scroll_area
 
 TIP = (
     "Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; "
@@ -36,7 +36,7 @@ class ZernikePanel:
 
     def __init__(self, store: Store):
         self.chart, self.table = TermsChart(), TermTable()
-        area = scrolled(self.table, at_foot=False)
+        area = in_scroll_area(self.table, at_foot=False)
         self.widget = ChartsCard("Zernike", TIP, (self.chart, area), (3, 2))
         self.order = chooser(CHOICES, "Which order of the terms", self.widget)
         self.widget.bind(store, zernike_order=self.order)
@@ -100,7 +100,7 @@ class TermsChart(Chart):
         waves = float(self.fit.waves[number - 1])
         waves = waves if abs(waves) > ROUND_OFF * float(np.abs(self.fit.waves).max()) else 0.0
         token = "positive" if waves >= 0 else "negative"
-        name = parted(self.labels[1])[0]
+        name = split_label(self.labels[1])[0]
         value = value_of(name, waves, self.labels[1], token, mark=(float(number), waves))
         return Reading(float(number), waves, tr("term {number}", number=number), (value,), "")
 

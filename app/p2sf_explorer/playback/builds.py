@@ -4,9 +4,9 @@ from p2sf.messages import Message, Number
 from p2sf.tolerance import of_worst_field
 from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult, errors_of, figures
 from p2sf_explorer.playback.sweep import Moment
-from p2sf_explorer.state.built import exaggerated
+from p2sf_explorer.state.built import exaggerate
 from p2sf_explorer.state.pinning import unpin
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.workspaces import Workspace, with_workspace
 
 FILMED = 40  # builds, the first ones of a draw: as random as any
@@ -30,7 +30,7 @@ def moments_of_builds(asked: ToleranceQuestion, found: ToleranceResult, count: i
     view, display = figures(found, asked.view), asked.state.display
     arranged = with_workspace(unpin(asked.state), display.workspace, ARRANGEMENT)
     larger = display.exaggerated if display.exaggerated > 1 else LARGER
-    designed = changed(arranged, exaggerated=larger, windows=(), tolerances_build=0)
+    designed = change(arranged, exaggerated=larger, windows=(), tolerances_build=0)
 
     def value(waves: float) -> Message:
         written = Number(f"{waves:.{view.places}f}")
@@ -38,13 +38,13 @@ def moments_of_builds(asked: ToleranceQuestion, found: ToleranceResult, count: i
 
     made = [Moment(designed, Message("as designed: {value}", value=value(view.nominal)))]
     for number, waves in enumerate(of_worst_field(found.builds, view.criterion)[:count].tolist()):
-        state = changed(designed, errors=errors_of(found, number), tolerances_build=number + 1)
+        state = change(designed, errors=errors_of(found, number), tolerances_build=number + 1)
         made.append(Moment(state, _caption(state, value(waves))))
     return tuple(made)
 
 
 def _caption(state: State, value: Message) -> Message:
-    _, factor = exaggerated(state.optics.errors, state.display.exaggerated)
+    _, factor = exaggerate(state.optics.errors, state.display.exaggerated)
     return Message(
         "build {number}: {value} · tilts and decentres ×{factor}, rays as they are",
         number=state.tolerances.build,

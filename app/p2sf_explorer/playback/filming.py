@@ -13,7 +13,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write_film
 from p2sf_explorer.playback.sweep import Moment, changes, sweep
 from p2sf_explorer.state.pinning import with_links
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 
@@ -44,7 +44,7 @@ class Filming(QObject):
         super().__init__(parent)
         self._store, self._show, self._busy_panels, self._pause_accuracy = store, show, busy_panels, pause_accuracy
         self._worker = LatestWins(self)
-        self._worker.finished.connect(lambda key, paths: self._end(written(paths)))
+        self._worker.finished.connect(lambda key, paths: self._end(files_message(paths)))
         self._worker.failed.connect(lambda key, error: self._end(error))
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._next)
@@ -119,7 +119,7 @@ class Filming(QObject):
         self.ended.emit(message)
 
 
-def written(paths: tuple[Path, ...]) -> Message:
+def files_message(paths: tuple[Path, ...]) -> Message:
     """Return the message on the files of a film."""
     if len(paths) == 1:
         return Message("Saved {name}", name=paths[0].name)
@@ -131,7 +131,7 @@ def moments_of_sweep(state: State) -> tuple[Moment, ...]:
     """Return the frames of the state's sweep, once, with B following where it is linked."""
     way, count = sweep(state), max(2, round(FRAMES_PER_S * state.playback.seconds))
     moved = (changes(state, way.value(number / (count - 1))) for number in range(count))
-    return tuple(Moment(changed(state, **with_links(state, each))) for each in moved)
+    return tuple(Moment(change(state, **with_links(state, each))) for each in moved)
 
 
 def picture_of(widget: QWidget, caption: str = "") -> QImage:

@@ -116,7 +116,7 @@ class PlayBar(QFrame):
         self.seconds.reset.connect(lambda: store.update(playback_seconds=4.0))
         self.player.turned.connect(lambda on: self.turn.setText("❚❚" if on else "▶"))
         self.filming.progressed.connect(lambda part: self.progress.setValue(round(100 * part)))
-        self.filming.ended.connect(self._ended)
+        self.filming.ended.connect(self._on_ended)
 
     def commands(self) -> tuple[Command, ...]:
         """Return what can be done by name or key."""
@@ -222,7 +222,7 @@ class PlayBar(QFrame):
         self.progress.setValue(0)
         self.show_state(self._store.state)
 
-    def _ended(self, message: Message | P2SFError) -> None:
+    def _on_ended(self, message: Message | P2SFError) -> None:
         self._show_filming(False)
         self._store.said.emit(message)
 

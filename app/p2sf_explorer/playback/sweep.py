@@ -11,7 +11,7 @@ from p2sf_explorer.compare.contrasts import LINK_WORDS
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges
 from p2sf_explorer.state.limits import ADDED, DRAGGED
-from p2sf_explorer.state.scales import read_number, signed
+from p2sf_explorer.state.scales import read_number, with_sign
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import NAMES, TERMS
 from p2sf_explorer.state.what_if import with_added
@@ -82,7 +82,7 @@ LAMBDAS = {"": 1.0, "λ": 1.0}
 
 def waves(value: float) -> str:
     """Return a number of waves as people write it."""
-    return f"{signed(value, 2)} λ"
+    return f"{with_sign(value, 2)} λ"
 
 
 def present(state: State) -> float:

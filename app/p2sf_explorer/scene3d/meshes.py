@@ -52,7 +52,7 @@ def elements(lens: Lens) -> tuple[Element, ...]:
     for i, surface in enumerate(lens.surfaces):
         if surface.reflects or surface.ideal:
             sides = (surface, 0.0, rims[i]), (surface, lens.directions[i] * SHELL * rims[i], rims[i])
-            found.append(Element(placed(element(*sides), lens.frames[i]), SHELL_INDEX))
+            found.append(Element(place_mesh(element(*sides), lens.frames[i]), SHELL_INDEX))
     return tuple(found)
 
 
@@ -72,15 +72,15 @@ def _between(
     thickness = lens.surfaces[at].thickness
     made = element((front[0], 0.0, front[1]), (back[0], thickness, back[1]))
     behind = lens.frames[at + 1].then(along_z(-thickness))
-    return Element(wedged(made, lens.frames[at], behind), index)
+    return Element(wedge(made, lens.frames[at], behind), index)
 
 
-def placed(mesh: Mesh, frame: Motion) -> Mesh:
+def place_mesh(mesh: Mesh, frame: Motion) -> Mesh:
     """Return a mesh given in some axes in those of the lens."""
     return Mesh(mesh.points @ frame.rotation.T + frame.origin, mesh.faces)
 
 
-def wedged(mesh: Mesh, front: Motion, back: Motion) -> Mesh:
+def wedge(mesh: Mesh, front: Motion, back: Motion) -> Mesh:
     """Return an `element`, whose points are those of its front and then those of its back, each in its own axes."""
     half = len(mesh.points) // 2
     sides = zip((mesh.points[:half], mesh.points[half:]), (front, back), strict=True)
@@ -99,7 +99,7 @@ def element(front: Side, back: Side) -> Mesh:
     # A drawn rim may reach beyond the edge where the two sides meet.
     crossed = np.flatnonzero(np.atleast_2d(z[0] >= z[1]).any(axis=0))
     kept = slice(0, max(2, crossed[0]) if crossed.size else None)
-    return revolved(radii[kept], *z[..., kept])
+    return revolve(radii[kept], *z[..., kept])
 
 
 def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
@@ -114,7 +114,7 @@ def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
     return vertex + sag(surface, held * np.sin(turn), held * np.cos(turn))
 
 
-def revolved(
+def revolve(
     radii: np.ndarray, front: np.ndarray, back: np.ndarray, sweep: tuple[float, float] = CUT, steps: int = STEPS
 ) -> Mesh:
     """Return the solid swept by the strip between two profiles z(r); ``radii`` rise from 0 or an inner rim.
@@ -156,7 +156,7 @@ def _wall(first: np.ndarray, second: np.ndarray) -> np.ndarray:
 def ring(inner: float, outer: float, z: float, thick: float) -> Mesh:
     """Return a flat ring about the axis, a quarter cut away: the stop; a disc where ``inner`` is 0."""
     radii = np.array([inner, outer])
-    return revolved(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2))
+    return revolve(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2))
 
 
 def masked_stop(mask: PupilMask, rim: float, outer: float, z: float, thick: float) -> Mesh:
@@ -166,17 +166,17 @@ def masked_stop(mask: PupilMask, rim: float, outer: float, z: float, thick: floa
     steps = IRIS_STEPS if mask.iris else STEPS
     inner = rim * opening_radius(mask, np.pi / 2 - np.linspace(*CUT, steps + 1))  # turns go from +x to +y
     radii = np.stack([inner, np.full(inner.size, outer)], axis=1)
-    parts = [revolved(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2), steps=steps)]
+    parts = [revolve(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2), steps=steps)]
     if mask.obscured:
         disc = ring(0.0, mask.disc.radius * rim, z, thick)
         parts.append(replace(disc, points=disc.points + rim * np.array([mask.disc.xi, mask.disc.eta, 0.0])))
     for angle in mask.vane_angles:
         corners = vane(angle, mask.vane_width)[:, 3::-1].T  # counter-clockwise
         parts.append(slab(rim * corners, z - thick / 2, thick))
-    return joined(parts)
+    return join_meshes(parts)
 
 
-def joined(meshes: Sequence[Mesh]) -> Mesh:
+def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
     """Return several meshes as one."""
     starts = np.cumsum([0, *(len(mesh.points) for mesh in meshes[:-1])])
     faces = [mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]

@@ -64,8 +64,8 @@ class Renderer:
         self._put("sensor", scene.sensor, theme.mark)
         self._put("rays", scene.rays, scene.colour)
         limit = float(np.abs(scene.front.waves).max()) or 1.0
-        self._put("front", scene.front.mesh, painted(scene.front.waves, (-limit, limit), maps[0]))
-        self._put("psf", scene.psf_surface.mesh, painted(scene.psf_surface.values, (0.0, 1.0), maps[1]))
+        self._put("front", scene.front.mesh, paint_values(scene.front.waves, (-limit, limit), maps[0]))
+        self._put("psf", scene.psf_surface.mesh, paint_values(scene.psf_surface.values, (0.0, 1.0), maps[1]))
         self._box = _box(scene)
 
     def look(self, camera: SceneCamera) -> None:
@@ -188,7 +188,7 @@ def direction(camera: SceneCamera) -> np.ndarray:
     return np.array([-cos(tilt) * cos(turn), sin(tilt), -cos(tilt) * sin(turn)])
 
 
-def painted(values: np.ndarray, levels: tuple[float, float], name: str) -> np.ndarray:
+def paint_values(values: np.ndarray, levels: tuple[float, float], name: str) -> np.ndarray:
     """Return the colours of values, (value, 3) bytes."""
     colour = lookup(name)[as_indices(values, *levels)]
     return np.stack([colour >> 16 & 255, colour >> 8 & 255, colour & 255], -1).astype(np.uint8)

@@ -7,12 +7,12 @@ import numpy as np
 from p2sf.lens.lens import seen_from
 from p2sf.lens.placement import Motion, Placement
 from p2sf.raytrace.pencil import pencil
-from p2sf_explorer.compute.brightness import stretched
+from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.glass_outlines import last_end, still
 from p2sf_explorer.compute.layout import shown_lens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.quantities import visible_colour
-from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, masked_stop, placed, plate
+from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, masked_stop, place_mesh, plate
 from p2sf_explorer.scene3d.ray_bundle import Front, PsfSurface, front, psf_surface, ray_bundle
 
 THICKNESS = 0.012  # of stop and sensor, of the lens's half height
@@ -50,16 +50,16 @@ def scene(live: Live) -> Scene3D:
     stop = masked_stop(lens.mask, rim, rim + 0.18 * drawn.half_height + 0.25 * rim, 0.0, thick)
     return Scene3D(
         glass=elements(still(shown)) + filling(shown),
-        stop=placed(stop, shown.frames[int(setup.stop.surface) - 1]),
-        sensor=placed(plate(half, 0.0, thick), shown.frames[-1]),
+        stop=place_mesh(stop, shown.frames[int(setup.stop.surface) - 1]),
+        sensor=place_mesh(plate(half, 0.0, thick), shown.frames[-1]),
         rays=ray_bundle(setup, drawn, live.state.optics.clip),
         colour=visible_colour(live.state.optics.wavelength_nm),
-        front=replace(wave, mesh=placed(wave.mesh, stands)),
-        psf_surface=replace(psf, mesh=placed(psf.mesh, stands)),
+        front=replace(wave, mesh=place_mesh(wave.mesh, stands)),
+        psf_surface=replace(psf, mesh=place_mesh(psf.mesh, stands)),
     )
 
 
 def brightness(live: Live) -> np.ndarray:
     """Return the PSF's samples on the scale the window shows, 0 to 1."""
     peak = float(live.psf.values.max()) or 1.0
-    return stretched(live.psf.values / peak, live.state.display.psf_scale)
+    return stretch(live.psf.values / peak, live.state.display.psf_scale)

@@ -21,7 +21,7 @@ from p2sf.files.writing import write_beside
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.camera import CAMERA, SceneCamera, nearer, turned
+from p2sf_explorer.state.camera import CAMERA, SceneCamera, nearer, turn_camera
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.copying import png_of
 
@@ -102,7 +102,7 @@ class SceneView(QWidget):
         self.image = None
         self.update()
 
-    def _rendered(self, renderer: "Renderer", live: Live) -> QImage:
+    def _render(self, renderer: "Renderer", live: Live) -> QImage:
         renderer.resize(self.pixels(), smooth=not self._moving())
         renderer.follow(live.views["solid"], self._theme, (WAVES_MAP, self._theme.brightness))
         renderer.look(self._camera)
@@ -116,7 +116,7 @@ class SceneView(QWidget):
         painter.fillRect(self.rect(), QColor(self._theme.card))
         if self._renderer and self._live:
             if self.image is None:
-                self.image = self._rendered(self._renderer, self._live)
+                self.image = self._render(self._renderer, self._live)
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(QRectF(self.rect()), self.image)
         elif self._message:
@@ -151,7 +151,7 @@ class SceneView(QWidget):
         if self._held:
             start, camera = self._held
             moved = event.position() - start
-            self._camera = turned(camera, -0.4 * moved.x(), 0.4 * moved.y())
+            self._camera = turn_camera(camera, -0.4 * moved.x(), 0.4 * moved.y())
             self._forget()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -170,7 +170,7 @@ class SceneView(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Turn with the arrows, zoom with + and −, reset with Home."""
         if event.key() in TURNS:
-            self._keep(turned(self._camera, *TURNS[event.key()]))
+            self._keep(turn_camera(self._camera, *TURNS[event.key()]))
         elif event.key() in ZOOMS:
             self._keep(nearer(self._camera, ZOOMS[event.key()]))
         elif event.key() == Qt.Key.Key_Home:

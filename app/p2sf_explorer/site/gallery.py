@@ -12,7 +12,7 @@ from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.panels import REGISTRY
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, on_stage, with_workspace
 from p2sf_explorer.window.window import MainWindow
 
@@ -38,11 +38,11 @@ def states() -> dict[str, State]:
     )
     pair = new_state(theme="light", pinned=new_state(f_number=8.0), linked=("field_deg",), playback_slider="field_deg")
     for side in CHOICES["shown"]:
-        shown[f"compare_{side}"] = changed(pair, shown=side)
-    shown["lesson"] = changed(shipped_lessons()[4].state(1, new_state(theme="light")), lesson_told=True)
+        shown[f"compare_{side}"] = change(pair, shown=side)
+    shown["lesson"] = change(shipped_lessons()[4].state(1, new_state(theme="light")), lesson_told=True)
     shown["german"] = new_state(theme="light", language="de", tab="first_order")
     first = new_state(theme="light")
-    return shown | matrices() | {f"{ONE_SIZE}{key}": changed(first, **on_stage(first.display, key)) for key in panels}
+    return shown | matrices() | {f"{ONE_SIZE}{key}": change(first, **on_stage(first.display, key)) for key in panels}
 
 
 def workspace(name: str, theme: str) -> State:
@@ -54,10 +54,10 @@ def workspace(name: str, theme: str) -> State:
 def matrices() -> dict[str, State]:
     """Return a matrix of every kind, and one over every quantity."""
     first = with_workspace(new_state(pinned=new_state(f_number=8.0)), "inspect", WORKSPACES["inspect"])
-    kinds = {f"matrix_{what}": changed(first, matrix_what=what, theme="light") for what in CHOICES["matrix_what"]}
+    kinds = {f"matrix_{what}": change(first, matrix_what=what, theme="light") for what in CHOICES["matrix_what"]}
     over = {name: name.partition("_")[0] for name in CHOICES["matrix_across"][1:]}
     return kinds | {
-        f"matrix_over_{words}": changed(first, matrix_across=name, theme="dark") for name, words in over.items()
+        f"matrix_over_{words}": change(first, matrix_across=name, theme="dark") for name, words in over.items()
     }
 
 
@@ -82,7 +82,7 @@ def settle(window: MainWindow) -> None:
 
 def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
     """Save a picture of the window in a state, as on a screen of this size, its accuracy ``measured`` or not."""
-    state = changed(state, scale_percent=100 * screen_scale(QSize(*size)))
+    state = change(state, scale_percent=100 * screen_scale(QSize(*size)))
     set_language(
         ENGLISH if state.display.language == "system" else state.display.language
     )  # the same pictures on every machine

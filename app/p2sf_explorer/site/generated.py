@@ -24,9 +24,9 @@ MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", 
 def pages() -> dict[str, str]:
     """Return the Markdown of every generated page by its path on the site."""
     return {
-        "index.md": _moved("README.md"),
-        "contributing.md": _moved("CONTRIBUTING.md"),
-        "changelog.md": _moved("CHANGELOG.md"),
+        "index.md": _with_moved_links("README.md"),
+        "contributing.md": _with_moved_links("CONTRIBUTING.md"),
+        "changelog.md": _with_moved_links("CHANGELOG.md"),
         "cli.md": command_line_page(),
         "api.md": library_page(),
         "lessons/index.md": lessons_page(),
@@ -105,7 +105,7 @@ def _step(step: Step, picture: str) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _moved(name: str) -> str:
+def _with_moved_links(name: str) -> str:
     """Return a file of the project's root with its links to other pages as they are on the site."""
     text = (ROOT / name).read_text(encoding="utf-8")
     return LINK.sub(lambda found: PLACES[found[1]], text)

@@ -15,21 +15,21 @@ from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.site.examples import run_examples
 from p2sf_explorer.site.gallery import settle
 from p2sf_explorer.state.pinning import pin
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from p2sf_explorer.window.window import MainWindow
 
 SIZE = 1280, 800
 MADE = re.compile(r"\]\(made/([\w.]+)\)")
 FIRST = new_state(theme="light")
-STOPPED = changed(FIRST, field_deg=14.0, f_number=8.0)
-TRIPLET = changed(with_lens(FIRST, "cooke_triplet"), field_deg=0.0)
+STOPPED = change(FIRST, field_deg=14.0, f_number=8.0)
+TRIPLET = change(with_lens(FIRST, "cooke_triplet"), field_deg=0.0)
 WINDOW = {
     "window_first.png": FIRST,
-    "window_field.png": changed(FIRST, field_deg=14.0),
+    "window_field.png": change(FIRST, field_deg=14.0),
     "window_stopped.png": STOPPED,
-    "window_compared.png": changed(pin(STOPPED), f_number=3.0, shown="difference"),
-    "window_misaligned.png": changed(TRIPLET, f_number=5.6, errors=(("decentre_y", 3, 4, 0.2),), tab="misalign"),
-    "window_tolerances.png": changed(TRIPLET, stage="tolerances", show_rail=False),
+    "window_compared.png": change(pin(STOPPED), f_number=3.0, shown="difference"),
+    "window_misaligned.png": change(TRIPLET, f_number=5.6, errors=(("decentre_y", 3, 4, 0.2),), tab="misalign"),
+    "window_tolerances.png": change(TRIPLET, stage="tolerances", show_rail=False),
 }
 
 

@@ -70,7 +70,7 @@ def amount_of(errors: BuildErrors, kind: Kind, piece: tuple[int, int]) -> float:
 def with_error(errors: BuildErrors, kind: Kind, piece: tuple[int, int], amount: float) -> BuildErrors:
     """Return the errors with one of a piece set, 0 for none; in one order, so that equal ones are equal."""
     kept = [one for one in errors if one[:3] != (kind, *piece)]
-    return ordered((*kept, (kind, *piece, amount)) if amount else kept)
+    return order_errors((*kept, (kind, *piece, amount)) if amount else kept)
 
 
 def without_piece(errors: BuildErrors, piece: tuple[int, int]) -> BuildErrors:
@@ -83,12 +83,12 @@ def without_piece(errors: BuildErrors, piece: tuple[int, int]) -> BuildErrors:
     return tuple(one for one in errors if not of_it(*one[:3]))
 
 
-def ordered(errors: list[BuildError] | BuildErrors) -> BuildErrors:
+def order_errors(errors: list[BuildError] | BuildErrors) -> BuildErrors:
     """Return errors with those of small pieces first: larger pieces are moved with the smaller ones in them."""
     return tuple(sorted(errors, key=lambda one: (one[2] - one[1], one[1], KINDS.index(one[0]))))
 
 
-def renumbered(errors: BuildErrors, at: int, by: int) -> BuildErrors:
+def renumber(errors: BuildErrors, at: int, by: int) -> BuildErrors:
     """Return the errors after a surface was put in behind surface ``at`` (``by`` 1), or surface ``at`` deleted (−1).
 
     Errors of a deleted surface alone are dropped.
@@ -96,4 +96,4 @@ def renumbered(errors: BuildErrors, at: int, by: int) -> BuildErrors:
     if by > 0:
         return tuple((k, a + (a > at), b + (b > at), x) for k, a, b, x in errors)
     kept = (one for one in errors if one[1:3] != (at, at))
-    return ordered([(k, a - (a > at), b - (b >= at), x) for k, a, b, x in kept])
+    return order_errors([(k, a - (a > at), b - (b >= at), x) for k, a, b, x in kept])

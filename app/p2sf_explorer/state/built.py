@@ -43,7 +43,7 @@ def _check_thicknesses(lens: Lens, errors: dict[int, float]) -> None:
             )
 
 
-def exaggerated(errors: BuildErrors, factor: int) -> tuple[BuildErrors, int]:
+def exaggerate(errors: BuildErrors, factor: int) -> tuple[BuildErrors, int]:
     """Return tilts and decentres enlarged by a factor, which is smaller where it would tilt too far, and that factor.
 
     What is not a tilt or decentre stays as it is.

@@ -17,7 +17,7 @@ class SceneCamera:
 CAMERA = SceneCamera()
 
 
-def turned(camera: SceneCamera, turn: float, tilt: float) -> SceneCamera:
+def turn_camera(camera: SceneCamera, turn: float, tilt: float) -> SceneCamera:
     """Return the camera moved around the scene by some degrees; it never tilts over the top."""
     low, high = RANGES["camera_tilt_deg"][:2]
     return replace(camera, turn=(camera.turn + turn + 180) % 360 - 180, tilt=min(high, max(low, camera.tilt + tilt)))

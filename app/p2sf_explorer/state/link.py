@@ -25,7 +25,7 @@ def link(state: State) -> str:
 
     The alphabet is that of RFC 4648, section 5, without padding.
     """
-    plain = json.dumps({"version": VERSION, "state": shortened(state)}, separators=(",", ":"))
+    plain = json.dumps({"version": VERSION, "state": shorten_state(state)}, separators=(",", ":"))
     return PREFIX + urlsafe_b64encode(zlib.compress(plain.encode(), 9)).decode().rstrip("=")
 
 
@@ -34,7 +34,7 @@ def state_of_link(text: str) -> State:
     letters = "".join(text.split()).removeprefix(PREFIX)
     try:
         packed = urlsafe_b64decode(letters + "=" * (-len(letters) % 4))
-        document = json.loads(unpacked(packed))
+        document = json.loads(unpack(packed))
     except (ValueError, RecursionError, binascii.Error, zlib.error):
         raise P2SFError("the link is cut off or changed; copy all of it again, from p2sf: to its last letter") from None
     if not isinstance(document, dict) or not isinstance(document.get("state"), dict):
@@ -43,7 +43,7 @@ def state_of_link(text: str) -> State:
     return state_from_dict(document["state"], document["version"])
 
 
-def shortened(state: State) -> dict[str, dict[str, Any]]:
+def shorten_state(state: State) -> dict[str, dict[str, Any]]:
     """Return ``aim`` and the entries that differ from the first state, as plain JSON values, group by group."""
     usual, short = state_to_dict(State()), {}
     for group, entries in state_to_dict(state).items():
@@ -51,11 +51,11 @@ def shortened(state: State) -> dict[str, dict[str, Any]]:
         if stated:
             short[group] = stated
     if state.compare.pinned:
-        short["compare"]["pinned"] = shortened(state.compare.pinned)
+        short["compare"]["pinned"] = shorten_state(state.compare.pinned)
     return short
 
 
-def unpacked(packed: bytes) -> bytes:
+def unpack(packed: bytes) -> bytes:
     """Return inflated bytes, at most `LARGEST` of them: a short text must not fill the memory. Raises zlib.error."""
     inflating = zlib.decompressobj()
     plain = inflating.decompress(packed, LARGEST)

@@ -317,7 +317,7 @@ REGISTRY = (
 PANELS = {entry.key: entry for entry in REGISTRY}
 
 
-def resolved(path: str) -> Any:
+def resolve(path: str) -> Any:
     """Return what a module:name within the explorer names; imported when first asked for."""
     module, name = path.split(":")
     return getattr(import_module(f"p2sf_explorer.{module}"), name)
@@ -325,9 +325,9 @@ def resolved(path: str) -> Any:
 
 def view_of(entry: PanelEntry) -> Callable[[Any], object] | None:
     """Return the view function of an entry, None where it has none."""
-    return resolved(entry.view) if entry.view else None
+    return resolve(entry.view) if entry.view else None
 
 
 def difference_of(entry: PanelEntry) -> Callable[[Any, Any], Any] | Message | None:
     """Return what subtracts two views of a panel, or why nothing does; None where the answers hold its difference."""
-    return resolved(entry.minus) if entry.minus and isinstance(entry.minus, str) else entry.minus or None
+    return resolve(entry.minus) if entry.minus and isinstance(entry.minus, str) else entry.minus or None

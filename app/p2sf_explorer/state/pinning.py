@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from p2sf_explorer.state.limits import LINKABLE
-from p2sf_explorer.state.state import ENTRIES, Compare, State, changed
+from p2sf_explorer.state.state import ENTRIES, Compare, State, change
 
 # The entries that determine the picture; the others say how it is displayed, the same way for A and for B.
 OPTICS = tuple(name for name, (group, _) in ENTRIES.items() if group in ("optics", "what_if"))
@@ -17,7 +17,7 @@ def optics(state: State) -> State:
 
 def pin(state: State) -> State:
     """Return the state with its own setup pinned as B."""
-    return changed(state, pinned=optics(state), shown="a")
+    return change(state, pinned=optics(state), shown="a")
 
 
 def unpin(state: State) -> State:
@@ -25,22 +25,22 @@ def unpin(state: State) -> State:
     return replace(state, compare=Compare())
 
 
-def swapped(state: State) -> State:
+def swap(state: State) -> State:
     """Return the state with A and B exchanged, so that the controls move the other one."""
     b = state.compare.pinned or state
-    return changed(replace(state, optics=b.optics, what_if=b.what_if), pinned=optics(state))
+    return change(replace(state, optics=b.optics, what_if=b.what_if), pinned=optics(state))
 
 
 def side_b(state: State) -> State:
     """Return B alone, displayed as A is."""
     b = state.compare.pinned or state
-    return changed(replace(state, optics=b.optics, what_if=b.what_if), pinned=None, shown="a")
+    return change(replace(state, optics=b.optics, what_if=b.what_if), pinned=None, shown="a")
 
 
 def with_links(state: State, changes: dict[str, Any]) -> dict[str, Any]:
     """Return changes to A together with what they change in B through the links."""
     b, both = state.compare.pinned, {name: value for name, value in changes.items() if name in state.compare.linked}
-    return changes | {"pinned": changed(b, **both)} if b and both else changes
+    return changes | {"pinned": change(b, **both)} if b and both else changes
 
 
 def link_toggled(state: State, key: str) -> tuple[str, ...]:

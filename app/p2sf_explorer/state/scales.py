@@ -173,7 +173,7 @@ def significant(value: float, digits: int) -> str:
     return f"{value:.{places}f}".replace("-", "−")
 
 
-def signed(value: float, places: int) -> str:
+def with_sign(value: float, places: int) -> str:
     """Return a number with a true minus sign; a rounded zero has no sign."""
     text = f"{value:.{places}f}"
     return text.lstrip("-") if float(text) == 0 else text.replace("-", "−")
@@ -186,7 +186,7 @@ def written_r_squared(value: float) -> str:
     return f"{value:.4f}" if value > 0.99 else f"{value:.3f}".replace("-", "−")
 
 
-def powered(value: float) -> str:
+def power_text(value: float) -> str:
     """Return a small number with its power of ten: "−1.5e−7"; zero is "0"."""
     digits, _, power = f"{value:.2e}".partition("e")
     return f"{float(digits):g}e{int(power)}".replace("-", "−") if value else "0"
@@ -205,7 +205,7 @@ def ticks(low: float, high: float, most: float) -> list[tuple[float, str]]:
         if len(counts) > 3:
             step, counts = 2 * step, _multiples(2 * step, low, high)
     places = max(0, -floor(log10(step) + 1e-9))
-    write = signed if places <= MOST_PLACES else lambda value, _: powered(value)
+    write = with_sign if places <= MOST_PLACES else lambda value, _: power_text(value)
     return [(step * k, write(step * k, places)) for k in counts]
 
 

@@ -1,7 +1,7 @@
 """Everything the window shows, as one frozen value in groups. No Qt in here.
 
 Every entry has one name, from slider to lesson: that of its field, with the group in front where the field alone would
-not tell (`ENTRIES`). `changed` and `new_state` take entries by these names; `state_files` reads and writes states.
+not tell (`ENTRIES`). `change` and `new_state` take entries by these names; `state_files` reads and writes states.
 """
 
 from dataclasses import dataclass, field, fields, replace
@@ -94,14 +94,14 @@ def _check_number(value: object, name: str, limits: tuple[float, float], words: 
     raise P2SFError(
         "{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}",
         quantity=words,
-        value=_quoted(value),
+        value=_quote(value),
         low=low,
         high=high,
         unit=unit if unit in ("", "°") else f" {unit}",
     )
 
 
-def _quoted(value: object) -> object:
+def _quote(value: object) -> object:
     """Return a value for a message: a number as one, anything else, or NaN, as a short text."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         if isinstance(value, float) or abs(value) < LARGEST_SHOWN:
@@ -264,7 +264,7 @@ class Display:
                 )
             object.__setattr__(self, name, tuple(found))  # a file has a list
         if not isinstance(self.rail_shares, tuple):
-            raise P2SFError("rail_shares is {value}; give a list of numbers", value=_quoted(self.rail_shares))
+            raise P2SFError("rail_shares is {value}; give a list of numbers", value=_quote(self.rail_shares))
         for share in self.rail_shares:
             _check_number(share, "rail_shares", (0.0, 1.0), Message("share of a panel beside the stage"), "")
         spectrum_of(self.spectrum)
@@ -371,7 +371,7 @@ def _check_list(values: object, name: str, least: int) -> None:
         raise P2SFError(
             "{name} is {value}; give {least} to {most} numbers, or none for those that the window chooses",
             name=name,
-            value=_quoted(values),
+            value=_quote(values),
             least=least,
             most=MOST_LISTED,
         )
@@ -546,7 +546,7 @@ def entry(state: State, name: str) -> Any:
     return getattr(getattr(state, group), part)
 
 
-def changed(state: State, **entries: Any) -> State:
+def change(state: State, **entries: Any) -> State:
     """Return a state with some entries changed, by their names in `ENTRIES`; P2SFError for a value that cannot be."""
     groups: dict[str, dict[str, Any]] = {}
     for name, value in entries.items():
@@ -566,5 +566,5 @@ def changed(state: State, **entries: Any) -> State:
 
 
 def new_state(**entries: Any) -> State:
-    """Return the first state with some entries changed, as `changed`."""
-    return changed(FIRST, **entries)
+    """Return the first state with some entries changed, as `change`."""
+    return change(FIRST, **entries)

@@ -55,12 +55,12 @@ def state_from_dict(values: dict[str, Any], version: int = VERSION) -> State:
     ``version`` 1 is the flat table of version 0.1. A state without ``aim`` is from before it, and paraxial.
     """
     try:
-        return _state(_migrated(values) if version == 1 else values)
+        return _state(_migrate(values) if version == 1 else values)
     except RecursionError:  # lists in lists, as deep as JSON was read just so
         raise P2SFError("the state's lists are nested too deep; save it again from the explorer") from None
 
 
-def _migrated(values: dict[str, Any]) -> dict[str, Any]:
+def _migrate(values: dict[str, Any]) -> dict[str, Any]:
     """Return the groups of a flat table of version 0.1; whatever is newer keeps its default."""
     groups: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
@@ -68,7 +68,7 @@ def _migrated(values: dict[str, Any]) -> dict[str, Any]:
             raise _unknown(name, tuple(sorted(ENTRIES)))
         group, field = ENTRIES[present_name(name)]
         nested = isinstance(value, dict) and name == "pinned"
-        groups.setdefault(group, {})[field] = _migrated(value) if nested else value
+        groups.setdefault(group, {})[field] = _migrate(value) if nested else value
     return groups
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from p2sf.errors import GeometryError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.state.state import State, WhatIf
 from p2sf_explorer.state.terms import NAMES, TERMS
 
@@ -52,7 +52,7 @@ def is_heard(state: State, term: str) -> bool:
     return term not in state.what_if.muted and (not state.what_if.solo or term in state.what_if.solo)
 
 
-def altered(own: Coefficients, state: State) -> Coefficients:
+def alter(own: Coefficients, state: State) -> Coefficients:
     """Return the coefficients as the state alters the lens's ``own``: own + added where the term counts, else 0."""
     if not is_altered(state):
         return own
@@ -67,7 +67,7 @@ def with_added(state: State, term: str, waves: float) -> tuple[float, ...]:
     return tuple(waves if name == term else old for name, old in zip(TERMS, state.what_if.added_waves, strict=True))
 
 
-def toggled(names: tuple[str, ...], term: str) -> tuple[str, ...]:
+def toggle(names: tuple[str, ...], term: str) -> tuple[str, ...]:
     """Return the names with one put in or taken out, in the order of `TERMS`."""
     return tuple(name for name in TERMS if (name in names) != (name == term))
 
@@ -86,7 +86,7 @@ def alterations(state: State) -> tuple[Message, ...]:
 
 def written_waves(value: float) -> str:
     """Return added waves with their sign, as short as they tell the value."""
-    return ("+" if value > 0 else "") + signed(value, 2 if abs(value) < 10 else 1)
+    return ("+" if value > 0 else "") + with_sign(value, 2 if abs(value) < 10 else 1)
 
 
 def of_preset(preset: Preset) -> dict[str, Any]:

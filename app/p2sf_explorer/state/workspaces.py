@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from p2sf_explorer.state.state import Display, State, changed
+from p2sf_explorer.state.state import Display, State, change
 
 
 @dataclass(frozen=True)
@@ -43,10 +43,10 @@ def arrangement(display: Display) -> Workspace:
 
 def with_workspace(state: State, name: str, workspace: Workspace) -> State:
     """Return the state arranged as a workspace; panels in windows of their own stay there."""
-    return changed(state, workspace=name, **{part.name: getattr(workspace, part.name) for part in fields(Workspace)})
+    return change(state, workspace=name, **{part.name: getattr(workspace, part.name) for part in fields(Workspace)})
 
 
-def placed(display: Display, panels: Sequence[str]) -> Display:
+def place_panels(display: Display, panels: Sequence[str]) -> Display:
     """Return the display with each of the known ``panels`` in one place at most; a file may say anything."""
     stage = display.stage if display.stage in panels else FIRST.stage
     rail = tuple(key for key in dict.fromkeys(display.rail) if key in panels and key != stage)
@@ -60,7 +60,7 @@ def on_show(display: Display) -> tuple[str, ...]:
     return tuple(dict.fromkeys((display.stage, *beside, *display.windows)))
 
 
-def exchanged(display: Display, panel: str, other: str) -> dict[str, Any]:
+def exchange(display: Display, panel: str, other: str) -> dict[str, Any]:
     """Return the changes by which a panel takes the place of ``other``, which goes where the panel was.
 
     A panel from behind the tabs, or out of a window of its own, leaves the other one in front of the tabs.
@@ -81,7 +81,7 @@ def exchanged(display: Display, panel: str, other: str) -> dict[str, Any]:
 
 def on_stage(display: Display, panel: str) -> dict[str, Any]:
     """Return the changes by which a panel takes the stage."""
-    return exchanged(display, panel, display.stage)
+    return exchange(display, panel, display.stage)
 
 
 def kept_in_rail(display: Display, panel: str) -> dict[str, Any]:

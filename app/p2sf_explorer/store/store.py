@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.state.pinning import with_links
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 MOST_STEPS = 1000  # of undo: an edited lens is kilobytes a step
 
@@ -61,7 +61,7 @@ class Store(QObject):
 
     def changed_by(self, changes: dict[str, Any]) -> State:
         """Return the state after changes, without making them; P2SFError for a bad value."""
-        return changed(self.state, **with_links(self.state, changes))
+        return change(self.state, **with_links(self.state, changes))
 
     def replace(self, state: State) -> None:
         """Make this the present state: one step of undo, or part of the drag under way."""

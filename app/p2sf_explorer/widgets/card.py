@@ -384,7 +384,7 @@ class Describing(QStyledItemDelegate):
         option.text = index.data(Qt.ItemDataRole.ToolTipRole) or option.text
 
 
-def described(choices: dict[str, str], tip: str, parent: QWidget | None = None) -> QComboBox:
+def combo_of(choices: dict[str, str], tip: str, parent: QWidget | None = None) -> QComboBox:
     """Return a combo box of names, with their explanations in the open list."""
     box = chooser(tuple((name, name) for name in choices), tip, parent)
     box.setItemDelegate(Describing(box))

@@ -126,7 +126,7 @@ def dropped_picture(data: QMimeData, endings: tuple[str, ...] = READABLE) -> str
     return next((path for path in paths if Path(path).suffix.lower() in (*endings, *OTHER_PICTURES)), None)
 
 
-def dropped(data: QMimeData) -> str | None:
+def dropped_path(data: QMimeData) -> str | None:
     """Return a dropped link, or the path of a file, whose content decides when it is opened; None for anything else."""
     if is_link(data.text()):
         return data.text()

@@ -164,11 +164,11 @@ class ExactnessPanel(QFrame):
 
     def one_less_r2(self) -> float:
         """Return the 1 − R² that the slider allows, a round number."""
-        return rounded(COARSEST * (EXACTEST / COARSEST) ** (self.slider.value() / STEPS))
+        return round_to_series(COARSEST * (EXACTEST / COARSEST) ** (self.slider.value() / STEPS))
 
     def milliseconds(self) -> float:
         """Return the time that the slider allows, a round number."""
-        return rounded(QUICKEST_MS * (SLOWEST_MS / QUICKEST_MS) ** (self.slider.value() / STEPS))
+        return round_to_series(QUICKEST_MS * (SLOWEST_MS / QUICKEST_MS) ** (self.slider.value() / STEPS))
 
     def choice(self) -> PredictedCost | None:
         """Return the method that would be taken, None while costs are unknown.
@@ -196,7 +196,7 @@ class ExactnessPanel(QFrame):
         if choice is None or not self._costs:
             self.costing.setText(tr("measuring what each method takes here"))
         elif isfinite(choice.milliseconds):
-            known = {"ms": significant(choice.milliseconds, 2), "error": predicted(choice.error)}
+            known = {"ms": significant(choice.milliseconds, 2), "error": prediction_text(choice.error)}
             self.costing.setText(tr("{method} here: {ms} ms, {error}", method=choice.method, **known))
         else:
             self.costing.setText(tr("{method} here: longer than a frame", method=choice.method))
@@ -233,7 +233,7 @@ class ExactnessPanel(QFrame):
         if self._live is None:
             return
         psf = self._live.psf
-        known = {"ms": significant(1e3 * psf.seconds, 2), "error": predicted(psf.predicted_error)}
+        known = {"ms": significant(1e3 * psf.seconds, 2), "error": prediction_text(psf.predicted_error)}
         self.given.setText(tr("on screen: {method}, {ms} ms, {error}", method=psf.method, **known))
 
     def _on_costs(self, state: State, found: tuple[PredictedCost, ...]) -> None:
@@ -274,13 +274,13 @@ def dot_of(curve: TradeCurve, measure: str) -> TradeDot:
     return TradeDot(curve.milliseconds, errors.median, errors.most, token, name or curve.family, curve.settings, first)
 
 
-def rounded(value: float) -> float:
+def round_to_series(value: float) -> float:
     """Return the member of `SERIES`·10ᵏ nearest in ratio."""
     decade = 10.0 ** int(log(value, 10) // 1)
     return min((step * decade for step in (*SERIES, 10.0)), key=lambda member: abs(log(value / member)))
 
 
-def predicted(error: float | None) -> str:
+def prediction_text(error: float | None) -> str:
     """Return a predicted 1 − R² in words."""
     if error is None or not isfinite(error):
         return tr("R² not predicted")

@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent, QResizeEven
 from PySide6.QtWidgets import QBoxLayout, QLabel, QScrollArea, QSizePolicy, QToolTip, QVBoxLayout, QWidget
 
 from p2sf.messages import Message
-from p2sf_explorer.charts.painting import elided, metrics, width_of, write
+from p2sf_explorer.charts.painting import elide, metrics, width_of, write
 from p2sf_explorer.charts.theme import LIGHT, SPACE, Tokens
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import local, tr
@@ -237,7 +237,7 @@ class FactTable(QWidget):
         """Return the name of a row, whole and as far as it fits beside its value."""
         name, size = tr(self._rows[row][0]), self._theme.px(SIZE)
         room = self.width() - width_of(self._values[row], size) - self._air
-        return name, elided(name, room, size)
+        return name, elide(name, room, size)
 
     def _tip(self, row: int) -> str:
         """Return the definition of a row, behind its name where that is cut."""
@@ -312,7 +312,7 @@ class Scrolling(QScrollArea):
             layout.setContentsMargins(0, 0, BAR_AIR if last > first else 0, 0)
 
 
-def scrolled(table: FactTable, at_foot: bool = True) -> QScrollArea:
+def in_scroll_area(table: FactTable, at_foot: bool = True) -> QScrollArea:
     """Return a table at the foot or top of an area that scrolls where room is little, so that no row is cut in two."""
     body = QWidget()
     column = QVBoxLayout(body)

@@ -9,8 +9,8 @@ from PySide6.QtGui import QPainter
 
 from p2sf.conventions import centred_axis
 from p2sf_explorer.charts.chart import image_of
-from p2sf_explorer.charts.plots import BRIGHTNESS, as_indices, lookup, named
-from p2sf_explorer.charts.reading import Reading, Samples, parted, value_of, worded_both
+from p2sf_explorer.charts.plots import BRIGHTNESS, as_indices, colour_map_name, lookup
+from p2sf_explorer.charts.reading import Reading, Samples, split_label, value_of, worded_both
 from p2sf_explorer.widgets.chart_card import NotedChart
 
 LOCAL = ("x, µm", "y, µm")
@@ -80,14 +80,14 @@ class TilesChart(NotedChart):
         row, column = inside.nearest(point.x(), point.y()) or (count // 2, count // 2)
         place = self.from_pixels(QPointF(*inside.centre(row, column)))
         local = worded_both((float(at[column]), float(at[row])), LOCAL)
-        value = value_of(parted(quantity)[0], float(values[row, column]), quantity, mark=place)
+        value = value_of(split_label(quantity)[0], float(values[row, column]), quantity, mark=place)
         return Reading(*place, f"{title}: {local}", (value,), "")
 
     def paint_over(self, painter: QPainter) -> None:
         """Paint the pictures, then lines and text."""
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         painter.setPen(Qt.PenStyle.NoPen)
-        table = lookup(named(self.colours, self.theme))
+        table = lookup(colour_map_name(self.colours, self.theme))
         for each in self.tiles:
             pixels = np.ascontiguousarray(table[each.indices])
             painter.drawImage(self.room(each), image_of(pixels))

@@ -16,10 +16,10 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import CHOICES
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.card import described, select
+from p2sf_explorer.widgets.card import combo_of, select
 from p2sf_explorer.widgets.exactness_slider import ExactnessButton
 from p2sf_explorer.widgets.readout import SIZE, Readout
 from p2sf_explorer.window.lens_cards import shown_title
@@ -65,7 +65,7 @@ class TopBar(QFrame):
         self.edited = QLabel(tr("edited"), self)
         self.edited.setObjectName("badge")
         self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
-        self.method = described({name: METHOD_WORDS.get(name, name) for name in CHOICES["method"]}, METHOD_TIP, self)
+        self.method = combo_of({name: METHOD_WORDS.get(name, name) for name in CHOICES["method"]}, METHOD_TIP, self)
         self.tolerance = ExactnessButton(store, self)
         self.method.setObjectName("")
         self.named = QLabel(tr("Method"), self)
@@ -220,7 +220,7 @@ class StatusLine(QWidget):
         sentences = [said(warning) for warning in live.warnings]
         text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
-            self.warning.set_text(text, short=shortened(sentences))
+            self.warning.set_text(text, short=shorten(sentences))
             self.warning.setToolTip("\n".join(sentences))
         figures = facts(live, frame_ms)
         self._facts = " · ".join(figures), " · ".join(figures[:2])
@@ -247,7 +247,7 @@ class StatusLine(QWidget):
         self._fit()
 
 
-def shortened(sentences: Sequence[str]) -> tuple[str, ...]:
+def shorten(sentences: Sequence[str]) -> tuple[str, ...]:
     """Return ever shorter lines: the last warning loses what follows its semicolon first, the first warning last."""
     short, lines = list(sentences), []
     for number in reversed(range(len(short))):
@@ -261,7 +261,7 @@ def shortened(sentences: Sequence[str]) -> tuple[str, ...]:
 def facts(live: Live, frame_ms: float | None) -> tuple[str, ...]:
     """Return the figures at the right: image height, aperture, then times."""
     c = live.setup.coefficients
-    parts = [tr("image height {h} mm", h=signed(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
+    parts = [tr("image height {h} mm", h=with_sign(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
     parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
     if frame_ms is not None:
         parts.append(tr("{ms} ms/frame", ms=f"{frame_ms:.1f}"))

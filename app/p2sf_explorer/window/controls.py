@@ -21,11 +21,11 @@ from p2sf_explorer.compute.views.first_order import OF_A, ring_note, rows
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import RINGS
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
-from p2sf_explorer.widgets.readout import FactTable, Sentence, scrolled
+from p2sf_explorer.widgets.readout import FactTable, Sentence, in_scroll_area
 from p2sf_explorer.window.no_answer import UNKNOWN
 from p2sf_explorer.window.quantity_rows import PupilShape, QuantityRow
 
@@ -130,7 +130,7 @@ class Controls(QWidget):
         column.addSpacing(4)
         column.addWidget(self.sentence)
         column.addWidget(self.detail)
-        self.figures = scrolled(self.facts)
+        self.figures = in_scroll_area(self.facts)
         column.addWidget(self.figures, 1)
         self._below = QWidget()  # takes the room of the figures where only the sliders are shown
         column.addWidget(self._below, 1)
@@ -179,8 +179,8 @@ class Controls(QWidget):
         """Show what follows from the state: heights, sensor position, the dominant term."""
         height = live.setup.object_y_mm
         image = float(live.setup.coefficients.image_height)
-        object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=signed(height, 2))
-        self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=signed(image, 3)))
+        object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=with_sign(height, 2))
+        self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=with_sign(image, 3)))
         for quantity in OF_THE_LENS:
             self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
         apart = live.state.compare.shown != "a"  # B or A − B is on screen, and this column stays A's

@@ -51,8 +51,8 @@ class FloatingPanels(QObject):
         sight after it, since Qt hands the focus to a widget on the page it turns to, else to the next one anywhere.
         """
         focused = QApplication.focusWidget()
-        closed = [self._closed(key) for key in [key for key in self.open if key not in wanted]]
-        opened = [self._opened(key) for key in wanted if key not in self.open]
+        closed = [self._take_window(key) for key in [key for key in self.open if key not in wanted]]
+        opened = [self._new_window(key) for key in wanted if key not in self.open]
         behind = [key for key in panels if key not in homes and key not in wanted]
         for key in (key for key in panels if key not in behind):
             self._put(key, panels[key].widget, self.open.get(key) or homes[key].widget)
@@ -82,14 +82,14 @@ class FloatingPanels(QObject):
             layout.addWidget(card)
             card.show()
 
-    def _opened(self, key: str) -> OwnWindow:
+    def _new_window(self, key: str) -> OwnWindow:
         """Return a new window for a panel, not yet on show."""
         self.open[key] = made = OwnWindow(key, self._titles[key], self._window)
         made.closed.connect(self._on_closed)
         made.restoreGeometry(self.places.get(key, QByteArray()))
         return made
 
-    def _closed(self, key: str) -> OwnWindow:
+    def _take_window(self, key: str) -> OwnWindow:
         """Return the window of a panel, which is to be closed without asking for the panel to be put back."""
         self.places |= self.present_places()
         closed = self.open.pop(key)

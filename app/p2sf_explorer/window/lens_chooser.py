@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 
 from p2sf_explorer.charts.painting import small_font
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.compute.setup import shipped, title
+from p2sf_explorer.compute.setup import shipped_names, title
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.widgets.card import paint_chevron
@@ -139,7 +139,7 @@ class Gallery(QFrame):
     @staticmethod
     def _model() -> QStandardItemModel:
         model = QStandardItemModel()
-        for name in shipped():
+        for name in shipped_names():
             item = QStandardItem(tr(title(name)))
             item.setData(name, NAME)
             item.setEditable(False)

@@ -21,7 +21,7 @@ class SetupDrawing:
     layout: Layout
 
 
-def drawn(state: State) -> SetupDrawing | None:
+def draw_setup(state: State) -> SetupDrawing | None:
     """Return the lens, its rays and marks for a state without a picture; None where these cannot be computed either."""
     try:
         found = paraxial_setup(state)

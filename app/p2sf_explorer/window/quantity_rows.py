@@ -9,7 +9,7 @@ from p2sf.errors import P2SFError
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.quantities import FIELD, OF_THE_MASK, WAVELENGTH, Quantity, Scale, visible_colour
-from p2sf_explorer.compute.setup import Ranges, default_state, masked, prescription
+from p2sf_explorer.compute.setup import Ranges, default_state, prescription, with_state_mask
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import COUNTS, MASK
 from p2sf_explorer.state.scales import Stepped
@@ -213,7 +213,7 @@ class PupilShape(QWidget):
     def show_state(self, state: State, limits: Ranges) -> None:
         """Follow a state: what there is, and where it is unfolded the rows of it; no signal goes back."""
         unfolded = state.display.show_pupil_shape
-        self.in_stop = mask = masked(prescription(state), state).mask
+        self.in_stop = mask = with_state_mask(prescription(state), state).mask
         self.heading.setText(
             tr("▾ Pupil shape") if unfolded else tr("▸ Pupil shape")
         )  # these arrows grow with the type

@@ -40,13 +40,13 @@ from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
 from p2sf_explorer.state.state import Display, State
-from p2sf_explorer.state.workspaces import exchanged, kept_in_rail, on_show, on_stage, placed, put_to_tabs
+from p2sf_explorer.state.workspaces import exchange, kept_in_rail, on_show, on_stage, place_panels, put_to_tabs
 from p2sf_explorer.store.deferred import DeferredWorker
 from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.copying import card_in_hand
-from p2sf_explorer.widgets.drop import DropFrame, dropped, is_photo
+from p2sf_explorer.widgets.drop import DropFrame, dropped_path, is_photo
 from p2sf_explorer.widgets.roles import install_roles
 from p2sf_explorer.window.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.window.commands.actions import Actions, PanelAccess
@@ -54,7 +54,7 @@ from p2sf_explorer.window.commands.sharing import Sharing
 from p2sf_explorer.window.controls import WIDTH, Controls
 from p2sf_explorer.window.floating_panels import FloatingPanels, Home
 from p2sf_explorer.window.memory_trim import MemoryTrim
-from p2sf_explorer.window.no_answer import NO_ANSWER, drawn
+from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
 from p2sf_explorer.window.presentation import LARGER, LARGER_LESSON, Presentation
 from p2sf_explorer.window.stage import PanelRoom, ShareSplitter
 from p2sf_explorer.window.tabs import Tabs
@@ -84,7 +84,7 @@ class MainWindow(QMainWindow):
         self.live: Live | None = None
         self._answers: Answers | None = None
         self.frame_ms: float | None = None
-        self.display = placed(self.store.state.display, tuple(PANELS))
+        self.display = place_panels(self.store.state.display, tuple(PANELS))
         self._placed_from: Display | None = None
         self._theme: Tokens = self._tokens(self.store.state)
         self._styled: dict[str, Tokens] = {}
@@ -218,7 +218,7 @@ class MainWindow(QMainWindow):
         self.status.show_live(live, self.frame_ms)
         self.deferred.watch(state, self._answers.pending)
         self.measuring.watch(live)
-        QTimer.singleShot(0, lambda: self._painted(begun))
+        QTimer.singleShot(0, lambda: self._on_painted(begun))
 
     def _show_none(self, state: State, why: P2SFError) -> None:
         """Say why there is no answer, and cover every panel; the lens is drawn where it can be."""
@@ -233,7 +233,7 @@ class MainWindow(QMainWindow):
         for panel in self.panels.values():
             panel.widget.show_state(state)
             panel.widget.show_overlay(said(NO_ANSWER))
-        if lens := drawn(state):
+        if lens := draw_setup(state):
             self.panels["layout"].show(lens)  # type: ignore[arg-type]  # which uses no more of an answer than this
             self.panels["layout"].widget.show_overlay("")
         if state.optics.errors and "misalign" in self.panels:
@@ -245,7 +245,7 @@ class MainWindow(QMainWindow):
     def _answer(self, state: State) -> Answers:
         """Return the settled answers, or while a slider moves previews by the methods that ``auto`` had chosen."""
         quality = "preview" if self.store.moving else "settled"
-        return answers(state, quality, self._wanted(), self._answers, self.deferred.cache)
+        return answers(state, quality, self._wanted_views(), self._answers, self.deferred.cache)
 
     def refuse(self, why: Message | P2SFError) -> None:
         """Say in the banner why something cannot be done; the last picture stays."""
@@ -290,7 +290,7 @@ class MainWindow(QMainWindow):
 
     def _exchange(self, key: str, other: str) -> None:
         if key in PANELS:  # a title may come from another program's window
-            self.store.update(**exchanged(self.display, key, other))
+            self.store.update(**exchange(self.display, key, other))
 
     def _move_to(self, place: str, key: str) -> None:
         """Put a panel where its card asks for; asked for again, the stage takes the room of the rail, or gives it."""
@@ -305,7 +305,7 @@ class MainWindow(QMainWindow):
         card = card_in_hand(self, self.panels[self.display.stage].widget)
         self.floating.toggle(next(key for key, panel in self.panels.items() if panel.widget is card))
 
-    def _painted(self, begun: float) -> None:
+    def _on_painted(self, begun: float) -> None:
         self.frame_ms = 1e3 * (perf_counter() - begun)
 
     def is_busy(self) -> bool:
@@ -365,14 +365,14 @@ class MainWindow(QMainWindow):
         """Return the panels on show."""
         return tuple(key for key in on_show(self.display) if key in self.panels)
 
-    def _wanted(self) -> dict[str, compute.ResultFunction]:
+    def _wanted_views(self) -> dict[str, compute.ResultFunction]:
         views = {key: view_of(PANELS[key]) for key in self._visible()}
         return {key: view for key, view in views.items() if view}
 
     def _bring_up(self, state: State) -> None:
         """Put the state's panels where they stand, building each the first time it is on show."""
         if state.display is not self._placed_from:  # a slider changes nothing here
-            self._placed_from, self.display = state.display, placed(state.display, tuple(PANELS))
+            self._placed_from, self.display = state.display, place_panels(state.display, tuple(PANELS))
             if self.presentation.on:
                 self.display = replace(self.display, show_rail=False)
             self._place_panels(self.display)
@@ -507,7 +507,7 @@ class MainWindow(QMainWindow):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a lens file, a saved state, a snapshot, or a link."""
-        if found := dropped(event.mimeData()):
+        if found := dropped_path(event.mimeData()):
             event.acceptProposedAction()
             self.drop_frame.show_for(found)
 
@@ -519,7 +519,7 @@ class MainWindow(QMainWindow):
         """Open what was dropped."""
         event.acceptProposedAction()
         self.drop_frame.hide()
-        found = dropped(event.mimeData())
+        found = dropped_path(event.mimeData())
         if not found:
             return
         if "measured" in self._visible() and is_photo(found):

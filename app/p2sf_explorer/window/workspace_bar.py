@@ -32,7 +32,7 @@ class Teaching(Protocol):
     def toggle(self) -> None:
         """Begin the first lesson, or leave the one under way."""
 
-    def arranged(self) -> Workspace | None:
+    def workspace(self) -> Workspace | None:
         """Return how the present step arranges the window, None without a lesson."""
 
 
@@ -62,7 +62,7 @@ class Workspaces(QObject):
         if not again:
             self._remember(state.display.workspace, arrangement(state.display))
         if name == TEACH:
-            lesson = self._teaching.arranged()
+            lesson = self._teaching.workspace()
             if lesson is None:
                 self._teaching.toggle()
                 return

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import checked, real_array
+from p2sf.arguments import check_arguments, real_array
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, Request, StopChoice, set_up, with_camera
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space
@@ -21,7 +21,7 @@ from p2sf.messages import Message
 from p2sf.parameters import check_angle
 
 
-@checked
+@check_arguments
 @with_camera
 def build_database(
     lens: Lens,

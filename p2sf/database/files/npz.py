@@ -11,7 +11,7 @@ import numpy as np
 from p2sf.database import ExactDatabase, GridDatabase, Space
 from p2sf.database.exact import NUMBERS
 from p2sf.database.files.provenance import MAPS, Stored, provenance
-from p2sf.database.files.sealed import opened, read_sealed, sealed, write_sealed
+from p2sf.database.files.sealed import read_sealed, seal, unseal, write_sealed
 from p2sf.database.fitted import FittedDatabase, fields_of
 from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
 from p2sf.database.render import Database
@@ -38,7 +38,7 @@ def save_database(database: Database, lens: Lens, path: str | PathLike[str], sto
 
 def database_bytes(database: Database, lens: Lens, stop: Stop | None = None) -> bytes:
     """Return what `save_database` writes."""
-    return sealed(_arrays(database, lens, stop))
+    return seal(_arrays(database, lens, stop))
 
 
 def load_database(path: str | PathLike[str]) -> Stored:
@@ -46,12 +46,12 @@ def load_database(path: str | PathLike[str]) -> Stored:
 
     Raises DatabaseError for a file that is missing, foreign, cut short, damaged, or of a newer schema.
     """
-    return _stored(read_sealed(path, MARK), path)
+    return _read_stored(read_sealed(path, MARK), path)
 
 
 def database_from_bytes(raw: bytes, name: str | PathLike[str]) -> Stored:
     """Return the database in the bytes of a file, which errors call ``name``; errors as `load_database`."""
-    return _stored(opened(raw, MARK, name), name)
+    return _read_stored(unseal(raw, MARK, name), name)
 
 
 def same_database(one: bytes, other: bytes) -> bool:
@@ -62,7 +62,7 @@ def same_database(one: bytes, other: bytes) -> bool:
 
 
 def _content(raw: bytes) -> tuple[Arrays, Meta]:
-    arrays = opened(raw, MARK, "the database")
+    arrays = unseal(raw, MARK, "the database")
     meta = _meta(arrays.pop(MARK))
     return arrays, {**meta, "versions": None, "predicted_error": None}
 
@@ -86,7 +86,7 @@ def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
     return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
 
 
-def _stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
+def _read_stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
     try:
         meta = _meta(arrays[MARK])
         if meta["schema"] > SCHEMA:
@@ -124,7 +124,7 @@ def _pack_exact(database: ExactDatabase) -> tuple[Arrays, Meta]:
 
 
 def _unpack_exact(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> ExactDatabase:
-    series, numbers = _shaped(arrays["series"], (None, NUMBERS)), meta["numbers"]
+    series, numbers = _check_shape(arrays["series"], (None, NUMBERS)), meta["numbers"]
     made = series, numbers["middle"], numbers["half"], numbers["sensor_mm"], meta["errors_waves"]
     return ExactDatabase(space, *made, mask=mask)
 
@@ -136,8 +136,8 @@ def _pack_grid(database: GridDatabase) -> tuple[Arrays, Meta]:
 def _unpack_grid(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> GridDatabase:
     depths, _, wavelengths = space.shape
     grid = NodeGrid(
-        _shaped(arrays["depth"], (depths, wavelengths, len(STORED))),
-        _shaped(arrays["wavelength"], (wavelengths, len(PER_WAVELENGTH))),
+        _check_shape(arrays["depth"], (depths, wavelengths, len(STORED))),
+        _check_shape(arrays["wavelength"], (wavelengths, len(PER_WAVELENGTH))),
     )
     return GridDatabase(space, grid, meta["interpolant"], meta["errors_waves"], mask=mask)
 
@@ -162,12 +162,12 @@ def _unpack_fitted(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) ->
     level = Level(PupilBasis(wave_order, map_order, fields.domain), radii, directions, weighted=bool(others))
     if _level_numbers(level) != [int(count) for count in numbers["level"]]:
         raise KeyError("a level that fits its fields")
-    fits = _shaped(arrays["fits"], (*(None for _ in space.nodes), level.numbers + fields.chief_numbers))
+    fits = _check_shape(arrays["fits"], (*(None for _ in space.nodes), level.numbers + fields.chief_numbers))
     seidel = _unpack_exact(space, arrays, {**meta, "errors_waves": numbers["seidel_errors_waves"]}, mask)
     return FittedDatabase(seidel, fits, level, meta["errors_waves"], numbers["residual_waves"])
 
 
-def _shaped(array: np.ndarray, shape: tuple[int | None, ...]) -> np.ndarray:
+def _check_shape(array: np.ndarray, shape: tuple[int | None, ...]) -> np.ndarray:
     """Return an array as it is; KeyError unless it has this shape, None being any length."""
     if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape, strict=True)):
         raise KeyError(f"an array of shape {shape}")

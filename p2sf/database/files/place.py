@@ -48,14 +48,14 @@ def exists(place: Place) -> bool:
     """Return whether a stack, or anything else in the way of one, is there; DatabaseError where nothing answers."""
     if isinstance(place, Path):
         return place.exists()
-    with reached(place):
+    with translate_errors(place):
         files, root = _elsewhere(place)
         return bool(files.exists(f"{root}/{HEADER}"))
 
 
 def chunk_names(place: str) -> set[str]:
     """Return the names of all chunks of the PSFs below a URL, "0/1/2/0/0" for one."""
-    with reached(place):
+    with translate_errors(place):
         files, root = _elsewhere(place)
         folder = f"{root}/psf/c/"
         return {str(name).removeprefix(folder) for name in files.find(folder)}
@@ -63,7 +63,7 @@ def chunk_names(place: str) -> set[str]:
 
 def send(draft: Path, place: str) -> None:
     """Copy the files of an empty stack to a URL, the header of the whole last: without it there is no stack."""
-    with reached(place):
+    with translate_errors(place):
         files, root = _elsewhere(place)
         for file in sorted((file for file in draft.rglob("*") if file.is_file()), key=lambda f: f == draft / HEADER):
             files.pipe_file(f"{root}/{file.relative_to(draft).as_posix()}", file.read_bytes())
@@ -73,7 +73,7 @@ def size_bytes(place: Place) -> int:
     """Return how many bytes the files at a place have."""
     if isinstance(place, Path):
         return sum(file.stat().st_size for file in place.rglob("*") if file.is_file())
-    with reached(place):
+    with translate_errors(place):
         files, root = _elsewhere(place)
         return int(files.du(root))
 
@@ -93,7 +93,7 @@ def _elsewhere(place: str) -> tuple[Any, str]:
 
 
 @contextmanager
-def reached(place: Place) -> Iterator[None]:
+def translate_errors(place: Place) -> Iterator[None]:
     """Turn what a place elsewhere raises into a DatabaseError; errors of a folder pass."""
     if isinstance(place, Path):
         yield

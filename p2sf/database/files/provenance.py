@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.arguments import checked
+from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.accuracy import DatabaseAccuracy, accuracy, accuracy_from
 from p2sf.database.render import Database, pixels_psf
@@ -23,7 +23,7 @@ from p2sf.lens.source import Source, check_one
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.result import Psf, warned
+from p2sf.psf.result import Psf, warn_of_window
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 COEFFICIENT_UNITS = {
@@ -67,7 +67,7 @@ class Stored:
         stated = self.meta.get("predicted_error")
         return accuracy_from(stated, self.meta["method"]) if stated else accuracy(self.database, self.lens)
 
-    @checked
+    @check_arguments
     def coefficients(self, source: Source) -> Coefficients:
         """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
         check_one(source)
@@ -75,7 +75,7 @@ class Stored:
         found: Coefficients = self.database.coefficients(*map(float, place))
         return found
 
-    @checked
+    @check_arguments
     def psf(
         self, source: Source, pixels: int = 64, pixel_um: float | None = None, *, integrated: bool | None = None
     ) -> Psf:
@@ -86,7 +86,7 @@ class Stored:
         DatabaseError outside what is covered, GeometryError and SamplingError where there is no PSF to sample.
         """
         check_one(source)
-        return warned(pixels_psf(self.database, source, pixels, pixel_um, integrated), 4)
+        return warn_of_window(pixels_psf(self.database, source, pixels, pixel_um, integrated), 4)
 
     def __repr__(self) -> str:
         nodes = " × ".join(map(str, self.meta["nodes"]))
@@ -129,7 +129,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             "sensor_mm": lens.sensor_mm,
             **position_of(lens),
             "aim": lens.aim,
-            **_masked(database.mask),
+            **_mask_record(database.mask),
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
                 **fields,
@@ -149,7 +149,7 @@ def _ends_deg(slopes: np.ndarray) -> list[float]:
     return [float(degrees_from_slope(slopes[k])) for k in (0, -1)]
 
 
-def _masked(mask: PupilMask) -> dict[str, Any]:
+def _mask_record(mask: PupilMask) -> dict[str, Any]:
     """Return what a file says about the mask that its PSFs are rendered through, but for its maps: nothing if clear."""
     if mask.clear:
         return {}

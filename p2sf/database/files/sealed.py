@@ -23,10 +23,10 @@ SEALED = re.compile(re.escape(SEAL) + b"[0-9a-f]{%d}" % DIGITS)
 
 def write_sealed(path: str | PathLike[str], arrays: dict[str, np.ndarray]) -> Path:
     """Write arrays to a sealed .npz, whole or not at all; the same arrays give the same bytes. Raises ExportError."""
-    return write_beside(path, lambda handle: handle.write(sealed(arrays)))
+    return write_beside(path, lambda handle: handle.write(seal(arrays)))
 
 
-def sealed(arrays: dict[str, np.ndarray]) -> bytes:
+def seal(arrays: dict[str, np.ndarray]) -> bytes:
     """Return the bytes of a sealed .npz."""
     archive = io.BytesIO()
     np.savez_compressed(archive, **arrays)  # type: ignore[arg-type]  # its stub takes them for allow_pickle
@@ -36,11 +36,11 @@ def sealed(arrays: dict[str, np.ndarray]) -> bytes:
 
 
 def read_sealed(path: str | PathLike[str], mark: str) -> dict[str, np.ndarray]:
-    """Return the arrays of a sealed .npz file; DatabaseError as `opened`, and where it cannot be read."""
-    return opened(_bytes(path), mark, path)
+    """Return the arrays of a sealed .npz file; DatabaseError as `unseal`, and where it cannot be read."""
+    return unseal(_bytes(path), mark, path)
 
 
-def opened(raw: bytes, mark: str, name: str | PathLike[str]) -> dict[str, np.ndarray]:
+def unseal(raw: bytes, mark: str, name: str | PathLike[str]) -> dict[str, np.ndarray]:
     """Return the arrays in the bytes of a sealed .npz file, whose first member is called ``mark``.
 
     Raises DatabaseError, which calls the file ``name``, for one that is foreign, cut short, or damaged.

@@ -15,7 +15,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, centred_axis, degrees_from_slope
 from p2sf.database.files import Stored, database_from_bytes
-from p2sf.database.files.place import Place, chunk_names, exists, place_of, reached, send
+from p2sf.database.files.place import Place, chunk_names, exists, place_of, send, translate_errors
 from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.errors import DatabaseError
 from p2sf.files.writing import plain
@@ -89,7 +89,7 @@ def _name(chunk: Chunk) -> str:
     return "/".join(map(str, (*chunk, 0, 0)))
 
 
-def needed(name: str) -> Any:
+def import_optional(name: str) -> Any:
     """Return the module of an optional library; DatabaseError, with how to install it, where it is missing."""
     from importlib import import_module
 
@@ -119,7 +119,7 @@ def create(path: str | PathLike[str], raw: bytes, sampling: Sampling) -> None:
 
 
 def _create_arrays(draft: Path, stored: Stored, raw: bytes, sampling: Sampling) -> None:
-    zarr, shape, pixels = needed("zarr"), stored.database.space.shape, sampling.pixels
+    zarr, shape, pixels = import_optional("zarr"), stored.database.space.shape, sampling.pixels
     names = AXES if len(shape) == 3 else RECTANGLE_AXES
     pixel_um = sampling.pixel_um or critical_pixel_um(stored.database)
     integrated = samples_per_pixel(stored.database, sampling) > 1
@@ -167,14 +167,14 @@ def chunk_shape(shape: tuple[int, ...], pixels: int) -> tuple[int, ...]:
 
 def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Stack:
     """Return a stack on disk; DatabaseError for a foreign, damaged or newer one, or one that is not there."""
-    zarr = needed("zarr")
+    zarr = import_optional("zarr")
     place = place_of(path)
     if not exists(place):
         raise DatabaseError(
             "{path} is not there; build it with {command}", path=str(path), command="p2sf database build --stack"
         )
     try:
-        with reached(place):
+        with translate_errors(place):
             group = zarr.open_group(place, mode=mode, zarr_format=3)
             psf, raw, attributes = group["psf"], group["database"][:].tobytes(), dict(group.attrs)
         if attributes["p2sf_stack_schema"] > SCHEMA:
@@ -206,7 +206,7 @@ def read_psfs(stack: Stack, where: Any) -> np.ndarray:
     Raises DatabaseError for a chunk whose checksum is wrong, and for PSFs not written yet.
     """
     try:
-        with reached(stack.path):
+        with translate_errors(stack.path):
             values: np.ndarray = stack.psf[where]
     except DatabaseError:
         raise

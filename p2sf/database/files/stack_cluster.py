@@ -18,7 +18,7 @@ from typing import Any
 
 from p2sf import __version__
 from p2sf.database.files.place import Place
-from p2sf.database.files.stack import Chunk, Stack, needed, open_stack
+from p2sf.database.files.stack import Chunk, Stack, import_optional, open_stack
 from p2sf.database.files.stack_write import StackWork, write_chunk
 from p2sf.errors import DatabaseError
 from p2sf.threads import one_blas_thread
@@ -42,15 +42,15 @@ def fill(work: StackWork, scheduler: str) -> None:
     """Fill a stack by the workers of a scheduler; DatabaseError where that cannot go on, done chunks stay."""
     _check_shared(work.stack.path)
     if work.chunks and not work.watch.cancelled():
-        with connected(scheduler) as client:
+        with connect(scheduler) as client:
             check_versions(worker_versions(client, scheduler))
             _Filling(work, client, scheduler).run()
 
 
 @contextmanager
-def connected(scheduler: str) -> Iterator[Any]:
+def connect(scheduler: str) -> Iterator[Any]:
     """Connect to a scheduler; DatabaseError where none answers."""
-    distributed = needed("distributed")
+    distributed = import_optional("distributed")
     try:
         distributed.comm.resolve_address(scheduler)
         client = distributed.Client(scheduler, timeout=ANSWER_S, set_as_default=False)
@@ -133,7 +133,7 @@ class _Filling:
         place = work.stack.path
         self._place = place if isinstance(place, str) else str(place.absolute())
         self._content = content(work.stack)
-        errors = needed("distributed").client
+        errors = import_optional("distributed").client
         self._gone = OSError, errors.ClosedClientError, errors.FutureCancelledError  # what a lost scheduler raises
 
     def run(self) -> None:
@@ -166,7 +166,7 @@ class _Filling:
         try:
             self._threads = sum(self._client.nthreads().values())
         except self._gone as error:
-            raise self._lost() from error
+            raise self._loss_error() from error
         self._looked = time.monotonic()
         if self._threads:
             self._seen = self._looked
@@ -194,11 +194,11 @@ class _Filling:
         if future.status == "error":
             raise self._put_into_words(future.exception())
         if future.status != "finished":
-            raise self._lost()
+            raise self._loss_error()
         try:
             seconds = future.result()
         except self._gone as error:  # between its end and this question
-            raise self._lost() from error
+            raise self._loss_error() from error
         self._longest, self._seconds = max(self._longest, seconds), self._seconds + seconds
         self._cost += sum(self._work.costs[chunk] for chunk in group)
         del self._since[group]
@@ -218,7 +218,7 @@ class _Filling:
                 self._send(group)
 
     def _put_into_words(self, error: Exception) -> Exception:
-        if isinstance(error, needed("distributed").KilledWorker):
+        if isinstance(error, import_optional("distributed").KilledWorker):
             return DatabaseError(
                 "{count} workers ended while they rendered the same chunks; look at their logs, give them more memory, "
                 "and give the same command again, which keeps what is done",
@@ -226,7 +226,7 @@ class _Filling:
             )
         return error
 
-    def _lost(self) -> DatabaseError:
+    def _loss_error(self) -> DatabaseError:
         return DatabaseError(
             "the scheduler at {address} is lost; start it and its workers and give the same command again, which keeps "
             "what is done",
@@ -244,16 +244,16 @@ def fill_chunks(place: str, named: str, version: str, chunks: Group) -> float:
     """Render and write chunks on a worker, and return the seconds that it took."""
     start = time.monotonic()
     if version != __version__:  # on a worker that came after the others were asked
-        check_versions({needed("distributed").get_worker().address: __version__}, version)
+        check_versions({import_optional("distributed").get_worker().address: __version__}, version)
     _keep_freed_memory()
     with one_blas_thread:
         for chunk in chunks:
-            write_chunk(_opened(place, named), chunk)
+            write_chunk(_open(place, named), chunk)
     return time.monotonic() - start
 
 
 @lru_cache(maxsize=4)
-def _opened(place: str, named: str) -> Stack:
+def _open(place: str, named: str) -> Stack:
     """Return the stack that this worker is to fill, kept from chunk to chunk."""
     stack = open_stack(place, "r+")
     if content(stack) != named:

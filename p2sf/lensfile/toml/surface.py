@@ -18,7 +18,7 @@ from p2sf.glass.media import (
 )
 from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lens.irregularity import Irregularity
-from p2sf.lens.lens import Surface, scaled
+from p2sf.lens.lens import Surface, scale_surface
 from p2sf.lens.shape_types import SHAPES
 from p2sf.lens.shapes import ODD, Diffraction, Shape
 from p2sf.lens.transmission import Transmission
@@ -192,4 +192,4 @@ def surface_lines(surface: Surface) -> Iterator[tuple[str, str, str]]:
 def read_surface(table: Table, scale: float, elsewhere: Iterable[str]) -> Surface:
     """Return a surface in mm, ``elsewhere`` the keys of the top of the file; LensFileError."""
     table.check_keys((entry.key for entry in ENTRIES), elsewhere)
-    return scaled(Surface(**{entry.name: entry.read(table) for entry in ENTRIES}), scale)
+    return scale_surface(Surface(**{entry.name: entry.read(table) for entry in ENTRIES}), scale)

@@ -21,7 +21,7 @@ from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.fitting.pupil_nodes import has_twin
 from p2sf.measure.fitting.starting_values import blur, frame_starts, landings, locate, ray_moments, significant
 from p2sf.messages import Message
-from p2sf.threads import for_each, mapped, one_blas_thread
+from p2sf.threads import for_each, map_threads, one_blas_thread
 
 STEPS = 30
 RTOL = 1e-5  # of the sum of squares in one step
@@ -359,7 +359,7 @@ def _go_on(cancelled: Callable[[], bool] | None) -> None:
 
 
 def _parts(sums: Sequence[PointSum], values: np.ndarray, own: np.ndarray) -> list[Part]:
-    return mapped(lambda pair: pair[0].residuals(values, pair[1]), zip(sums, own, strict=True))
+    return map_threads(lambda pair: pair[0].residuals(values, pair[1]), zip(sums, own, strict=True))
 
 
 def _descend(
@@ -412,7 +412,7 @@ def _start_in_focus(sums: Sequence[PointSum], points: Sequence[FramePoint], mode
     some = [(sums[k], points[k]) for k in _far_apart(points)[:TRIED_POINTS]]
     trials = np.repeat(values[None], shifts.size, 0)
     trials[:, place] = shifts
-    left = mapped(lambda pair: [pair[0].unlikeness(pair[1], model, trial) for trial in trials], some)
+    left = map_threads(lambda pair: [pair[0].unlikeness(pair[1], model, trial) for trial in trials], some)
     best: np.ndarray = trials[int(np.argmin(np.sum(left, axis=0)))]
     return best
 
@@ -440,7 +440,7 @@ class _Search:
             _go_on(self.cancelled)
             return [pair[0].unlikeness(pair[1], self.model, values) for values in every]
 
-        left = np.sum(mapped(unlikeness, zip(self.sums, self.points, strict=True)), axis=0)
+        left = np.sum(map_threads(unlikeness, zip(self.sums, self.points, strict=True)), axis=0)
         self.tried += zip(left.tolist(), every, strict=True)
         self.tried.sort(key=lambda pair: pair[0])
 

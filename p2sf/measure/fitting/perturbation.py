@@ -11,7 +11,7 @@ from typing import cast
 
 import numpy as np
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -112,7 +112,7 @@ def _trace_errors(
 @lru_cache(maxsize=1)
 def _ray_terms() -> np.ndarray:
     xi, eta, _ = whole_disc(*RAYS)
-    return protected(_terms(xi, eta))
+    return write_protect(_terms(xi, eta))
 
 
 def _terms(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:

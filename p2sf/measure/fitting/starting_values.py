@@ -13,7 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.conventions import protected
+from p2sf.conventions import write_protect
 from p2sf.errors import RequestError
 from p2sf.measure.fitting.point_model import PictureOptics, PixelSum, wave
 from p2sf.measure.fitting.point_problem import PointPicture
@@ -262,7 +262,7 @@ def slope_moments(azimuth: float, mask: PupilMask = CLEAR) -> tuple[np.ndarray, 
     )
     mean = slopes @ weight
     rest = slopes - mean[..., None]
-    return protected(mean), protected(np.einsum("akp,alp,p->kl", rest, rest, weight))
+    return write_protect(mean), write_protect(np.einsum("akp,alp,p->kl", rest, rest, weight))
 
 
 def _unlikeness(

@@ -81,7 +81,7 @@ def batch_intensities(terms: np.ndarray, pixels: int, pixel_um: float, rows: Row
     """Return the PSFs (batch, pixels, pixels) of `shape_terms` (batch, 5) of one n'u'/λ, the last term."""
     setting = float(terms[0, 4]) * pixel_um, pixels, np.dtype(dtype)
     even, odd = _fields(terms[:, :4], rows, setting)
-    return unfolded(even, odd, pixels)
+    return unfold(even, odd, pixels)
 
 
 def wave_number(coefficients: Coefficients) -> np.ndarray:
@@ -144,7 +144,7 @@ def _across(pupil: np.ndarray, across: np.ndarray) -> np.ndarray:
     return product.reshape(*parts, rows, -1)
 
 
-def unfolded(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
+def unfold(even: np.ndarray, odd: np.ndarray, pixels: int) -> np.ndarray:
     """Return |even ± odd|² of the whole PSF from offsets ≥ 0, plus above the chief ray, (batch, pixels, pixels).
 
     ``even`` and ``odd`` in y, both even in x: (2, batch, y, x), real and imaginary; they are overwritten.

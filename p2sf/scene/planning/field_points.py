@@ -11,7 +11,7 @@ from numpy.polynomial.chebyshev import chebvander2d
 from p2sf.conventions import depth_of
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
-from p2sf.lens.misalignment import averaged
+from p2sf.lens.misalignment import average_azimuths
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange
@@ -25,7 +25,7 @@ from p2sf.pixel_kernels.sensor_points import (
 )
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
-from p2sf.threads import mapped
+from p2sf.threads import map_threads
 
 ORDER, REACH = 9, 1.12  # of the polynomial that finds fields; how far beyond the sensor they are traced
 AZIMUTHS, ALONG = 24, 9  # of the fields traced, and how many in each
@@ -81,9 +81,9 @@ def _series(lens: Lens, sensor: Sensor, ends: tuple[float, float], wavelength_um
         [Source(d, s, wavelength_um, azimuth_deg=a) for s in line for d in depths] for a, line in _lines(wide, high)
     ]
     slopes = [source.slopes_xy for line in lines for source in line]
-    places = np.concatenate(mapped(lambda line: _places(lens, line), lines))
+    places = np.concatenate(map_threads(lambda line: _places(lens, line), lines))
     many = len(depths)
-    return _fitted(np.array(slopes)[::many], places.reshape(-1, many, 2), sensor, abs(scale), tuple(nodes.tolist()))
+    return _fit_pupils(np.array(slopes)[::many], places.reshape(-1, many, 2), sensor, abs(scale), tuple(nodes.tolist()))
 
 
 def _lines(x: np.ndarray, y: np.ndarray) -> Iterator[tuple[float, list[float]]]:
@@ -113,7 +113,7 @@ def _places(lens: Lens, sources: Sequence[Source]) -> np.ndarray:
         return np.concatenate([_places(lens, sources[:half]), _places(lens, sources[half:])])
 
 
-def _fitted(
+def _fit_pupils(
     slopes: np.ndarray, places: np.ndarray, sensor: Sensor, scale_mm: float, vergences: tuple[float, ...]
 ) -> _FieldSeries:
     """Return the polynomials through fields, (n, 2), and where they land at each depth, (n, depths, 2) mm or NaN."""
@@ -144,7 +144,7 @@ def _fitted(
 
 
 def _scale_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
-    return float(coefficients(averaged(lens), depth_mm, 1.0, wavelength_um).image_height)
+    return float(coefficients(average_azimuths(lens), depth_mm, 1.0, wavelength_um).image_height)
 
 
 def _wider(ends: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.field_area import Point
-from p2sf.scene.planning.study import Place, Study, distance, weighted
+from p2sf.scene.planning.study import Place, Study, distance, weighted_sum
 
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
 DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
@@ -30,7 +30,7 @@ def worst_errors(study: Study, groups: Sequence[Sequence[Between]]) -> list[floa
     places = [place for group in groups for one in group for place in (one.true, *one.nodes)]
     kernels = dict(zip(places, study.kernels(places), strict=True))
     return [
-        max(distance(weighted([kernels[n] for n in one.nodes], one.weights), kernels[one.true]) for one in group)
+        max(distance(weighted_sum([kernels[n] for n in one.nodes], one.weights), kernels[one.true]) for one in group)
         for group in groups
     ]
 

@@ -8,7 +8,7 @@ from os import PathLike
 
 import numpy as np
 
-from p2sf.arguments import checked
+from p2sf.arguments import check_arguments
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import without_coefficients
@@ -41,10 +41,10 @@ from p2sf.scene.planning.study import (
     distance,
     first_allowed,
     from_phase,
-    weighted,
+    weighted_sum,
 )
 from p2sf.scene.scene import Channel, Scene
-from p2sf.scene.spectrum import reduced
+from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import one_blas_thread
 
 # The share of the tolerance that each kind of decision may use. The errors are nearly independent, so squares add.
@@ -129,7 +129,7 @@ def _sensor_map(lens: Lens, scene: Scene, vergence: float, wavelength_um: float)
 
 
 @one_blas_thread
-@checked
+@check_arguments
 def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], None] | None = None) -> Plan:
     """Find the cheapest model of a lens that stays within the tolerance of a scene.
 
@@ -260,7 +260,7 @@ def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Deci
         number, error = _first(
             every, partial(_colour_errors, study, channel, places), len(places), SHARES["colour"] * budget
         )
-        colours.append(reduced(channel, number + 1))
+        colours.append(reduce_spectrum(channel, number + 1))
         choice = Message("{waves:.0f} nm", waves=tuple(1000 * w for w in colours[-1].wavelengths_um))
         why = Message(
             "{count} of {all} wavelengths keep the channel's lateral and axial colour", count=number + 1, all=every
@@ -272,13 +272,13 @@ def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Deci
 
 def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point, float]], tries: Tries) -> list[float]:
     """Return the errors of fewer wavelengths, one more than each try's number, against all, at (point, vergence)."""
-    every = reduced(channel, len(channel.wavelengths_nm))
-    pairs = [(reduced(channel, number + 1), partial(study.place, *places[k])) for number, k in tries]
+    every = reduce_spectrum(channel, len(channel.wavelengths_nm))
+    pairs = [(reduce_spectrum(channel, number + 1), partial(study.place, *places[k])) for number, k in tries]
     asked = [place(wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um]
     kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one hides the change
 
     def mixed(colour: Colour, place: Callable[[float], Place]) -> np.ndarray:
-        return weighted([kernels[place(wave)] for wave in colour.wavelengths_um], colour.weights)
+        return weighted_sum([kernels[place(wave)] for wave in colour.wavelengths_um], colour.weights)
 
     return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
 

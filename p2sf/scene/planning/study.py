@@ -16,7 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.pixel_kernels import Recipe, SensorMap
 from p2sf.pixel_kernels.channel import PointLights
 from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, seidel_pupils
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stacked
+from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stack_pupils
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.fit import Level, PencilForms, levels_for
@@ -180,7 +180,7 @@ class Study:
             for k, at in enumerate(missing):
                 self._fits[at] = made.one(k), landed[k] - at[:2]
         found = [self._fits[at] for at in pupils]
-        return stacked([pupil for pupil, _ in found]), np.array([shift for _, shift in found])
+        return stack_pupils([pupil for pupil, _ in found]), np.array([shift for _, shift in found])
 
     def by_seidel(self, pupils: Sequence[PupilAt]) -> PupilStack:
         """Return pupils by their Seidel coefficients."""
@@ -205,7 +205,7 @@ class Study:
         self, places: Sequence[Place], pupils: PupilStack, shifts_mm: np.ndarray, sampling: Sampling = COARSE_SAMPLING
     ) -> list[np.ndarray]:
         """Return the kernels of pupils, one for each place."""
-        _, _, angles = self.area.fields.oriented(*np.array(places)[:, :2].T)
+        _, _, angles = self.area.fields.orient(*np.array(places)[:, :2].T)
         lights = PointLights(pupils, 0 * angles, shifts_mm * UM_PER_MM).turned(angles)
         pixel = self.scene.sensor.pixel_um
         return lights.kernels(lights.half_widths(pixel), pixel, Recipe("fitted", None, *sampling))
@@ -247,11 +247,11 @@ def from_phase(residual_waves: float) -> float:
 def distance(kernel: np.ndarray, reference: np.ndarray) -> float:
     """Return ‖kernel − reference‖/‖reference‖ of kernels of any two odd sizes."""
     size = max(kernel.shape[-1], reference.shape[-1])
-    one, two = (widened(k, size) for k in (kernel, reference))
+    one, two = (pad_kernel(k, size) for k in (kernel, reference))
     return float(np.linalg.norm(one - two) / np.linalg.norm(two))
 
 
-def widened(kernel: np.ndarray, size: int) -> np.ndarray:
+def pad_kernel(kernel: np.ndarray, size: int) -> np.ndarray:
     """Return a kernel with zeros around it, to an odd size."""
     edge = (size - kernel.shape[-1]) // 2
     if not edge:
@@ -261,7 +261,7 @@ def widened(kernel: np.ndarray, size: int) -> np.ndarray:
     return wide
 
 
-def weighted(kernels: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
+def weighted_sum(kernels: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
     """Return a weighted sum of kernels of different sizes."""
     total = np.zeros(2 * [max(kernel.shape[-1] for kernel in kernels)], np.float32)
     for kernel, weight in zip(kernels, weights, strict=True):

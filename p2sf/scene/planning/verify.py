@@ -8,8 +8,8 @@ import numpy as np
 from p2sf.pixel_kernels.nodes import hats, nodes_along
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.planning.reference import reference_kernel
-from p2sf.scene.planning.study import distance, weighted
-from p2sf.threads import mapped, one_blas_thread
+from p2sf.scene.planning.study import distance, weighted_sum
+from p2sf.threads import map_threads, one_blas_thread
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
     """Return the errors of a plan's kernels at random places, depths and channels against the reference."""
     random = np.random.default_rng(seed)
     places = tuple(_place(planned, random) for _ in range(points))
-    found = mapped(lambda place: error_at(planned, *place), places)
+    found = map_threads(lambda place: error_at(planned, *place), places)
     waves = sum(len(planned.scene.channels[channel].wavelengths_nm) for *_, channel in places)
     seconds = sum(spent for _, spent in found) / max(waves, 1)
     return Verdict(np.array([error for error, _ in found]), places, planned.allowed_error, seconds)
@@ -78,4 +78,4 @@ def planned_kernel(planned: Plan, x_mm: float, y_mm: float, vergence: float, cha
         planned.kernels(channel, planned.vergences[k]).at(float(sensor.x_mm(columns[b])), float(sensor.y_mm(rows[a])))
         for k, a, b in zip(*np.nonzero(table), strict=True)
     ]
-    return weighted(kernels, list(table[np.nonzero(table)]))
+    return weighted_sum(kernels, list(table[np.nonzero(table)]))

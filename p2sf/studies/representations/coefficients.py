@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import GridDatabase, traced_grid
-from p2sf.database.render import Database, Sampling, rendered
+from p2sf.database.render import Database, Sampling, render_source
 from p2sf.paraxial.pupils import find_stop
 from p2sf.studies.representations.representation import Representation
 from p2sf.studies.representations.space import LensSpace, SpacePoints
@@ -55,4 +55,4 @@ def _representation(space: LensSpace, database: Database, words: str, numbers: i
 
 def _psf(space: LensSpace, database: Database, points: SpacePoints) -> np.ndarray:
     places = points.depth_mm, points.field_slope, points.wavelength_um
-    return space.window.light(rendered(database, places, Sampling(*space.window.fine)))
+    return space.window.light(render_source(database, places, Sampling(*space.window.fine)))

@@ -12,7 +12,7 @@ from p2sf.database.fitted import FittedDatabase, powers, split
 from p2sf.database.fitted_build import build_fitted
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop
-from p2sf.psf.fitted import summed
+from p2sf.psf.fitted import sum_fit
 from p2sf.raytrace.fit import fit, level_rays, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
@@ -97,5 +97,5 @@ def _reach_um(space: LensSpace) -> float:
 
 def _psf(space: LensSpace, database: FittedDatabase, points: SpacePoints) -> np.ndarray:
     pixels, pixel_um = space.window.fine
-    pictures = [space.window.light(summed(database.fit_at(s), pixels, pixel_um)[0]) for s in points.sources()]
+    pictures = [space.window.light(sum_fit(database.fit_at(s), pixels, pixel_um)[0]) for s in points.sources()]
     return np.stack(pictures)

@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.fitted import summed
+from p2sf.psf.fitted import sum_fit
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import FittedPencil, fit, levels
@@ -58,7 +58,7 @@ def _fits(space: LensSpace, source: Source) -> Iterator[Representation]:
 
 
 def _sum_waves(space: LensSpace, found: FittedPencil, points: SpacePoints) -> np.ndarray:
-    return space.window.light(summed(found, *space.window.fine)[0])[None]
+    return space.window.light(sum_fit(found, *space.window.fine)[0])[None]
 
 
 def _wavefronts(space: LensSpace, source: Source) -> Iterator[Representation]:

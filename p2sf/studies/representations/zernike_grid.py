@@ -14,7 +14,7 @@ import numpy as np
 
 from p2sf.database.fitted import steepness
 from p2sf.lens.source import Source
-from p2sf.psf.fitted import summed
+from p2sf.psf.fitted import sum_fit
 from p2sf.pupil.basis import PupilBasis
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, terms
@@ -87,4 +87,4 @@ def _psf(
     found = node_weights(counts, rule, points.cube) @ table
     pixels, pixel_um = space.window.fine
     pencils = (pencil_of(row, order, wave) for row, wave in zip(found, points.wavelength_um.tolist(), strict=True))
-    return np.stack([space.window.light(summed(one, pixels, pixel_um)[0]) for one in pencils])
+    return np.stack([space.window.light(sum_fit(one, pixels, pixel_um)[0]) for one in pencils])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from p2sf_explorer.charts.reading import between, certain_digits, curves_at, parted, with_unit, written
+from p2sf_explorer.charts.reading import between, certain_digits, curves_at, format_number, split_label, with_unit
 
 
 @pytest.mark.parametrize(
@@ -19,7 +19,7 @@ from p2sf_explorer.charts.reading import between, certain_digits, curves_at, par
     ],
 )
 def test_a_number_has_four_digits_and_a_power_of_ten_where_zeros_would_hide_it(value, text):
-    assert written(value) == text
+    assert format_number(value) == text
 
 
 @pytest.mark.parametrize(("value", "error", "digits"), [(0.5, 0.0, 4), (0.5, 1e-3, 3), (0.5, 2e-3, 2), (0.5, 0.4, 1)])
@@ -47,7 +47,7 @@ def test_a_gap_has_no_value():
     [("field, °", "field", "°"), ("y, µm (towards the field)", "y", "µm"), ("contrast", "contrast", "")],
 )
 def test_an_axis_is_a_name_and_a_unit(label, name, unit):
-    assert parted(label) == (name, unit)
+    assert split_label(label) == (name, unit)
     assert with_unit("1", label) == f"1{'' if unit in ('°', '') else ' '}{unit}"
 
 

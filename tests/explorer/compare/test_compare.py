@@ -9,22 +9,22 @@ from p2sf.lens.lens import AIMS
 from p2sf.lensfile.library import lenses_folder
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
-from p2sf_explorer.compare.comparison import answers, resampled, window_of
+from p2sf_explorer.compare.comparison import answers, resample, window_of
 from p2sf_explorer.compare.contrasts import contrasts
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.compute.views.mtf import contrast
 from p2sf_explorer.compute.views.profiles import profiles
 from p2sf_explorer.state.limits import RINGS
-from p2sf_explorer.state.pinning import OPTICS, optics, pin, side_b, swapped, unpin, with_links
-from p2sf_explorer.state.state import ENTRIES, changed, entry, new_state
+from p2sf_explorer.state.pinning import OPTICS, optics, pin, side_b, swap, unpin, with_links
+from p2sf_explorer.state.state import ENTRIES, change, entry, new_state
 from p2sf_explorer.state.terms import TERMS
 from tests.support.lenses.zooms import focusing_zoom
 from tests.support.windows.events import choose
 
 VIEWS = {"profiles": profiles, "mtf": contrast}
 A = new_state(method="seidel", f_number=4.0, field_deg=5.0, theme="light")
-PAIR = changed(A, pinned=new_state(method="seidel", f_number=8.0, field_deg=5.0))
+PAIR = change(A, pinned=new_state(method="seidel", f_number=8.0, field_deg=5.0))
 
 
 def test_pinning_and_taking_away_leave_the_state_as_it_was():
@@ -35,12 +35,12 @@ def test_pinning_and_taking_away_leave_the_state_as_it_was():
 
 
 def test_exchanging_twice_is_nothing():
-    assert swapped(swapped(PAIR)) == PAIR
-    assert optics(swapped(PAIR)) == optics(PAIR.compare.pinned)
+    assert swap(swap(PAIR)) == PAIR
+    assert optics(swap(PAIR)) == optics(PAIR.compare.pinned)
 
 
 def test_only_what_is_linked_moves_both():
-    linked = changed(PAIR, linked=("field_deg",))
+    linked = change(PAIR, linked=("field_deg",))
     assert with_links(linked, {"field_deg": 9.0})["pinned"].optics.field_deg == 9.0
     assert with_links(linked, {"f_number": 2.0}) == {"f_number": 2.0}
     assert with_links(PAIR, {"field_deg": 9.0}) == {"field_deg": 9.0}
@@ -56,13 +56,13 @@ def test_both_stand_in_one_window_and_each_is_its_own_picture(quality):
 
 
 def test_the_window_holds_the_wider_of_the_two_whichever_is_a():
-    one, other = answers(PAIR, "settled", {}), answers(swapped(PAIR), "settled", {})
+    one, other = answers(PAIR, "settled", {}), answers(swap(PAIR), "settled", {})
     assert one.a.psf.pixel_um == other.a.psf.pixel_um
     assert np.array_equal(one.a.psf.values, other.b.psf.values)
 
 
 def test_what_is_on_screen_is_a_or_b_or_their_difference():
-    a, b, d = (answers(changed(PAIR, shown=side), "settled", VIEWS).seen for side in ("a", "b", "difference"))
+    a, b, d = (answers(change(PAIR, shown=side), "settled", VIEWS).seen for side in ("a", "b", "difference"))
     peak = max(a.psf.values.max(), b.psf.values.max())
     assert np.array_equal(d.difference.psf, (a.psf.values - b.psf.values) / peak)
     assert d.difference.psf.sum() == approx(0, abs=1e-5 / peak)  # both of unit sum in float32
@@ -76,7 +76,7 @@ def test_what_is_on_screen_is_a_or_b_or_their_difference():
 
 
 def test_stopped_down_the_difference_of_contrast_ends_where_the_wider_one_does():
-    sides = (changed(PAIR, shown=side) for side in ("a", "b", "difference"))
+    sides = (change(PAIR, shown=side) for side in ("a", "b", "difference"))
     a, b, d = (answers(state, "settled", VIEWS).seen.views["mtf"] for state in sides)
     assert b.frequency_per_mm[-1] < a.frequency_per_mm[-1]  # the cut-off 2NA/λ halves from f/4 to f/8
     beyond = a.frequency_per_mm > b.frequency_per_mm[-1]
@@ -85,7 +85,7 @@ def test_stopped_down_the_difference_of_contrast_ends_where_the_wider_one_does()
 
 
 def test_equal_setups_differ_nowhere():
-    found = answers(changed(pin(A), shown="difference"), "settled", VIEWS).seen.difference
+    found = answers(change(pin(A), shown="difference"), "settled", VIEWS).seen.difference
     assert not found.psf.any()
     assert not np.nan_to_num(found.pupil.waves).any()
     assert contrasts(pin(A)) == ()
@@ -106,7 +106,7 @@ UNLIKE = {
 def test_whatever_makes_another_picture_is_named(name):
     """B differs from A in one entry of what makes a picture: the strip must not call the two the same."""
     value = (lenses_folder() / f"{A.optics.lens}.toml").read_text("utf-8") if name == "lens_text" else UNLIKE[name]
-    title, a, b = contrasts(changed(pin(A), **{name: value}))[0]
+    title, a, b = contrasts(change(pin(A), **{name: value}))[0]
     assert title and a != b
 
 
@@ -114,12 +114,12 @@ def test_whatever_makes_another_picture_is_named(name):
 def test_a_turned_ring_is_named(name, title):
     place, words = {"zoom": (47.5, "47.5 mm"), "focus_position": (2.5, "2.50")}[name]
     pinned = pin(with_lens(A, A.optics.lens, lens_to_toml(focusing_zoom())))
-    ((found, a, b), *_) = contrasts(changed(pinned, **{name: place}))
+    ((found, a, b), *_) = contrasts(change(pinned, **{name: place}))
     assert found == title and str(a) == words and a != b
 
 
 def test_two_methods_are_put_on_one_grid():
-    state = changed(pin(changed(A, method="traced")), method="seidel", shown="difference")
+    state = change(pin(change(A, method="traced")), method="seidel", shown="difference")
     found = answers(state, "settled", {}).seen.difference
     # On axis-like 5° at f/4 the fourth-order wavefront and the exact one agree to a wave over most of the pupil.
     assert np.isfinite(found.pupil.waves).mean() > 0.6
@@ -130,7 +130,7 @@ def test_resampling_keeps_a_plane():
     axis = (np.arange(64) + 0.5) / 64
     plane = 2 * axis[:, None] - 3 * axis
     other = (np.arange(96) + 0.5) / 96
-    assert np.allclose(resampled(plane, 96)[1:-1, 1:-1], (2 * other[:, None] - 3 * other)[1:-1, 1:-1])
+    assert np.allclose(resample(plane, 96)[1:-1, 1:-1], (2 * other[:, None] - 3 * other)[1:-1, 1:-1])
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from pytest import approx
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf_explorer.compare.comparison import answers
-from p2sf_explorer.compare.differences import minus, subtracted
+from p2sf_explorer.compare.differences import minus, subtract
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.views.first_order import aperture, distance, length, pupil, stop
 from p2sf_explorer.compute.views.through_focus import answer
@@ -18,7 +18,7 @@ from p2sf_explorer.i18n import language as languages
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.state.panels import PANELS, difference_of, view_of
 from p2sf_explorer.state.pinning import side_b
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 PAIR = new_state(
     method="seidel", f_number=4.0, field_deg=5.0, theme="light", pinned=new_state(method="seidel", f_number=8.0)
@@ -33,8 +33,8 @@ STILL = ("solid", "image", "database", "accuracy", "colour")  # OpenGL, or secon
 @pytest.fixture(scope="module")
 def views():
     wanted = {key: view_of(PANELS[key]) for key in SUBTRACTED}
-    a, b = (compute.live(side, "preview", wanted).views for side in (changed(PAIR, pinned=None), side_b(PAIR)))
-    return a, b, answers(changed(PAIR, shown="difference"), "preview", wanted).seen.views
+    a, b = (compute.live(side, "preview", wanted).views for side in (change(PAIR, pinned=None), side_b(PAIR)))
+    return a, b, answers(change(PAIR, shown="difference"), "preview", wanted).seen.views
 
 
 def test_every_panel_either_differs_or_says_why():
@@ -47,7 +47,7 @@ def test_every_panel_either_differs_or_says_why():
 
 
 def test_in_the_window_every_panel_names_its_side_and_says_why(window):
-    window.store.replace(changed(PAIR, shown="difference"))
+    window.store.replace(change(PAIR, shown="difference"))
     for key in (key for key in PANELS if key not in STILL):
         window.open_panel(key)
         card = window.panels[key].widget
@@ -57,7 +57,7 @@ def test_in_the_window_every_panel_names_its_side_and_says_why(window):
     window.store.update(shown="b", tab="profiles")
     assert window.panels["layout"].widget.title.text() == "Layout · B"
     assert not window.panels["layout"].widget.note.isVisible()
-    window.store.replace(changed(PAIR, pinned=None))
+    window.store.replace(change(PAIR, pinned=None))
     assert window.panels["layout"].widget.title.text() == "Layout"
 
 
@@ -76,7 +76,7 @@ def test_a_lens_with_other_surfaces_has_no_sums_to_take_away(views):
     other = compute.live(
         new_state(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(PANELS["seidel"])}
     )
-    shown, why = subtracted("seidel", views[0]["seidel"], other.views["seidel"])
+    shown, why = subtract("seidel", views[0]["seidel"], other.views["seidel"])
     assert shown is views[0]["seidel"] and why.values == {"a": 11, "b": 6}
 
 
@@ -93,7 +93,7 @@ def test_a_colour_b_cannot_show_has_no_difference(views):
     assert d.shift_um == approx(a.shift_um - b.shift_um)
     assert d.shift_um[0] == approx(0, abs=1e-9)  # paraxial rays do not know the stop
     short = replace(b, wavelength_nm=b.wavelength_nm[5:], shift_um=b.shift_um[:, 5:])
-    assert np.isnan(subtracted("chromatic", a, short)[0].shift_um[:, :5]).all()
+    assert np.isnan(subtract("chromatic", a, short)[0].shift_um[:, :5]).all()
 
 
 def test_the_strip_is_light_less_light_at_the_same_places(views):
@@ -103,7 +103,7 @@ def test_the_strip_is_light_less_light_at_the_same_places(views):
     found = answer(replace(few, less=replace(d.less, shifts_um=few.shifts_um)), lambda: False, lambda *_: None)
     parts = [answer(part, lambda: False, lambda *_: None) for part in (few, replace(d.less, shifts_um=few.shifts_um))]
     assert np.allclose(found.light, parts[0].light - parts[1].light) and found.light.any()
-    assert subtracted("through_focus", a, Message("no"))[1] == Message("no")
+    assert subtract("through_focus", a, Message("no"))[1] == Message("no")
 
 
 @pytest.mark.parametrize(

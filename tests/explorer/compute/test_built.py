@@ -7,7 +7,7 @@ import pytest
 
 from p2sf.errors import P2SFError
 from p2sf.glass.media import ShiftedIndex
-from p2sf.lens.misalignment import displaced, straightened
+from p2sf.lens.misalignment import displaced, straighten
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
@@ -21,11 +21,11 @@ from p2sf_explorer.compute.glass_outlines import Section
 from p2sf_explorer.compute.layout import layout_of
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import pupil_of
-from p2sf_explorer.compute.setup import built, paraxial_setup, prescription, with_lens
+from p2sf_explorer.compute.setup import built_lens, paraxial_setup, prescription, with_lens
 from p2sf_explorer.compute.views.field_map import field_map
-from p2sf_explorer.state.build_errors import renumbered, with_error, without_piece
-from p2sf_explorer.state.built import adjustments, exaggerated, pieces, with_errors
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.build_errors import renumber, with_error, without_piece
+from p2sf_explorer.state.built import adjustments, exaggerate, pieces, with_errors
+from p2sf_explorer.state.state import change, new_state
 from tests.support.depths import RELAYS_MM
 from tests.support.rays.perturbed_rays import perturbed
 from tests.support.waves import rms_about_plane
@@ -35,7 +35,7 @@ SKEW = (("decentre_x", 3, 5, 0.08), ("tilt_x", 1, 2, 0.1), ("tilt_y", 3, 5, -0.0
 
 
 def of(errors, **entries):
-    return changed(START, errors=errors, **entries)
+    return change(START, errors=errors, **entries)
 
 
 def chief(state):
@@ -59,7 +59,7 @@ def test_the_whole_lens_moves_the_image_of_infinity_with_it(by):
     """A lens at infinity images directions; moved sideways by d it moves every image by d, and changes no picture."""
     state, moved = of(()), of((("decentre_y", 1, 11, by),))
     assert chief(moved) - chief(state) == pytest.approx([0, by], abs=1e-12)
-    a, b = (live(changed(each, method="traced"), "settled").psf for each in (state, moved))
+    a, b = (live(change(each, method="traced"), "settled").psf for each in (state, moved))
     assert a.pixel_um == b.pixel_um
     # The pupil with symmetry and the one without are summed at other nodes, each settled to 1e-3.
     assert np.abs(a.values - b.values).max() < 2e-3 * a.values.max()
@@ -78,7 +78,7 @@ def test_a_near_source_is_imaged_with_the_magnification_about_the_moved_axis():
 def test_setting_back_gives_the_very_same_picture():
     errors = with_error(with_error((), "decentre_y", (3, 5), 0.1), "tilt_x", (1, 2), 0.3)
     assert with_error(with_error(errors, "decentre_y", (3, 5), 0.0), "tilt_x", (1, 2), 0.0) == ()
-    before, after = live(of(()), "settled"), live(changed(of(errors), errors=()), "settled")
+    before, after = live(of(()), "settled"), live(change(of(errors), errors=()), "settled")
     assert np.array_equal(before.psf.values, after.psf.values)
     assert np.array_equal(before.pupil.waves, after.pupil.waves, equal_nan=True)
 
@@ -152,15 +152,15 @@ def test_what_cannot_be_built_is_one_sentence_with_surface_and_value(errors, say
 )
 def test_a_state_has_no_errors_that_are_none(bad):
     with pytest.raises(P2SFError):
-        changed(START, errors=bad)
+        change(START, errors=bad)
 
 
 def test_rows_put_in_or_taken_out_keep_errors_at_their_glass():
     errors = (("radius", 3, 3, 0.1), ("decentre_y", 3, 5, 0.1), ("tilt_x", 7, 9, 0.2))
-    more = renumbered(errors, 4, 1)
+    more = renumber(errors, 4, 1)
     assert more == (("radius", 3, 3, 0.1), ("decentre_y", 3, 6, 0.1), ("tilt_x", 8, 10, 0.2))
-    assert renumbered(more, 5, -1) == errors
-    assert renumbered(errors, 3, -1) == (("decentre_y", 3, 4, 0.1), ("tilt_x", 6, 8, 0.2))
+    assert renumber(more, 5, -1) == errors
+    assert renumber(errors, 3, -1) == (("decentre_y", 3, 4, 0.1), ("tilt_x", 6, 8, 0.2))
 
 
 def test_a_piece_is_set_right_with_its_radii_and_glasses():
@@ -189,7 +189,7 @@ def test_an_index_is_off_alike_at_every_wavelength_and_is_kept_by_a_file():
 
 def test_a_drawing_exaggerates_places_alone_and_never_too_far():
     errors = (("radius", 3, 3, 0.1), ("decentre_y", 3, 5, 0.1), ("tilt_x", 3, 5, 2.0))
-    larger, factor = exaggerated(errors, 100)
+    larger, factor = exaggerate(errors, 100)
     assert factor == 30 and larger == (("radius", 3, 3, 0.1), ("decentre_y", 3, 5, 3.0), ("tilt_x", 3, 5, 60.0))
     shown = live(of((("decentre_y", 3, 5, 0.1),), exaggerated=10), "preview").layout
     assert shown.exaggerated == 10 and shown.note
@@ -216,7 +216,7 @@ def test_the_drawn_rays_are_those_that_are_traced():
 )
 def test_drawn_rays_meet_the_rim_of_the_stop_which_does_not_clip_them(name, errors, field):
     """The stop stands upright behind the pieces that are moved, so that η = ±1 is y = ±rim there."""
-    state = changed(with_lens(new_state(), name), errors=errors, field_deg=field, f_number=4.0, clip=True)
+    state = change(with_lens(new_state(), name), errors=errors, field_deg=field, f_number=4.0, clip=True)
     stop, rays = paraxial_setup(state).stop, live(state, "preview").layout.rays
     edge = [ray for ray in rays if ray.kind == "rim"]
     assert len(edge) == 2 and not any(ray.clipped for ray in rays)
@@ -227,7 +227,7 @@ def test_drawn_rays_meet_the_rim_of_the_stop_which_does_not_clip_them(name, erro
 
 def test_the_drawn_sensor_keeps_its_height_while_a_part_is_moved():
     """It holds the widest field of the aligned lens; its height does not flicker with an error of the build."""
-    assert straightened(with_errors(prescription(START), SKEW)) == prescription(START)
+    assert straighten(with_errors(prescription(START), SKEW)) == prescription(START)
     halves = {live(of((("decentre_y", 3, 5, by),)), "preview").layout.sensor_half for by in (0.0, 0.01, 0.3)}
     assert len(halves) == 1
 
@@ -266,7 +266,7 @@ def test_errors_beyond_the_lens_are_passed_over_and_those_of_the_sensor_tilt_it(
 
 
 def test_a_built_lens_is_the_prescription_where_nothing_is_off():
-    assert built(START) is prescription(START)
+    assert built_lens(START) is prescription(START)
 
 
 def test_nodes_stand_in_the_map_where_their_fields_do():
@@ -278,7 +278,7 @@ def test_nodes_stand_in_the_map_where_their_fields_do():
 
     def coma(place):
         field_x, field_y = found.field_of(np.array(place))
-        setup = paraxial_setup(changed(state, field_deg=field_y, field_x_deg=field_x))
+        setup = paraxial_setup(change(state, field_deg=field_y, field_x_deg=field_x))
         return abs(exact_aberrations(setup.lens, setup.source)[0])
 
     # The fifth order moves the exact node by some hundredths of the map; mirrored, it would be far away.
@@ -290,15 +290,15 @@ def test_nodes_stand_in_the_map_where_their_fields_do():
 @pytest.mark.parametrize("error", [("thickness", 3, 3, 0.5), ("radius", 5, 5, 2.0), ("index", 4, 4, 0.005)], ids=str)
 def test_the_iris_of_a_built_lens_keeps_its_radius(error, stop):
     """At an f-number the stop of the lens with errors is that of the lens without, in every view and in its file."""
-    still, off = (changed(START, f_number=8.0, stop=stop, errors=errors) for errors in ((), (error,)))
+    still, off = (change(START, f_number=8.0, stop=stop, errors=errors) for errors in ((), (error,)))
     rim = float(paraxial_setup(still).stop.semi_diameter)
     assert [float(paraxial_setup(off).stop.semi_diameter), layout_of(off, paraxial_setup(off)).drawing.stop_rim] == [
         pytest.approx(rim, rel=1e-15)
     ] * 2
     mean = np.abs(rim_heights(off))
     assert mean == pytest.approx(rim, rel=1e-7), "exact rays of the rim"
-    filed = changed(with_lens(new_state(), "fast_gauss_f14"), errors=(error,))
-    saved = parse_toml(lens_to_toml(built(filed)), "saved")
+    filed = change(with_lens(new_state(), "fast_gauss_f14"), errors=(error,))
+    saved = parse_toml(lens_to_toml(built_lens(filed)), "saved")
     assert stop_rim(saved) == pytest.approx(stop_rim(prescription(filed)), rel=1e-15)
 
 
@@ -315,7 +315,7 @@ def test_an_object_at_a_finite_depth_stays_where_it_is():
     start = with_lens(new_state(), "telecentric_relay")
     field = max(find_lens("telecentric_relay").fields_deg)
     designed, moved = (
-        changed(start, depth_mm=RELAYS_MM["telecentric_relay"], field_deg=field, errors=errors)
+        change(start, depth_mm=RELAYS_MM["telecentric_relay"], field_deg=field, errors=errors)
         for errors in ((), (("thickness", 6, 6, 0.2),))
     )
     setup = paraxial_setup(designed)

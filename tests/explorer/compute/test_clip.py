@@ -7,9 +7,9 @@ from p2sf.raytrace.pencil import Status, pencil
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.compute.views.rays import FAN_RAYS, figures, landed, path_errors, ray_errors, spots
+from p2sf_explorer.compute.views.rays import FAN_RAYS, figures, landing_points, path_errors, ray_errors, spots
 from p2sf_explorer.scene3d.ray_bundle import ray_bundle
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 CLIPPED = new_state(lens="fast_gauss_f14", field_deg=22.0, clip=True, aim="paraxial", method="seidel")
 
@@ -34,7 +34,7 @@ def test_a_drawn_ray_ends_where_the_pencil_says_that_a_rim_stops_it(name, field,
 
 
 def test_without_clip_nothing_ends_and_a_stopped_ray_is_not_called_lost():
-    assert all(ray.passed for ray in live(changed(CLIPPED, clip=False), "preview").layout.rays)
+    assert all(ray.passed for ray in live(change(CLIPPED, clip=False), "preview").layout.rays)
     assert not any("drawn rays do" in message.template for message in live(CLIPPED, "preview").warnings)
 
 
@@ -46,7 +46,7 @@ def test_fans_have_gaps_where_rays_are_stopped(view):
     for values, at in ((fan.tangential, (zero, line)), (fan.sagittal, (line, zero))):
         assert np.array_equal(np.isfinite(values), pencil(setup.lens, setup.source, *at, clip=True).passed)
     assert np.isnan(fan.tangential).any()
-    assert np.isfinite(view(live(changed(CLIPPED, clip=False), "preview")).tangential).all()
+    assert np.isfinite(view(live(change(CLIPPED, clip=False), "preview")).tangential).all()
 
 
 def test_the_spot_says_that_rims_stop_rays():
@@ -54,7 +54,7 @@ def test_the_spot_says_that_rims_stop_rays():
     found = spots(answer)
     rows = {name: (value, why) for name, value, why in figures(found, 1.0, clip=True)}
     value, why = rows["Rays within the rims"]
-    assert value.values["count"] == len(landed(found)) < value.values["all"] == found.x_um.size
+    assert value.values["count"] == len(landing_points(found)) < value.values["all"] == found.x_um.size
     assert "rim" in why and "Rays within the rims" not in {row[0] for row in figures(found, 1.0)}
 
 

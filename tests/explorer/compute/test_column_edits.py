@@ -7,16 +7,16 @@ from p2sf.lens.lens import with_absorption
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import as_in_columns, lens_at
-from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
+from p2sf_explorer.compute.editing import delete_surface, edited_state, insert_surface, with_stop, with_value
 from p2sf_explorer.compute.setup import prescription, with_lens
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from tests.support.lenses.zooms import two_group_zoom
 
 ZOOM = two_group_zoom()
 
 
 def at(zoom: float, **entries) -> State:
-    return changed(with_lens(State(), "double_gauss_28", lens_to_toml(ZOOM)), zoom=zoom, keep_focus="off", **entries)
+    return change(with_lens(State(), "double_gauss_28", lens_to_toml(ZOOM)), zoom=zoom, keep_focus="off", **entries)
 
 
 def typed(state: State, number: int, column: str, text: str) -> State:
@@ -31,7 +31,7 @@ def test_absorption_is_of_the_lens_and_not_of_a_column():
     """Between columns too, and once more it is as in the file."""
     lens = prescription(at(40.0))
     state = edited_state(at(40.0), with_absorption(lens))
-    assert prescription(state).absorption and prescription(changed(state, zoom=35.0)).absorption
+    assert prescription(state).absorption and prescription(change(state, zoom=35.0)).absorption
     assert not prescription(edited_state(state, with_absorption(prescription(state), False))).absorption
 
 
@@ -62,7 +62,7 @@ def test_between_columns_what_varies_is_refused_by_name():
 
 @pytest.mark.parametrize("zoom", [30.0, 40.0, 45.0])
 def test_every_column_keeps_its_focus(zoom):
-    state = changed(at(zoom), keep_focus="paraxial")
+    state = change(at(zoom), keep_focus="paraxial")
     for lens in columns(typed(state, 4, "radius", "-21")):
         # As sharp as before: its image was on the sensor to some roundings of 80 mm.
         assert lens.sensor_mm == pytest.approx(float(image_distance(lens, float("inf"), 0.5875618)), abs=1e-10)
@@ -70,11 +70,11 @@ def test_every_column_keeps_its_focus(zoom):
 
 def test_surfaces_come_and_go_in_all_columns():
     state = at(45.0)
-    more = edited_state(state, inserted(prescription(state), 2))
+    more = edited_state(state, insert_surface(prescription(state), 2))
     assert {len(lens.surfaces) for lens in columns(more)} == {5}
     halves = [lens.surfaces[1].thickness for lens in columns(more)]
     assert halves == [lens.surfaces[1].thickness / 2 for lens in ZOOM.positions.lenses]
-    fewer = edited_state(more, deleted(prescription(more), 3))
+    fewer = edited_state(more, delete_surface(prescription(more), 3))
     assert [lens.surfaces[1].thickness for lens in columns(fewer)] == pytest.approx([2 * half for half in halves])
     moved = edited_state(state, with_stop(prescription(state), 4))
     assert {lens.stop_surface for lens in columns(moved)} == {4}
@@ -83,7 +83,7 @@ def test_surfaces_come_and_go_in_all_columns():
 def test_an_edit_taken_back_is_the_file_again(tmp_path):
     path = tmp_path / "zoom.toml"
     path.write_text(lens_to_toml(ZOOM))
-    state = changed(with_lens(State(), str(path)), zoom=45.0, keep_focus="off")
+    state = change(with_lens(State(), str(path)), zoom=45.0, keep_focus="off")
     edited = typed(state, 4, "radius", "-21")
     assert edited.optics.lens_text is not None
     assert typed(edited, 4, "radius", "-20").optics.lens_text is None

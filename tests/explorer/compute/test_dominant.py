@@ -13,7 +13,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import dominant, pupil_of, strongest, variance_parts
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from tests.support.waves import rms_about_plane
 
 ZERO = replace(paraxial_setup(State()).coefficients, w40=0.0, w31=0.0, w22=0.0, w20=0.0, wd=0.0, w11=0.0)
@@ -98,7 +98,7 @@ def test_the_headline_is_made_of_the_wavefront_that_makes_the_picture(quality):
         assert 100 * pupil.parts[name] / total == pytest.approx(percent, abs=0.6), name  # rounded to whole percents
     assert "term" not in answer.dominant.values, "it is what refocusing would remove"
     assert answer.dominant.values["percent"] == pytest.approx(30, abs=1)
-    seidel = live(changed(state, method="seidel"), quality)
+    seidel = live(change(state, method="seidel"), quality)
     assert seidel.dominant.values["percent"] > 80  # the six coefficients make another picture here
 
 

@@ -13,7 +13,7 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.state.panels import REGISTRY, view_of
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from tests.support.lenses.mirrors import folded
 
 SAME = (
@@ -26,7 +26,7 @@ CLOSE = {"rtol": 1e-5, "atol": 1e-7}
 
 def answer(lens: Lens, names: list[str], **changes: float | str) -> Live:
     views = {entry.key: view_of(entry) for entry in REGISTRY if entry.key in names}
-    return live(changed(default_state("lens", lens_to_toml(lens)), **changes), views=views)
+    return live(change(default_state("lens", lens_to_toml(lens)), **changes), views=views)
 
 
 def differences(one: object, two: object, place: str) -> list[str]:

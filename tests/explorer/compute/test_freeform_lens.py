@@ -12,7 +12,7 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.state.panels import REGISTRY, view_of
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def text() -> str:
 
 @pytest.mark.parametrize("method", ["fitted", "auto", "seidel"])
 def test_every_panel_answers(text, method):
-    state = changed(default_state("lens", text), field_deg=5.0, method=method)
+    state = change(default_state("lens", text), field_deg=5.0, method=method)
     found = live(state, views={entry.key: view_of(entry) for entry in REGISTRY if entry.view})
     rows = found.views["lens"].beside
     assert [row["aspheric"].short for row in rows].count((Message("XY polynomial"),)) == 1

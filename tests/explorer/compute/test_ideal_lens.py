@@ -15,7 +15,7 @@ from p2sf_explorer.compute.meridional import path
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.scene3d.meshes import elements
 from p2sf_explorer.state.panels import REGISTRY, view_of
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from tests.support.lenses.simple_lenses import two_thin_lenses
 
 
@@ -26,7 +26,7 @@ def lens() -> Lens:
 
 
 def test_every_panel_answers(lens):
-    state = changed(default_state("lens", lens_to_toml(lens)), field_deg=5.0)
+    state = change(default_state("lens", lens_to_toml(lens)), field_deg=5.0)
     found = live(state, views={entry.key: view_of(entry) for entry in REGISTRY if entry.view})
     assert float(np.asarray(found.psf.strehl)) == pytest.approx(1.0, abs=1e-6)
     assert found.views["lens"].beside[0]["aspheric"].short == (Message("ideal lens"),)

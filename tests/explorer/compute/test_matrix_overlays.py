@@ -12,14 +12,14 @@ from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.matrix.overlays import PLAIN, CurveOverlay, answer, overlay, overlay_request
 from p2sf_explorer.compute.setup import default_state, load, paraxial_setup
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
-TRIPLET = changed(default_state("cooke_triplet"), f_number=8.0)
+TRIPLET = change(default_state("cooke_triplet"), f_number=8.0)
 NM = 550.0
 
 
 def worked(state, **entries) -> CurveOverlay:
-    request = overlay_request(live(changed(state, **entries), "preview"))
+    request = overlay_request(live(change(state, **entries), "preview"))
     told = []
     found = answer(request, lambda: False, lambda share, so_far: told.append(share))
     assert told == sorted(told) and told[-1] == 1.0
@@ -53,7 +53,7 @@ def test_a_perfect_pupil_has_the_contrast_of_a_circle_everywhere():
     """2(arccos s − s√(1 − s²))/π, s over the cut-off 2NA/λ (Goodman 2005, eq. 6-30)."""
     state = new_state(method="seidel", free_pupil=True)
     found = worked(state, curves_of="fields")
-    na = float(paraxial_setup(changed(state, field_deg=0.0)).coefficients.na)
+    na = float(paraxial_setup(change(state, field_deg=0.0)).coefficients.na)
     s = np.minimum(found.x / (2 * na / (state.optics.wavelength_nm * 1e-6)), 1.0)
     perfect = 2 / np.pi * (np.arccos(s) - s * np.sqrt(1 - s * s))
     assert np.all(circle_contrast(s) == pytest.approx(perfect, abs=1e-12))
@@ -63,7 +63,7 @@ def test_a_perfect_pupil_has_the_contrast_of_a_circle_everywhere():
 
 def test_the_spectrum_is_that_of_the_library_and_lies_within_its_lines():
     """The spectrum's curve against the library's own way to it, with lines, whose weights are ȳ alone."""
-    state = changed(TRIPLET, spectrum="lines:486.13,587.56,656.27", field_deg=14.0, curves_of="colours")
+    state = change(TRIPLET, spectrum="lines:486.13,587.56,656.27", field_deg=14.0, curves_of="colours")
     found = worked(state)
     alone = own(14.0, frequency_per_mm=found.x, spectrum="lines:486.13,587.56,656.27")
     assert lines(found)["spectrum tangential"] == pytest.approx(alone.tangential, abs=1e-9)
@@ -73,7 +73,7 @@ def test_the_spectrum_is_that_of_the_library_and_lies_within_its_lines():
 
 
 def test_one_line_alone_is_its_own_spectrum():
-    state = changed(TRIPLET, spectrum="lines:550", matrix_wavelengths_nm=(NM, 600.0), curves_of="colours")
+    state = change(TRIPLET, spectrum="lines:550", matrix_wavelengths_nm=(NM, 600.0), curves_of="colours")
     found = lines(worked(state))
     assert found["spectrum tangential"] == pytest.approx(found["550.0 nm tangential"], abs=1e-12)
 
@@ -88,18 +88,18 @@ def test_over_the_field_each_place_is_the_contrast_of_that_field():
 
 
 def test_through_focus_each_place_is_the_contrast_there_and_does_not_follow_the_sensor():
-    state = changed(TRIPLET, curves_of="focus", field_deg=14.0, curves_frequencies_per_mm=(30.0,))
+    state = change(TRIPLET, curves_of="focus", field_deg=14.0, curves_frequencies_per_mm=(30.0,))
     found = worked(state)
     for k in (0, 6, len(found.x) - 1):
         alone = own(14.0, frequency_per_mm=np.array([30.0]), sensor_shift_um=float(found.x[k]))
         assert lines(found)["30/mm tangential"][k] == pytest.approx(alone.tangential[0], abs=1e-9)
-    here, there = (overlay_request(live(changed(state, sensor_shift_um=s), "preview")) for s in (0.0, 25.0))
+    here, there = (overlay_request(live(change(state, sensor_shift_um=s), "preview")) for s in (0.0, 25.0))
     assert here == there
 
 
 def test_a_pure_defocus_is_even_about_its_focus():
     """Contrast through focus of a lens of little aberration has its maximum at the paraxial image."""
-    state = changed(default_state("achromat_f6"), f_number=20.0, field_deg=0.0, curves_of="focus")
+    state = change(default_state("achromat_f6"), f_number=20.0, field_deg=0.0, curves_of="focus")
     found = worked(state, curves_frequencies_per_mm=(20.0,))
     c = paraxial_setup(state).own
     step = found.x[1] - found.x[0]
@@ -111,7 +111,7 @@ def test_a_pure_defocus_is_even_about_its_focus():
 @pytest.mark.parametrize("depth_mm", [np.inf, 600.0])
 def test_lateral_colour_is_that_of_one_object_point(depth_mm):
     """One point of the object, whatever the colour: its height is −slope·(distance to that colour's entrance pupil)."""
-    state = changed(TRIPLET, depth_mm=depth_mm, focus_mm=depth_mm, curves_of="lateral")
+    state = change(TRIPLET, depth_mm=depth_mm, focus_mm=depth_mm, curves_of="lateral")
     found = overlay(live(state))
     setup, blue = paraxial_setup(state), 480.0
     angle = found.x[-1]
@@ -130,7 +130,7 @@ def test_lateral_colour_is_that_of_one_object_point(depth_mm):
 
 def test_distortion_is_of_the_third_order_near_the_axis():
     """Distortion of W11 grows with the square of the field; what exact rays add to it, with the fourth power."""
-    state = changed(TRIPLET, focus_mm=np.inf, curves_of="distortion")  # W11 is of the Gaussian image plane
+    state = change(TRIPLET, focus_mm=np.inf, curves_of="distortion")  # W11 is of the Gaussian image plane
     found = overlay(live(state))
     exact, third = lines(found)["550.0 nm"], lines(found)["550.0 nm third order"]
     slopes = np.tan(np.deg2rad(found.x))
@@ -145,7 +145,7 @@ def test_distortion_is_of_the_third_order_near_the_axis():
 
 def test_a_pinhole_darkens_with_the_fourth_power_and_rims_take_more():
     """A lens stopped far down, with little distortion and pupil aberration, keeps near to cos⁴ (Welford 1986, §6.5)."""
-    found = worked(changed(default_state("double_gauss_28"), f_number=16.0), curves_of="illumination")
+    found = worked(change(default_state("double_gauss_28"), f_number=16.0), curves_of="illumination")
     alone, rims = lines(found)["the stop alone"], lines(found)["rims clip"]
     pinhole = 100 * np.cos(np.deg2rad(found.x)) ** 4
     assert lines(found)["cos⁴ of a pinhole"] == pytest.approx(pinhole)
@@ -156,7 +156,7 @@ def test_a_pinhole_darkens_with_the_fourth_power_and_rims_take_more():
 
 def test_illumination_is_light_through_the_stop_over_the_sensors_area():
     """Two fields by a plain sum: rays through an even grid of the stop, their solid angle, and the image's stretch."""
-    state = changed(TRIPLET, curves_of="illumination")
+    state = change(TRIPLET, curves_of="illumination")
     found = worked(state)
     setup = paraxial_setup(state)
     step = 1e-4
@@ -187,13 +187,13 @@ def grid():
 
 
 def test_a_field_that_no_light_reaches_is_a_gap():
-    state = changed(TRIPLET, matrix_fields_deg=(0.0, 70.0), curves_of="fields")
+    state = change(TRIPLET, matrix_fields_deg=(0.0, 70.0), curves_of="fields")
     found = lines(worked(state))
     assert np.isnan(found["70° tangential"]).all() and np.isfinite(found["0° tangential"]).all()
 
 
 def test_lenses_without_rims_say_so():
     lens = load("achromat_f6")
-    found = worked(changed(default_state("achromat_f6"), curves_of="illumination"))
+    found = worked(change(default_state("achromat_f6"), curves_of="illumination"))
     stated = any(np.isfinite(surface.semi_diameter) for surface in lens.surfaces)
     assert np.isfinite(lines(found)["rims clip"]).all() == stated and (found.missing is None) == stated

@@ -12,26 +12,26 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.matrix import pictures
-from p2sf_explorer.compute.matrix.pictures import HELD, matrix, previews, quick_radius_um, settled
+from p2sf_explorer.compute.matrix.pictures import HELD, matrix, previews, quick_radius_um, settle
 from p2sf_explorer.compute.matrix.points import matrix_request
 from p2sf_explorer.compute.matrix.tiles import figures, peaks, scales, worst
 from p2sf_explorer.compute.sampled import in_window
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.compute.views import rays
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from tests.support.waves import rms_about_plane
 
-TRIPLET = changed(default_state("cooke_triplet"), f_number=8.0)
+TRIPLET = change(default_state("cooke_triplet"), f_number=8.0)
 SHAPES = ("wavelength_nm", "depth_mm", "sensor_shift_um")
 
 
 def request_of(state, **entries):
-    return matrix_request(live(changed(state, **entries), "preview"))
+    return matrix_request(live(change(state, **entries), "preview"))
 
 
 def worked(request):
     told = []
-    return settled(request, lambda: False, lambda share, tiles: told.append((share, tiles))), told
+    return settle(request, lambda: False, lambda share, tiles: told.append((share, tiles))), told
 
 
 def each(request, tiles):
@@ -86,7 +86,7 @@ def test_rays_are_those_of_the_single_panel(what, across):
     for state, tile in each(request, previews(request, "settled")):
         alone = view(live(state))
         if what == "spot":
-            assert tile.content.points == pytest.approx(rays.landed(alone), abs=1e-6)  # µm
+            assert tile.content.points == pytest.approx(rays.landing_points(alone), abs=1e-6)  # µm
             assert str(tile.figure) == f"RMS {float(alone.rms_um):.3g} µm" or "0" in str(tile.figure)
         else:
             for name in ("sagittal", "tangential"):
@@ -115,7 +115,7 @@ def test_the_pupil_has_the_rms_of_the_rays(quality):
 @pytest.mark.parametrize("obscuration", [0.0, 0.35])
 def test_contrast_is_that_of_the_library(obscuration):
     request = request_of(TRIPLET, matrix_what="mtf", matrix_rows=2, matrix_columns=2, obscuration=obscuration)
-    assert matrix(live(changed(TRIPLET, matrix_what="mtf"))).tiles is None, "it takes longer than a frame"
+    assert matrix(live(change(TRIPLET, matrix_what="mtf"))).tiles is None, "it takes longer than a frame"
     for state, tile in each(request, worked(request)[0]):
         setup, x = paraxial_setup(state), tile.content.x
         angle = state.optics.field_deg
@@ -146,7 +146,7 @@ def test_one_quantity_stands_below_all_pictures(fields_deg):
 
 @pytest.mark.parametrize("field_deg", [0.0, 10.0, 14.0])
 def test_the_radius_of_a_moving_picture_is_that_of_the_settled_one(field_deg):
-    psf = in_window(changed(default_state("double_gauss_28"), field_deg=field_deg), (128, 300 / 128), False)
+    psf = in_window(change(default_state("double_gauss_28"), field_deg=field_deg), (128, 300 / 128), False)
     assert quick_radius_um(psf) == pytest.approx(float(radius_of_energy(psf, HELD)), abs=psf.pixel_um)
 
 
@@ -177,7 +177,7 @@ def test_one_scale_is_the_largest_of_all():
 def test_what_moves_ends_the_work_between_two_pictures():
     request = request_of(TRIPLET, matrix_rows=2)
     told = []
-    found = settled(request, lambda: len(told) >= 2, lambda share, tiles: told.append(share))
+    found = settle(request, lambda: len(told) >= 2, lambda share, tiles: told.append(share))
     assert len(told) == 2
     assert [tile.settled for row in found for tile in row] == [True, True, False, False, False, False]
 
@@ -194,7 +194,7 @@ def test_rows_of_a_group_are_not_mixed():
     """Each source's rays of a common trace, field by field of the pencil."""
     request = request_of(TRIPLET)
     places = pictures._places(request)
-    for place in pictures._traced(places, "psf", "preview"):
+    for place in pictures._trace_points(places, "psf", "preview"):
         lens = place.setup.lens
         alone = pictures.pencil(lens, place.setup.source, *pictures.points(pictures.first_level(lens)))
         for name in ("dx", "dy", "kx", "path", "launch", "light", "chief_y", "wavelength_um"):

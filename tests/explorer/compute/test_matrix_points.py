@@ -9,15 +9,15 @@ from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.matrix.points import (
     LISTS,
+    heading_texts,
     matrix_request,
     nearest,
     point_entries,
     stated_fields,
-    told,
     usual_wavelengths,
 )
 from p2sf_explorer.compute.setup import default_state, load
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 GAUSS = default_state("double_gauss_28")
 
@@ -48,7 +48,7 @@ def test_three_colours_are_f_d_c_or_the_lines_of_the_spectrum():
 @pytest.mark.parametrize("count", [2, 3, 5])
 def test_depths_stand_evenly_in_dioptres_about_a_wave_apart(depth_mm, count):
     """One step is one to three waves of defocus: Δz of the image by Newton's formula, Wd = NA²Δz/2λ."""
-    state = changed(GAUSS, depth_mm=depth_mm, focus_mm=depth_mm, matrix_across="depth_mm", matrix_columns=count)
+    state = change(GAUSS, depth_mm=depth_mm, focus_mm=depth_mm, matrix_across="depth_mm", matrix_columns=count)
     found = live(state, "preview")
     depths = matrix_request(found).columns
     assert len(depths) == count and depth_mm in depths
@@ -63,7 +63,7 @@ def test_depths_stand_evenly_in_dioptres_about_a_wave_apart(depth_mm, count):
 
 
 def test_shifts_stand_about_the_present_one_a_depth_of_focus_apart():
-    state = changed(GAUSS, sensor_shift_um=37.0, matrix_across="sensor_shift_um", matrix_columns=5)
+    state = change(GAUSS, sensor_shift_um=37.0, matrix_across="sensor_shift_um", matrix_columns=5)
     found = live(state, "preview")
     shifts = np.array(matrix_request(found).columns)
     assert shifts.mean() == pytest.approx(37.0) and shifts[2] == 37.0
@@ -72,16 +72,16 @@ def test_shifts_stand_about_the_present_one_a_depth_of_focus_apart():
 
 
 def test_values_that_were_typed_stand_in_place_of_the_windows():
-    state = changed(GAUSS, matrix_fields_deg=(1.0, 2.5), matrix_wavelengths_nm=(500.0, 510.0, 520.0, 530.0))
+    state = change(GAUSS, matrix_fields_deg=(1.0, 2.5), matrix_wavelengths_nm=(500.0, 510.0, 520.0, 530.0))
     request = request_of(state)
     assert request.rows == (1.0, 2.5) and request.columns == (500.0, 510.0, 520.0, 530.0)
-    assert told(request) == (("1°", "2.5°"), ("500.0 nm", "510.0 nm", "520.0 nm", "530.0 nm"))
+    assert heading_texts(request) == (("1°", "2.5°"), ("500.0 nm", "510.0 nm", "520.0 nm", "530.0 nm"))
     point = request.states[1][3].optics
     assert (point.field_deg, point.wavelength_nm) == (2.5, 530.0)
 
 
 def test_a_path_added_by_hand_is_more_waves_of_a_shorter_wavelength():
-    state = changed(GAUSS, added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0), matrix_wavelengths_nm=(293.7809, 587.5618))
+    state = change(GAUSS, added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0), matrix_wavelengths_nm=(293.7809, 587.5618))
     half, whole = request_of(state).states[0]
     assert half.what_if.added_waves[0] == pytest.approx(2.0) and whole.what_if.added_waves[0] == 1.0
 
@@ -89,11 +89,11 @@ def test_a_path_added_by_hand_is_more_waves_of_a_shorter_wavelength():
 @pytest.mark.parametrize("across", [*LISTS][1:])
 def test_a_pictures_entries_lead_to_its_point(across):
     """Taking a picture's point makes it the present one, and the frame goes there: rows and columns are not mixed."""
-    state = changed(GAUSS, matrix_across=across, depth_mm=2000.0)
+    state = change(GAUSS, matrix_across=across, depth_mm=2000.0)
     request = request_of(state)
     for row in range(3):
         for column in range(3):
-            there = changed(state, **point_entries(request, row, column))
+            there = change(state, **point_entries(request, row, column))
             assert nearest(request, there) == (row, column, True)
             assert request.states[row][column].optics == there.optics
 
@@ -101,16 +101,16 @@ def test_a_pictures_entries_lead_to_its_point(across):
 def test_between_the_pictures_the_nearest_is_marked_as_near():
     request = request_of(GAUSS)
     assert nearest(request, GAUSS) == (1, 1, True)
-    assert nearest(request, changed(GAUSS, field_deg=12.5)) == (2, 1, False)
-    assert nearest(request, changed(GAUSS, wavelength_nm=500.0)) == (1, 0, False)
+    assert nearest(request, change(GAUSS, field_deg=12.5)) == (2, 1, False)
+    assert nearest(request, change(GAUSS, wavelength_nm=500.0)) == (1, 0, False)
 
 
 def test_sides_are_those_that_are_compared():
-    state = changed(GAUSS, matrix_across="side", pinned=new_state(f_number=8.0))
+    state = change(GAUSS, matrix_across="side", pinned=new_state(f_number=8.0))
     for shown in ("a", "b", "difference"):
-        seen = answers(changed(state, shown=shown), "preview", {"matrix": matrix_request}).seen
+        seen = answers(change(state, shown=shown), "preview", {"matrix": matrix_request}).seen
         request = seen.views["matrix"]
         assert request.columns == ("A", "B")
         assert [point.optics.f_number for point in request.states[0]] == [None, 8.0]
         assert [row[1].optics.field_deg for row in request.states] == list(request.rows)
-    assert request_of(changed(GAUSS, matrix_across="side")).columns == ("A",)
+    assert request_of(change(GAUSS, matrix_across="side")).columns == ("A",)

@@ -9,9 +9,9 @@ from p2sf.paraxial.pupils import find_stop
 from p2sf.raytrace.pencil import Status, pupil_rays, trace
 from p2sf_explorer.compute.glass_outlines import glass_of, profile
 from p2sf_explorer.compute.layout import layout
-from p2sf_explorer.compute.meridional import aimed, path
+from p2sf_explorer.compute.meridional import aim_ray, path
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from tests.support.lenses.mirrors import aplanatic, mangin, telescope, two_mirrors
 from tests.support.lenses.shaped_lenses import PARTS, QBFS, UNSEEN_BY_SEIDEL, singlet, two_shaped_mirrors
 
@@ -101,7 +101,7 @@ def test_a_ray_along_the_axis_stays_there():
 def test_drawn_rays_meet_the_stop_where_they_should(name):
     """Marginal and rim rays its rim, the chief ray its centre; a hundred thousandth of the rim is far below a pixel."""
     for field in prescription(default_state(name)).fields_deg:
-        setup = paraxial_setup(changed(default_state(name), field_deg=field))
+        setup = paraxial_setup(change(default_state(name), field_deg=field))
         at, rim = int(setup.stop.surface), float(setup.stop.semi_diameter)
         rays = layout(setup).rays
         for ray, goal in zip(rays, (rim, rim, rim, rim, 0.0), strict=True):
@@ -112,8 +112,8 @@ def test_drawn_rays_meet_the_stop_where_they_should(name):
 
 def test_a_height_beyond_a_fold_is_not_taken():
     """Where rays have crossed before the stop, one that lands where it should belongs to another sheet."""
-    folded = aimed(lambda y: y - y**3, goal=0.2, guess=0.7, gain=1.0, close=1e-9)  # y − y³ falls beyond 0.577
+    folded = aim_ray(lambda y: y - y**3, goal=0.2, guess=0.7, gain=1.0, close=1e-9)  # y − y³ falls beyond 0.577
     assert folded is None or 0 < folded < 0.577
-    found = aimed(lambda y: y - y**3, goal=0.2, guess=0.2, gain=1.0, close=1e-9)
+    found = aim_ray(lambda y: y - y**3, goal=0.2, guess=0.2, gain=1.0, close=1e-9)
     assert found - found**3 == pytest.approx(0.2, abs=1e-12)
-    assert aimed(lambda y: None, goal=0.2, guess=0.2, gain=1.0, close=1e-9) is None
+    assert aim_ray(lambda y: None, goal=0.2, guess=0.2, gain=1.0, close=1e-9) is None

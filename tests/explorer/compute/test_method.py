@@ -10,34 +10,34 @@ from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.finer import answer as render_finer
 from p2sf_explorer.compute.finer import finer, source
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.method import chosen
+from p2sf_explorer.compute.method import choose_for_state
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, with_lens
 from p2sf_explorer.compute.warnings import remedy
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from tests.long.window_states import against_huygens, outcomes, summary
 
 SHARP = new_state(method="auto", field_deg=0.0, f_number=16.0)
-CORNER = changed(with_lens(State(), "double_gauss_28"), method="auto", field_deg=14.0, f_number=None, clip=True)
+CORNER = change(with_lens(State(), "double_gauss_28"), method="auto", field_deg=14.0, f_number=None, clip=True)
 
 
 @pytest.mark.parametrize(
     ("state", "method"),
     [
         (SHARP, "seidel"),
-        (changed(SHARP, field_deg=10.0, f_number=8.0, tolerance=0.998), "fitted"),
+        (change(SHARP, field_deg=10.0, f_number=8.0, tolerance=0.998), "fitted"),
         (CORNER, "traced"),
     ],
 )
 def test_the_reason_names_the_method_that_the_library_chose(state, method):
     setup = paraxial_setup(state)
     choice = choose(setup.lens, setup.source, state.optics.tolerance, state.optics.clip)
-    name, why = chosen(state, setup)
+    name, why = choose_for_state(state, setup)
     assert name == choice.method == why.values["method"] == method
     assert why.values["reason"] == choice.reason
 
 
 def test_a_person_who_chose_is_given_no_reason():
-    assert str(live(changed(SHARP, method="seidel"), "preview").why) == ""
+    assert str(live(change(SHARP, method="seidel"), "preview").why) == ""
 
 
 ISSUED = [
@@ -53,7 +53,7 @@ ISSUED = [
 @pytest.mark.parametrize(("lens", "optics", "method", "shown"), ISSUED)
 def test_waves_are_summed_where_seidel_coefficients_are_steep(lens, optics, method, shown):
     """These have up to 250 waves of slope, and hundreds by their six coefficients."""
-    answer = live(changed(default_state(lens), method=method, **optics))
+    answer = live(change(default_state(lens), method=method, **optics))
     assert answer.psf.method == shown and answer.refused is None
     assert against_huygens(answer) > 0.99
 
@@ -62,23 +62,23 @@ def test_samples_are_close_enough_to_add_up_to_the_light():
     """No farther apart than λ/2NA, or the most that there are: then their sum is an integral."""
     for lens, optics, method, _ in ISSUED:
         if method == "auto":
-            answer = live(changed(default_state(lens), method=method, **optics))
+            answer = live(change(default_state(lens), method=method, **optics))
             assert 0.8 < answer.psf.energy <= 1 + 1e-6, lens
 
 
 @pytest.mark.parametrize("method", ["fitted", "traced", "huygens"])
 def test_a_chosen_method_that_is_impossible_says_why_and_what_to_do(method):
-    state = changed(default_state("double_gauss_28"), depth_mm=10.0, method=method)
+    state = change(default_state("double_gauss_28"), depth_mm=10.0, method=method)
     answer = live(state, views={"psf": source}, cache=SumCache())
     said = str(answer.views["psf"].message)
     assert said.startswith(method) and "pupil samples" in said and "to see waves" in said and "auto" in said
     assert not any("ray density" in str(warning) for warning in answer.warnings)
-    left = live(changed(state, method="auto"), views={"psf": source}, cache=SumCache())
+    left = live(change(state, method="auto"), views={"psf": source}, cache=SumCache())
     assert (left.psf.method, left.views["psf"], left.refused) == ("geometric", None, None)
 
 
 def test_six_coefficients_of_many_waves_are_waited_for():
-    state = changed(default_state("petzval"), field_deg=0.0, method="seidel")
+    state = change(default_state("petzval"), field_deg=0.0, method="seidel")
     cache = SumCache()
     answer = live(state, cache=cache)
     assert answer.psf.method == "geometric" and answer.pending.six == answer.setup.coefficients
@@ -90,7 +90,7 @@ def test_six_coefficients_of_many_waves_are_waited_for():
 def test_what_is_altered_by_hand_predicts_nothing():
     state = new_state(method="seidel", field_deg=0.0, f_number=8.0)
     assert live(state).psf.predicted_error is not None
-    assert live(changed(state, added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))).psf.predicted_error is None
+    assert live(change(state, added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))).psf.predicted_error is None
 
 
 def test_finer_samples_are_those_of_the_same_picture():
@@ -111,13 +111,13 @@ SPHERICAL = replace(paraxial_setup(SHARP).coefficients, w40=np.float64(9.0))
 def test_on_the_axis_nobody_is_sent_nearer_to_it():
     state = SHARP
     for field, words in ((0.0, "stop down to see waves"), (10.0, "stop down or go nearer the axis to see waves")):
-        coefficients = replace(paraxial_setup(changed(state, field_deg=field)), coefficients=SPHERICAL)
+        coefficients = replace(paraxial_setup(change(state, field_deg=field)), coefficients=SPHERICAL)
         assert str(remedy(coefficients)) == words
 
 
 def test_waves_of_rays_too_steep_for_paraxial_coefficients_are_explained():
     """Near the front focus the coefficients show some hundred waves and the pupil thousands."""
-    answer = live(changed(default_state("double_gauss_28"), depth_mm=30.0, method="auto"), cache=SumCache())
+    answer = live(change(default_state("double_gauss_28"), depth_mm=30.0, method="auto"), cache=SumCache())
     found = [w for w in answer.warnings if "these are paraxial" in str(w)]
     assert len(found) == 1 and answer.pupil.peak_to_valley > 2 * float(str(found[0].values["six"]))
     assert not any("these are paraxial" in str(w) for w in live(SHARP).warnings)

@@ -18,13 +18,13 @@ from p2sf_explorer.compute.method_bounds import (
     r80_sensitivity,
     within,
 )
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 STATE = new_state(f_number=8.0, field_deg=7.0, theme="light")
 
 
 def picture(method: str):
-    return live(changed(STATE, method=method)).psf
+    return live(change(STATE, method=method)).psf
 
 
 def r80(values: np.ndarray) -> float:

@@ -10,14 +10,14 @@ from p2sf_explorer.compute import preview as quick
 from p2sf_explorer.compute.method import window_um
 from p2sf_explorer.compute.preview import best_fit, preview_psf
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 
 PIXELS = 64
 
 
 def moving(lens, **changes):
     """Return what moves, its window, and the exact picture in it."""
-    setup = paraxial_setup(changed(default_state(lens), aim="paraxial", **changes))  # 26 numbers and more, no weights
+    setup = paraxial_setup(change(default_state(lens), aim="paraxial", **changes))  # 26 numbers and more, no weights
     made = quick.preview(setup)
     window = PIXELS, window_um(setup) / PIXELS
     return made, window, render(setup.lens, setup.source, "traced", *window).values
@@ -50,7 +50,7 @@ def test_where_no_fit_comes_near_exact_rays_make_the_picture(monkeypatch):
 
 def test_a_fit_of_more_rays_is_left_where_one_of_them_is_lost(monkeypatch):
     made = quick.preview(
-        paraxial_setup(changed(default_state("telephoto"), aim="paraxial", f_number=4.5, field_deg=0.0))
+        paraxial_setup(change(default_state("telephoto"), aim="paraxial", f_number=4.5, field_deg=0.0))
     )
     assert best_fit(made).numbers == 72
 

@@ -13,10 +13,10 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.compute.warnings import TOGETHER
 from p2sf_explorer.state.limits import CHOICES
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 BLURRED = new_state(depth_mm=300.0, focus_mm=None, field_deg=8.0, method="auto")
-TOO_BLURRED = changed(BLURRED, depth_mm=10.0)  # for a sum of waves
+TOO_BLURRED = change(BLURRED, depth_mm=10.0)  # for a sum of waves
 
 
 def ray_density(setup, exact, window, quality="settled"):
@@ -33,8 +33,8 @@ def moments(psf) -> np.ndarray:
 
 UNEVEN = [  # light over the pupil differs by some ten per cent and more
     new_state(field_deg=14.0, sensor_shift_um=800.0),
-    changed(default_state("tessar"), field_deg=20.0, sensor_shift_um=800.0),
-    changed(default_state("wide_angle_35"), field_deg=30.0, sensor_shift_um=400.0),
+    change(default_state("tessar"), field_deg=20.0, sensor_shift_um=800.0),
+    change(default_state("wide_angle_35"), field_deg=30.0, sensor_shift_um=400.0),
 ]
 
 
@@ -123,7 +123,7 @@ def test_the_window_says_that_it_shows_rays_only():
 @pytest.mark.parametrize("name", ["wide_angle_35", "fast_gauss_f14"])
 def test_a_few_far_rays_do_not_shrink_the_picture_to_a_dot(name):
     """Neither of waves nor, while they are summed, of ray density."""
-    state = changed(default_state(name), method="auto", field_deg=15.0, aim="paraxial")
+    state = change(default_state(name), method="auto", field_deg=15.0, aim="paraxial")
     stand_in = live(state, cache=SumCache())
     answer = live(state)
     half = answer.psf.pixel_um * answer.psf.values.shape[0] / 2

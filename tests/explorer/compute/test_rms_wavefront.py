@@ -16,14 +16,14 @@ from p2sf.tolerance.single import sensitivities
 from p2sf_explorer.compare.comparison import difference
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.matrix.pictures import settled
+from p2sf_explorer.compute.matrix.pictures import settle
 from p2sf_explorer.compute.matrix.points import matrix_request
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views.zernike import zernike
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.panels.zernike import figures
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from tests.support.waves import rms_about_plane
 
 TELEPHOTO = {"lens": "telephoto", "field_deg": 7.0}  # whose wavefront has as much tilt as anything else
@@ -64,10 +64,10 @@ def test_every_road_has_the_rms_without_tilt(answer):
     figure = Figure()
     axes = figure.add_subplot()
     draw_pupil(figure, axes, shown)
-    one = changed(state, matrix_what="pupil", matrix_across="sensor_shift_um", matrix_shifts_um=(0.0, 50.0))
-    one = changed(one, matrix_fields_deg=(7.0, 3.0))
+    one = change(state, matrix_what="pupil", matrix_across="sensor_shift_um", matrix_shifts_um=(0.0, 50.0))
+    one = change(one, matrix_fields_deg=(7.0, 3.0))
     request = matrix_request(live(one))
-    tiles = settled(request, lambda: False, lambda share, tiles: None)
+    tiles = settle(request, lambda: False, lambda share, tiles: None)
     for text in (axes.get_title(), figures(fit, "")[0], str(tiles[request.rows.index(7.0)][0].figure)):
         assert f"{rms:.3g}" in text
 
@@ -107,7 +107,7 @@ def test_autofocus_finds_the_smallest_rms_that_the_pupil_shows(entries):
     setup = paraxial_setup(state)
     step = 0.1 * 2 * setup.source.wavelength_um / float(setup.coefficients.na) ** 2
     less, least, more = (
-        pupil_of(paraxial_setup(changed(state, sensor_shift_um=best + by)), True, "settled", state.optics.clip).rms
+        pupil_of(paraxial_setup(change(state, sensor_shift_um=best + by)), True, "settled", state.optics.clip).rms
         for by in (-step, 0.0, step)
     )
     assert least < min(less, more)

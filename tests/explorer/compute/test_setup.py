@@ -12,13 +12,13 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.compute.layout import layout
-from p2sf_explorer.compute.setup import masked, paraxial_setup, prescription, ranges, request_setup, with_lens
-from p2sf_explorer.state.state import State, changed, entry, new_state
+from p2sf_explorer.compute.setup import paraxial_setup, prescription, ranges, request_setup, with_lens, with_state_mask
+from p2sf_explorer.state.state import State, change, entry, new_state
 
 STATES = [
     new_state(field_deg=10.0),
     new_state(depth_mm=2000.0, field_deg=-3.0, focus_mm=900.0, sensor_shift_um=12.0, f_number=5.6, wavelength_nm=486.1),
-    changed(with_lens(State(), "relay"), field_deg=1.5, stop="auto"),
+    change(with_lens(State(), "relay"), field_deg=1.5, stop="auto"),
     new_state(aim="stop"),
     new_state(aim="paraxial"),
 ]
@@ -35,7 +35,7 @@ def test_the_setup_is_what_the_library_sets_up_for_the_same_request(state):
 
 
 def test_dragging_the_field_makes_no_new_lens():
-    near, far = (paraxial_setup(changed(STATES[0], field_deg=field)) for field in (1.0, 2.0))
+    near, far = (paraxial_setup(change(STATES[0], field_deg=field)) for field in (1.0, 2.0))
     assert near.lens is far.lens and near.rays is far.rays and near.source != far.source
 
 
@@ -56,11 +56,11 @@ def with_filed_mask(**entries):
 def test_the_mask_is_the_files_but_for_what_the_state_says_of_it():
     state = with_filed_mask()
     assert prescription(state).mask == FILED == ranges(prescription(state)).mask
-    assert masked(prescription(state), state).mask == FILED
-    told = changed(state, obscuration=0.5, blades=6)
-    assert masked(prescription(told), told).mask == replace(FILED, obscuration=0.5, blades=6)
-    cleared = changed(state, obscuration=0.0, vanes=0)
-    assert masked(prescription(cleared), cleared).mask == replace(FILED, obscuration=0.0, vanes=0)
+    assert with_state_mask(prescription(state), state).mask == FILED
+    told = change(state, obscuration=0.5, blades=6)
+    assert with_state_mask(prescription(told), told).mask == replace(FILED, obscuration=0.5, blades=6)
+    cleared = change(state, obscuration=0.0, vanes=0)
+    assert with_state_mask(prescription(cleared), cleared).mask == replace(FILED, obscuration=0.0, vanes=0)
 
 
 def test_a_mask_moves_with_every_lens_that_the_state_makes_and_leaves_with_the_lens():

@@ -15,12 +15,12 @@ from p2sf.lensfile.library import lenses_folder
 from p2sf.messages import Style
 from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import prescription
-from p2sf_explorer.compute.views.import_report import described
+from p2sf_explorer.compute.views.import_report import describe_report
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 FILES = Path(__file__).parents[2] / "data" / "import"
 FOREIGN = ("bench.txt", "doublet.seq", "doublet.zmx", "gauss.dat", "singlet.csv", "triplet.json")
@@ -62,7 +62,7 @@ def test_a_report_is_in_german_where_the_window_is():
     known = texts("de")
     german = Style(translate=lambda text: known.get(text, text))
     for path in (*(FILES / name for name in FOREIGN), lenses_folder() / "tessar.toml"):
-        for title, sentences in described("", import_of(str(path)).report).groups:
+        for title, sentences in describe_report("", import_of(str(path)).report).groups:
             for english in (title, *sentences):
                 assert english.text(german) != str(english), english
                 assert not {"the", "of", "is", "are", "as", "on"} & set(english.text(german).split()), english
@@ -136,7 +136,7 @@ def test_the_report_of_a_shipped_lens_and_of_a_lens_whose_file_is_gone(window, z
     window.open_panel("import")
     assert "exactly as written" in window.panels["import"].text.toPlainText()
     lens_text = (lenses_folder() / "tessar.toml").read_text()
-    window.store.replace(changed(window.store.state, lens="/nowhere/mine.zmx", lens_text=lens_text))
+    window.store.replace(change(window.store.state, lens="/nowhere/mine.zmx", lens_text=lens_text))
     assert not window.banner.isVisible()
     assert "not on this computer" in window.panels["import"].text.toPlainText()
 

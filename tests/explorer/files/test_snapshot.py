@@ -23,7 +23,7 @@ from p2sf_explorer.application.display import NO_DISPLAY, display_problem
 from p2sf_explorer.application.main import starting_state
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.files.embedded_state import PNG_HEADER, foreign, state_inside, with_state
-from p2sf_explorer.files.opening import opened
+from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, write_data
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.state.state_files import read_state
@@ -109,12 +109,12 @@ def test_a_picture_without_a_state_is_no_lens_and_says_so(window, tmp_path):
 def test_a_psf_of_the_command_line_holds_no_state_and_a_database_is_named(tmp_path, ending):
     psf = write_psf(seidel_psf(waves(), 16), tmp_path / f"psf{ending}", {})
     with pytest.raises(LensFileError, match="no readable state"):
-        opened(State(), str(psf))
+        open_file(State(), str(psf))
     space = Space(depth_nodes(500), np.linspace(0, 0.1, 12), np.linspace(0.5, 0.6, 12))
     lens = find_lens("singlet_f6")
     kept = save_database(build_database(lens, space), lens, tmp_path / "kept.npz")
     with pytest.raises(LensFileError, match="a database of PSFs"):
-        opened(State(), str(kept))
+        open_file(State(), str(kept))
 
 
 def test_a_lens_in_a_zip_is_still_a_lens(tmp_path):

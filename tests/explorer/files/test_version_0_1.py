@@ -10,9 +10,9 @@ from p2sf.lens.lens import AIMS
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.files import session
-from p2sf_explorer.files.opening import opened
+from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.state.link import state_of_link
-from p2sf_explorer.state.state import ENTRIES, State, changed, entry
+from p2sf_explorer.state.state import ENTRIES, State, change, entry
 from p2sf_explorer.state.state_files import RENAMED, read_state
 from tests.support.reference import DATA
 
@@ -62,7 +62,7 @@ def test_every_entry_of_the_old_state_is_tried_away_from_its_default():
 
 @pytest.mark.parametrize("path", SNAPSHOTS, ids=lambda path: path.name)
 def test_a_snapshot_opens_as_its_state(path):
-    assert entries(opened(State(), str(path))) == EXPECTED[path.stem.removeprefix("snapshot_")]
+    assert entries(open_file(State(), str(path))) == EXPECTED[path.stem.removeprefix("snapshot_")]
 
 
 @pytest.mark.parametrize("name", ["moved", "by_hand"])
@@ -84,20 +84,20 @@ def picture(name: str) -> tuple[np.ndarray, np.ndarray]:
     path = FILES / f"snapshot_{name}.npz"
     with np.load(path) as arrays:
         stored = arrays["psf"]
-    return live(opened(State(), str(path))).psf.values, stored
+    return live(open_file(State(), str(path))).psf.values, stored
 
 
 @pytest.mark.parametrize("path", SNAPSHOTS, ids=lambda path: path.name)
 def test_rays_fill_the_paraxial_pupil_of_an_old_snapshot(path):
-    state = opened(State(), str(path))
+    state = open_file(State(), str(path))
     assert paraxial_setup(state).lens.aim == "paraxial"
     assert state.compare.pinned is None or paraxial_setup(state.compare.pinned).lens.aim == "paraxial"
 
 
 def test_the_exact_picture_of_an_old_state_is_that_of_the_paraxial_pupil():
     """To rounding; the real stop makes another picture of the same state."""
-    state = changed(read_state(FILES / "moved.json"), method="traced")
-    pictures = {aim: live(changed(state, aim=aim)).psf.values for aim in AIMS}
+    state = change(read_state(FILES / "moved.json"), method="traced")
+    pictures = {aim: live(change(state, aim=aim)).psf.values for aim in AIMS}
     peak = pictures["paraxial"].max()
     assert np.array_equal(live(state).psf.values, pictures["paraxial"])
     assert np.abs(pictures["stop"] - pictures["paraxial"]).max() > 1e-4 * peak

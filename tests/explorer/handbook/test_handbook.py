@@ -7,7 +7,17 @@ import pytest
 from PySide6.QtCore import Qt, QUrl
 
 from p2sf_explorer.charts.theme import DARK, LIGHT
-from p2sf_explorer.handbook.pages import CODE, PAGES, anchor, formulas, headings, page, rendered, shown, with_pictures
+from p2sf_explorer.handbook.pages import (
+    CODE,
+    PAGES,
+    anchor,
+    formulas,
+    headings,
+    page,
+    render_formula,
+    window_page,
+    with_pictures,
+)
 from p2sf_explorer.handbook.viewer import Handbook, fragments
 from p2sf_explorer.state.panels import GROUPS, REGISTRY
 from p2sf_explorer.window.commands.actions import PARTS, handbook_place
@@ -21,13 +31,13 @@ NUMBERS = {heading.number for heading in headings(page("theory")) if heading.num
 def test_every_formula_is_drawn_and_none_is_left_as_text(name):
     found = formulas(page(name))
     for formula in found:
-        assert rendered(formula, 15.0).opacity.max() > 0.9
+        assert render_formula(formula, 15.0).opacity.max() > 0.9
     assert "$" not in re.sub(CODE, "", with_pictures(page(name)), flags=re.MULTILINE | re.DOTALL)
 
 
 def test_a_formula_that_mathtext_does_not_know_is_an_error():
     with pytest.raises(ValueError, match="unknown"):
-        rendered(r"\unknown", 15.0)
+        render_formula(r"\unknown", 15.0)
 
 
 def test_sections_are_numbered_once_and_in_order():
@@ -96,7 +106,7 @@ def test_the_pages_pictures_are_shown(qtbot):
 
 
 def test_the_window_leaves_out_what_is_for_the_site():
-    text = shown("tutorial")
+    text = window_page("tutorial")
     assert "made/" in page("tutorial") and "made/" not in text and "<!--" not in text
 
 

@@ -19,7 +19,7 @@ from p2sf_explorer.scene3d import opengl_probe as probe
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.readout import FactTable, Readout
-from p2sf_explorer.window.commands.command_palette import named
+from p2sf_explorer.window.commands.command_palette import full_name
 from p2sf_explorer.window.commands.help import help_text
 from p2sf_explorer.window.window import MainWindow
 
@@ -85,7 +85,7 @@ def german_window(only_window):
             made.grab()
         help_text(tuple(made.commands.commands))
         for command in made.commands.everything():
-            named(command)
+            full_name(command)
         yield made, QApplication.instance().findChild(Listening)
         made.close()
         set_language("en")
@@ -224,7 +224,7 @@ def test_one_command_begins_a_new_language(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(languages, "FOLDER", tmp_path)
     assert extract.main(["fr"]) == 1
     path, told = tmp_path / "fr.ts", capsys.readouterr().out
-    assert str(path) in told and f"{len(extract.needed())} texts missing in fr" in told
+    assert str(path) in told and f"{len(extract.required_texts())} texts missing in fr" in told
     assert texts("fr") == {} and languages.languages() == {"en": "English", "fr": "Français"}
     pattern = "<source>Field</source>" + extract.UNFINISHED
     written = path.read_text(encoding="utf-8")
@@ -233,6 +233,6 @@ def test_one_command_begins_a_new_language(tmp_path, monkeypatch, capsys):
         written.replace(pattern, "<source>Field</source><translation>Champ</translation>"), encoding="utf-8"
     )
     assert extract.main(["fr"]) == 1
-    assert f"{len(extract.needed()) - 1} texts missing in fr" in capsys.readouterr().out
+    assert f"{len(extract.required_texts()) - 1} texts missing in fr" in capsys.readouterr().out
     assert texts("fr") == {"Field": "Champ"}
     assert extract.main(["nonsense"]) == 2 and not (tmp_path / "nonsense.ts").exists()

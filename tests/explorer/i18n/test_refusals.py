@@ -5,7 +5,7 @@ import re
 import pytest
 
 from p2sf.cli import main
-from p2sf_explorer.i18n.extract import missing, needed
+from p2sf_explorer.i18n.extract import missing, required_texts
 from p2sf_explorer.i18n.language import set_language
 
 ENGLISH = re.compile(r"\b(the|is|are|give|write|of|and|with|not|has|holds|choose|to|it|or|from|which|that)\b")
@@ -29,15 +29,15 @@ BROKEN = "SURF 0\n  DISZ INFINITY\nSURF 1\n  STOP\n  CURV abc\n"
     ],
 )
 def test_texts_are_found_however_they_are_handed_on(text):
-    assert text in needed()
+    assert text in required_texts()
 
 
 def test_what_a_function_of_a_library_is_given_needs_no_german():
-    assert "cut off or too large" not in needed()  # of zlib.error
+    assert "cut off or too large" not in required_texts()  # of zlib.error
 
 
 def test_every_text_of_the_sources_has_german():
-    assert len(needed()) > 500 and missing("de") == ()
+    assert len(required_texts()) > 500 and missing("de") == ()
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 
-from p2sf_explorer.lessons.changes import applied
+from p2sf_explorer.lessons.changes import apply_changes
 from p2sf_explorer.lessons.claims import Claim, holds
 from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
 from p2sf_explorer.lessons.measures import MEASURES
@@ -22,10 +22,10 @@ CLAIMS = [
 def by_another_road(claim: Claim, state: State) -> float:
     """Return the left side of a claim as the referee measures it."""
     measure = REFEREE[claim.measure]
-    value = measure(applied(state, claim.first))
+    value = measure(apply_changes(state, claim.first))
     if not claim.how:
         return value
-    other = measure(applied(state, claim.second))
+    other = measure(apply_changes(state, claim.second))
     return value / other if claim.how == "/" else value - other
 
 

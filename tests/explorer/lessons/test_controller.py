@@ -8,7 +8,7 @@ from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.lessons.controller import NOTHING_BEFORE, SLIDER_SHARE, LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from tests.support.windows.events import choose
 
 FIRST, SECOND = shipped_lessons()[:2]
@@ -66,7 +66,7 @@ def test_where_nothing_was_before_the_lesson_stays_and_says_so(window, teaching)
     window.store.said.connect(told.append)
     teaching.leave()
     window.store.said.disconnect(told.append)
-    assert window.store.state == changed(kept, lesson_name="") and told == [NOTHING_BEFORE]
+    assert window.store.state == change(kept, lesson_name="") and told == [NOTHING_BEFORE]
 
 
 def test_next_and_back_set_the_window_and_keys_do_the_same(window, qtbot, panel):

@@ -10,8 +10,8 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import state_ranges
-from p2sf_explorer.lessons.changes import applied
-from p2sf_explorer.lessons.claims import Claim, holds, measured, parse_claim
+from p2sf_explorer.lessons.changes import apply_changes
+from p2sf_explorer.lessons.claims import Claim, holds, measure_claim, parse_claim
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, parse_lesson, read_lesson, shipped_lessons
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.state.panels import REGISTRY
@@ -69,7 +69,7 @@ def test_a_lesson_can_be_read(path):
 
 @pytest.mark.parametrize(("lesson", "number", "claim"), CLAIMS)
 def test_a_claim_is_what_the_program_measures(lesson, number, claim):
-    value = measured(claim, lesson.state(number))
+    value = measure_claim(claim, lesson.state(number))
     assert holds(claim, value), f"{claim.text}: measured {value:.6g}"
 
 
@@ -89,7 +89,7 @@ def test_whatever_a_lesson_sets_can_be_set_by_the_slider(lesson):
     """A value beyond the slider's end jumps to the end at the first touch, and nobody can drag it "on"."""
     for number, step in enumerate(lesson.steps):
         first = lesson.state(number)
-        for state in (first, *(applied(first, claim.first) for claim in step.claims)):
+        for state in (first, *(apply_changes(first, claim.first) for claim in step.claims)):
             limits = state_ranges(state)
             for quantity in QUANTITIES:
                 value, scale = quantity.shown(state, limits), quantity.scale(limits)
@@ -188,9 +188,9 @@ def test_a_bad_file_costs_only_itself_and_an_own_one_takes_the_place_of_a_shippe
 def test_a_claim_compares_states_and_knows_when_it_fails():
     state = parsed(GOOD).state(1)
     ratio = parse_claim("airy_radius_um [f_number 12] / [f_number 6] is 2 ± 0.001", lambda text: changes(text))
-    assert holds(ratio, measured(ratio, state))
+    assert holds(ratio, measure_claim(ratio, state))
     apart = parse_claim("airy_radius_um [f_number 12] − [f_number 6] above 4", lambda text: changes(text))
-    assert measured(apart, state) == pytest.approx(4.3, abs=0.01)  # 0.61 λ/NA is 4.3 µm at f/6, twice that at f/12
+    assert measure_claim(apart, state) == pytest.approx(4.3, abs=0.01)  # 0.61 λ/NA is 4.3 µm at f/6, twice that at f/12
     wrong = Claim("", "strehl", (), "", (), "is", 0.5, 0.1)
     assert holds(wrong, 0.59) and not holds(wrong, 0.61)
     assert not holds(Claim("", "strehl", (), "", (), "above", 0.5, 0.0), 0.5)

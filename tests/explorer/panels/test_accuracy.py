@@ -15,7 +15,7 @@ from p2sf_explorer.compute.reference import MethodResult
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.accuracy import AccuracyPanel, common_limit
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from p2sf_explorer.store.store import Store
 
 
@@ -73,7 +73,7 @@ def test_the_complete_trade_of_a_shipped_lens_takes_the_plot_s_place(qapp):
     panel.restyle(LIGHT)
     trade = shipped_trades()["tessar"]
     for cost, of in (("bytes", "nbytes"), ("time", "batch_us")):
-        panel.show(replace(answer, state=changed(answer.state, accuracy_plot=cost)))
+        panel.show(replace(answer, state=change(answer.state, accuracy_plot=cost)))
         assert [dot.cost for dot in panel.trade.dots] == [getattr(row, of) for row in trade.rows]
         line = panel.trade.front
         assert all(a.cost < b.cost and a.error > b.error for a, b in pairwise(line))

@@ -7,14 +7,14 @@ from PySide6.QtCore import Qt
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views import colour
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from tests.support.windows.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
 
 
 def asked(**changes):
-    question = colour.question(live(changed(FIRST, **changes), "preview"))
+    question = colour.question(live(change(FIRST, **changes), "preview"))
     return question, colour.answer(question, lambda: False, lambda share, found: None)
 
 
@@ -54,7 +54,7 @@ def test_tungsten_is_redder_than_daylight():
 def test_the_sensor_stays_while_the_colours_change():
     question, _ = asked(focus_mm=2000.0)
     places = {
-        paraxial_setup(changed(question.state, wavelength_nm=nm)).lens.sensor_mm for nm in (450.0, 587.5618, 650.0)
+        paraxial_setup(change(question.state, wavelength_nm=nm)).lens.sensor_mm for nm in (450.0, 587.5618, 650.0)
     }
     assert len(places) == 1
 
@@ -66,7 +66,7 @@ def test_the_hue_of_a_wavelength_is_its_own():
 
 def test_what_is_added_by_hand_is_one_path_in_every_colour():
     """A step of a micrometre is more waves of blue than of red: W·λ stays (Welford 1986, ch. 7)."""
-    state = changed(FIRST, free_pupil=True, added_waves=(0.5, 0.0, 0.0, 0.0, 1.0, 0.0))
+    state = change(FIRST, free_pupil=True, added_waves=(0.5, 0.0, 0.0, 0.0, 1.0, 0.0))
     made = [paraxial_setup(colour.at_wavelength(state, nm)).coefficients for nm in (450.0, 587.5618, 650.0)]
     for term, waves in (("w40", 0.5), ("wd", 1.0)):
         paths = [float(getattr(c, term) * c.wavelength_um) for c in made]

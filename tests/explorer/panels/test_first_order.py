@@ -10,7 +10,7 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.compute.views.first_order import pupil_rows, source_rows
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from tests.support.tiers import in_tiers
 
 
@@ -33,11 +33,11 @@ def numbers(rows):
 @pytest.mark.parametrize("name", in_tiers(sorted(set(shipped_lenses()) - {"diffractive_singlet"})))  # `traced` refracts
 @pytest.mark.parametrize("depth", [None, 2000.0])
 def test_heights_magnification_aperture_and_pupils_fit_each_other(name, depth):
-    state = changed(default_state(name), field_deg=1.0)
+    state = change(default_state(name), field_deg=1.0)
     depth = depth or (state.optics.depth_mm if not isinf(state.optics.depth_mm) else 600.0)
     if name == "relay" and depth == 2000.0:
         depth = 120.0  # it images near objects only
-    answer = live(changed(state, depth_mm=depth, method="seidel"), "preview")
+    answer = live(change(state, depth_mm=depth, method="seidel"), "preview")
     lens, wavelength, setup = answer.setup.lens, answer.setup.source.wavelength_um, answer.setup
     index = indices(lens, wavelength)
     shown = numbers(source_rows(answer))
@@ -68,7 +68,7 @@ def test_heights_magnification_aperture_and_pupils_fit_each_other(name, depth):
 
 @pytest.mark.slow
 def test_the_relay_inverts_and_says_so_everywhere():
-    answer = live(changed(default_state("relay"), field_deg=1.0, method="seidel"))
+    answer = live(change(default_state("relay"), field_deg=1.0, method="seidel"))
     shown = numbers(source_rows(answer))
     assert shown["Magnification"] == pytest.approx(-1, abs=0.01)
     assert shown["Object height"] > 0 > shown["Image height"]
@@ -76,7 +76,7 @@ def test_the_relay_inverts_and_says_so_everywhere():
 
 
 def test_an_object_at_infinity_has_no_height():
-    answer = live(changed(default_state("double_gauss_28"), depth_mm=inf, method="seidel"))
+    answer = live(change(default_state("double_gauss_28"), depth_mm=inf, method="seidel"))
     assert numbers(source_rows(answer))["Object height"] is None and answer.layout.source is None
 
 

@@ -40,22 +40,22 @@ from p2sf_explorer.compute.views.image import (
     pixels,
     question,
     scene_of,
-    shown,
+    shown_picture,
 )
-from p2sf_explorer.compute.views.photos import channels_of, fitted, full_shape, scene_values
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.compute.views.photos import channels_of, crop_and_resize, full_shape, scene_values
+from p2sf_explorer.state.state import change, new_state
 
 FAST = new_state(method="seidel", photo_pixel_um=16.0, theme="light")
 LIVE = compute.live(FAST)
 
 
 def asked(**changes):
-    return question(compute.live(changed(FAST, **changes)))
+    return question(compute.live(change(FAST, **changes)))
 
 
 @pytest.fixture(scope="module")
 def found():
-    return image.planned(asked(lens="cooke_triplet", field_deg=4.0))
+    return image.planned_picture(asked(lens="cooke_triplet", field_deg=4.0))
 
 
 def test_the_planned_picture_is_the_librarys_own(found):
@@ -177,7 +177,7 @@ def test_a_photo_is_cut_to_the_frame_and_averaged(tmp_path):
     small = scene_values(str(tmp_path / "half.tif"), (20, 30))
     assert small.shape == (20, 30, 3)
     assert small[:, :14, 0].max() == 0 and small[:, 16:, 0].min() == 1
-    assert fitted(values, (8, 12))[..., 0].mean() == pytest.approx(0.5, abs=1e-6)  # the middle is half red
+    assert crop_and_resize(values, (8, 12))[..., 0].mean() == pytest.approx(0.5, abs=1e-6)  # the middle is half red
     with pytest.raises(RequestError, match="cannot be read"):
         scene_values(str(tmp_path / "none.png"), (20, 30))
 
@@ -190,7 +190,7 @@ def test_colours_stay_where_the_glasses_have_data():
 
 def test_a_cancelled_picture_stops_in_the_plan_too():
     with pytest.raises(Cancelled):
-        image.planned(asked(), Progress(cancelled=lambda: True))
+        image.planned_picture(asked(), Progress(cancelled=lambda: True))
 
 
 STATED = [(name, field) for name in shipped_lenses() for field in (None, *find_lens(name).fields_deg, "all")]
@@ -202,9 +202,9 @@ def test_every_shipped_lens_has_its_first_picture_within_a_second(name, field):
     """As first shown, at its stated fields, and over the whole field; a second of CPU time, since machines are busy."""
     state = default_state(name)
     if field == "all":
-        state = changed(state, photo_pixel_um=None)
+        state = change(state, photo_pixel_um=None)
     elif field is not None:
-        state = changed(state, field_deg=float(field))
+        state = change(state, field_deg=float(field))
     request = question(replace(LIVE, state=state, setup=paraxial_setup(state)))
     spent = []
     for _ in range(2):  # the first time libraries are loaded and tables made
@@ -248,7 +248,7 @@ def test_rays_make_nearly_the_picture_of_waves():
 
 @pytest.mark.parametrize("name", ["relay", "eye_navarro", "landscape"])
 def test_other_lenses_have_a_picture(name):
-    state = changed(default_state(name), method="seidel", photo_pixel_um=16.0, field_deg=0.0)
+    state = change(default_state(name), method="seidel", photo_pixel_um=16.0, field_deg=0.0)
     found = coarse(question(compute.live(state)))
     assert found.after.shape == (ROWS, COLUMNS, 3) and np.isfinite(found.after).all()
 
@@ -314,7 +314,7 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
 
 
 def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
-    before, after, more = shown("lens", found.plan, found.before, found.lattice, Progress())
+    before, after, more = shown_picture("lens", found.plan, found.before, found.lattice, Progress())
     assert before is found.before and more == () and not np.array_equal(before, after)
 
 
@@ -353,10 +353,10 @@ def test_a_large_photo_is_coarse_at_once_and_planned_at_full_size(tmp_path):
     quick = coarse(request)
     assert quick.after.shape == (234, 312, 3) and quick.question == request
     told: list[float] = []
-    whole = image.planned(request, Progress(told.append))
+    whole = image.planned_picture(request, Progress(told.append))
     assert whole.after.shape == (330, 440, 3) and told == sorted(told) and told[-1] == pytest.approx(1.0)
     with pytest.raises(Cancelled):
-        image.planned(request, Progress(cancelled=lambda: bool(told)))
+        image.planned_picture(request, Progress(cancelled=lambda: bool(told)))
 
 
 @pytest.mark.parametrize(
@@ -386,9 +386,9 @@ def test_a_photo_taken_by_a_tilted_sensor_is_sharpened_by_a_plan(tmp_path, clip)
     """Its kernels are those of exact rays; fits of a plan leave 2 %, where the scene allows 10 %."""
     write_photo(tmp_path / "taken.tif", np.random.default_rng(0).random((64, 96, 1), np.float32), "linear")
     taken = dict(photo_show="taken", photo_pixel_um=16.0, photo_source=str(tmp_path / "taken.tif"))
-    state = changed(new_state(), f_number=5.6, errors=(("tilt_x", 12, 12, 3.0),), clip=clip, **taken)
+    state = change(new_state(), f_number=5.6, errors=(("tilt_x", 12, 12, 3.0),), clip=clip, **taken)
     asked = question(compute.live(state))
-    found = image.planned(asked)
+    found = image.planned_picture(asked)
     scene, lattice = found.plan.scene, found.lattice
     assert found.plan.decisions and asked.lens.sensor_before
     seen = found.plan.sensor_map(found.plan.vergences[0])

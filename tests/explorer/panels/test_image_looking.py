@@ -35,7 +35,7 @@ from p2sf_explorer.files.snapshot import write_picture
 from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.i18n.tr import unbroken
 from p2sf_explorer.panels.image.split_view import close_up, places
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.widgets.copying import png_of
 
 
@@ -110,10 +110,10 @@ def test_a_photo_dropped_beside_the_open_panel_is_photographed_and_a_snapshot_st
     before = window.store.state
     write_photo(tmp_path / "grey.png", np.full((20, 30, 3), 0.5, np.float32))
     assert drop(window, tmp_path / "grey.png").isAccepted()
-    assert window.store.state == changed(before, photo_source=str(tmp_path / "grey.png"))
+    assert window.store.state == change(before, photo_source=str(tmp_path / "grey.png"))
     assert not window.banner.isVisible()
     window.store.update(photo_source="text")
-    write_picture(changed(before, field_deg=7.0), png_of(window), tmp_path / "snapshot.png")
+    write_picture(change(before, field_deg=7.0), png_of(window), tmp_path / "snapshot.png")
     drop(window, tmp_path / "snapshot.png")
     assert window.store.state.optics.field_deg == 7.0 and window.store.state.photo.source == "text"
 

@@ -20,13 +20,13 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.glass_outlines import vertices
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, ranges, with_lens
-from p2sf_explorer.panels.layout.grips import dragged, glass_runs, group_of, sensor_grip, stop_grips, surface_grips
+from p2sf_explorer.panels.layout.grips import drag, glass_runs, group_of, sensor_grip, stop_grips, surface_grips
 from p2sf_explorer.panels.layout.object_space import object_space
 from p2sf_explorer.panels.layout.panel import LayoutPanel
 from p2sf_explorer.panels.layout.source_point import space_of
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.window.no_answer import drawn
+from p2sf_explorer.window.no_answer import draw_setup
 from tests.explorer.conftest import FIRST
 from tests.support.lenses.mirrors import mangin
 from tests.support.tiers import in_tiers
@@ -84,11 +84,11 @@ def alone(qtbot):
     def make(name):
         store = Store(with_lens(FIRST, name))
         panel = LayoutPanel(store)
-        store.changed.connect(lambda state: panel.show(drawn(state)))
+        store.changed.connect(lambda state: panel.show(draw_setup(state)))
         qtbot.addWidget(panel.widget)
         panel.widget.resize(960, 190)
         panel.widget.show()
-        panel.show(drawn(store.state))
+        panel.show(draw_setup(store.state))
         return store, panel
 
     return make
@@ -340,23 +340,23 @@ def test_the_group_is_what_stands_on_the_same_side_of_the_stop():
 
 def test_the_rim_under_the_hand_is_the_f_number():
     """Against the paraxial pupil itself, which the drag does not ask."""
-    start = changed(FIRST, lens="double_gauss_28")
+    start = change(FIRST, lens="double_gauss_28")
     setup = paraxial_setup(start)
     grip = stop_grips(setup, layout(setup))[0]
-    state = dragged(grip, start, grip.z, grip.y / 2)
+    state = drag(grip, start, grip.z, grip.y / 2)
     lens, before = paraxial_setup(state).lens, load("double_gauss_28")
     own = float(f_number(before, before.reference_wavelength_um))
     assert float(f_number(lens, lens.reference_wavelength_um)) == pytest.approx(2 * own, rel=1e-9)
-    widest = dragged(grip, start, grip.z, 50.0)
+    widest = drag(grip, start, grip.z, 50.0)
     assert widest.optics.f_number == ranges(load("double_gauss_28")).f_number[0]
 
 
 def test_a_moved_stop_keeps_speed_and_spherical_aberration():
     """W40 does not change when the stop moves and the axial beam does not (Welford 1986, stop-shift equations)."""
-    start = changed(FIRST, lens="double_gauss_28", keep_focus="off")
+    start = change(FIRST, lens="double_gauss_28", keep_focus="off")
     setup = paraxial_setup(start)
     grip = next(g for g in stop_grips(setup, layout(setup)) if g.kind == "stop")
-    lens, moved = prescription(start), prescription(dragged(grip, start, grip.z - 3.0, 0.0))
+    lens, moved = prescription(start), prescription(drag(grip, start, grip.z - 3.0, 0.0))
     assert vertices(moved)[5] == pytest.approx(vertices(lens)[5] - 3.0)
     assert vertices(moved)[6:] == pytest.approx(vertices(lens)[6:])
     one, two = (coefficients(x, inf, 0.1, x.reference_wavelength_um) for x in (lens, moved))
@@ -365,27 +365,27 @@ def test_a_moved_stop_keeps_speed_and_spherical_aberration():
 
 
 def test_an_edge_dragged_to_its_vertex_is_a_plane_and_back_the_old_radius():
-    start = changed(FIRST, lens="double_gauss_28", keep_focus="off")
+    start = change(FIRST, lens="double_gauss_28", keep_focus="off")
     lens = prescription(start)
     grip = next(g for g in surface_grips(lens, (1, 2)) if g.kind == "edge")
-    flat = dragged(grip, start, 0.0, grip.y)
+    flat = drag(grip, start, 0.0, grip.y)
     assert prescription(flat).surfaces[0].radius == inf
-    back = dragged(grip, flat, grip.z, grip.y)
+    back = drag(grip, flat, grip.z, grip.y)
     assert prescription(back).surfaces[0].radius == pytest.approx(lens.surfaces[0].radius, rel=1e-12)
 
 
 def test_a_dragged_mirror_and_sensor_stay_on_the_side_that_light_runs_to(tmp_path):
     file = tmp_path / "mangin.toml"
     file.write_text(lens_to_toml(mangin()), encoding="utf-8")
-    start = changed(with_lens(FIRST, str(file)), keep_focus="off")
+    start = change(with_lens(FIRST, str(file)), keep_focus="off")
     grip = next(g for g in surface_grips(prescription(start), (1, 2)) if g.kind == "vertex")
-    nearer = prescription(dragged(grip, start, grip.z - 2.0, 0.0))
+    nearer = prescription(drag(grip, start, grip.z - 2.0, 0.0))
     assert vertices(nearer)[1] == pytest.approx(vertices(prescription(start))[1] - 2.0)
     setup = paraxial_setup(start)
     sensor = sensor_grip(layout(setup))
-    moved = paraxial_setup(dragged(sensor, start, sensor.z - 3.0, 0.0)).lens
+    moved = paraxial_setup(drag(sensor, start, sensor.z - 3.0, 0.0)).lens
     assert moved.sensor_mm == pytest.approx(setup.lens.sensor_mm - 3.0)
-    beyond = paraxial_setup(dragged(sensor, start, 50.0, 0.0)).lens
+    beyond = paraxial_setup(drag(sensor, start, 50.0, 0.0)).lens
     assert beyond.sensor_mm < 0
 
 
@@ -401,7 +401,7 @@ def test_rays_by_field_and_by_wavelength_end_where_their_chief_rays_do(window, c
     shown = chart.live.layout
     assert len(shown.groups) == groups and len(shown.rays) == 7 * groups and len(chart.fans) == groups
     for number, fan in enumerate(shown.groups):
-        wanted = changed(FIRST, field_deg=fan.field_deg, wavelength_nm=fan.wavelength_nm)
+        wanted = change(FIRST, field_deg=fan.field_deg, wavelength_nm=fan.wavelength_nm)
         chief = next(ray for ray in layout(paraxial_setup(wanted)).rays if ray.kind == "chief")
         found = next(ray for ray in shown.rays if ray.group == number and ray.kind == "chief")
         assert found.y[-1] == pytest.approx(chief.y[-1], abs=1e-9)

@@ -16,7 +16,7 @@ from p2sf_explorer.compute.views.field import field_curves
 from p2sf_explorer.compute.views.first_order import first_order
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.state.scales import told_apart
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 PAINTED = new_state(theme="light", method="seidel")
 
@@ -47,7 +47,7 @@ def test_focal_surfaces_move_with_the_sensor(window):
 
 @pytest.mark.parametrize(("lens", "word"), [("double_gauss_28", "barrel"), ("telephoto", "pincushion")])
 def test_distortion_bends_the_grid_the_way_its_sign_says(lens, word):
-    view = field_curves(live(changed(with_lens(PAINTED, lens), method="seidel")))
+    view = field_curves(live(change(with_lens(PAINTED, lens), method="seidel")))
     corner, own = np.nanmax(np.hypot(*view.bent.T)), np.nanmax(np.hypot(*view.straight.T))
     share = view.heights.distortion[np.isfinite(view.heights.distortion)][-1]
     assert (share < 0) == (word == "barrel")
@@ -136,7 +136,7 @@ def test_the_curve_of_blur_crosses_the_tolerated_one_where_the_shade_ends(window
 def test_the_plot_shows_what_there_is_of_both_curves(changes):
     """Neither curve leaves the plot at once nor lies flat on its floor, though the sensor is far from any focus."""
     for name in set(shipped_lenses()) - {"telecentric_relay"}:  # which has no image of an object at infinity
-        found = live(changed(with_lens(PAINTED, name), method="seidel", **changes), "preview")
+        found = live(change(with_lens(PAINTED, name), method="seidel", **changes), "preview")
         view = depth_of_field(found)
         top = highest(view)
         for blur in (view.paraxial, view.real):
@@ -154,7 +154,7 @@ def test_ticks_of_depths_that_are_near_one_another_have_the_digits_to_tell_them_
 @pytest.mark.parametrize("blur", [30.0, 500.0, 2000.0, 10000.0])
 def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
     """Against the blur itself, from next to the lens to 10 km; 2 mm is all depths of the reverse telephoto."""
-    state = changed(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
+    state = change(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
     found = live(state, "preview")
     answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
     sharp = 2e3 * np.abs(axial_blur(found.setup).heights_mm(depths)) <= blur
@@ -188,7 +188,7 @@ def test_a_typed_blur_widens_what_is_sharp_and_nonsense_is_refused(window, qtbot
 
 @pytest.mark.parametrize("lens", ["relay", "eye_navarro", "periskop", "fast_gauss_f14"])
 def test_every_kind_of_lens_has_an_answer(lens):
-    answer = live(changed(with_lens(PAINTED, lens), method="seidel"), "preview")
+    answer = live(change(with_lens(PAINTED, lens), method="seidel"), "preview")
     assert np.isfinite(field_curves(answer).real.sagittal[0])
     found = depth_of_field(answer)
     assert found.sharp_mm is None or found.sharp_mm[0] < found.sharp_mm[1]

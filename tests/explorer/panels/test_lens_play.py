@@ -15,7 +15,7 @@ from p2sf_explorer.compute.glass_outlines import vertices
 from p2sf_explorer.compute.setup import load, prescription
 from p2sf_explorer.panels.lens_table.glass_completion import completer, written_indices
 from p2sf_explorer.panels.lens_table.surface_table import KEYS
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from tests.support.windows.events import choose
 
 LENS = "double_gauss_28"
@@ -184,5 +184,5 @@ def test_a_glass_is_completed_with_its_indices(window, table, qtbot):
 def test_states_keep_these_choices():
     from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
-    state = changed(new_state(), keep_focus="rms", rays_coloured="field", rays_count=7)
+    state = change(new_state(), keep_focus="rms", rays_coloured="field", rays_count=7)
     assert state_from_json(state_to_json(state)) == state

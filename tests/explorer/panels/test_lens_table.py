@@ -15,7 +15,7 @@ from p2sf.lensfile.toml.lens import write_toml
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
-from p2sf_explorer.compute.editing import deleted, edited_state, inserted, with_stop, with_value
+from p2sf_explorer.compute.editing import delete_surface, edited_state, insert_surface, with_stop, with_value
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription
 from p2sf_explorer.panels.lens_table.surface_table import KEYS
 from p2sf_explorer.state.state import State, new_state
@@ -168,18 +168,18 @@ def test_insert_and_delete_from_the_keyboard_give_the_first_lens_back(window, ta
 @pytest.mark.parametrize("number", range(1, 12))
 def test_an_inserted_plane_changes_no_coefficient(number):
     lens = load(LENS)
-    before, after = (coefficients(x, inf, 0.2, 0.5876) for x in (lens, inserted(lens, number)))
+    before, after = (coefficients(x, inf, 0.2, 0.5876) for x in (lens, insert_surface(lens, number)))
     for name in ("w40", "w31", "w22", "w20", "w11", "wd"):
         # sums of a hundred waves of either sign, in another order
         assert float(getattr(after, name)) == pytest.approx(float(getattr(before, name)), abs=1e-9)
-    assert deleted(inserted(lens, number), number + 1) == lens
+    assert delete_surface(insert_surface(lens, number), number + 1) == lens
 
 
 def test_what_cannot_be_deleted_is_a_sentence():
     with pytest.raises(GeometryError, match="surface 6 is the stop"):
-        deleted(load(LENS), 6)
+        delete_surface(load(LENS), 6)
     with pytest.raises(GeometryError, match="at least one surface"):
-        deleted(replace(load(LENS), surfaces=load(LENS).surfaces[:1], stop_surface=None), 1)
+        delete_surface(replace(load(LENS), surfaces=load(LENS).surfaces[:1], stop_surface=None), 1)
 
 
 def test_the_rim_of_the_stop_is_the_aperture():

@@ -12,9 +12,9 @@ from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.methods import render
 from p2sf_explorer.compute.matrix.pictures import radius_figure
 from p2sf_explorer.compute.matrix.points import nearest
-from p2sf_explorer.panels.matrix.tile_charts import LightChart, arranged
+from p2sf_explorer.panels.matrix.tile_charts import LightChart, arrange
 from p2sf_explorer.state.link import link, state_of_link
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from tests.support.windows.events import choose
@@ -138,7 +138,7 @@ def test_depths_are_typed_with_their_units(window, panel, qtbot):
 def test_a_and_b_stand_side_by_side_and_a_click_goes_to_either(window, panel, qtbot):
     window.store.update(matrix_across="side")
     assert "Ctrl+B" in panel.badge.text() and panel.grid.shape == (3, 1)
-    window.store.replace(changed(window.store.state, pinned=new_state(method="seidel", f_number=16.0, field_deg=3.0)))
+    window.store.replace(change(window.store.state, pinned=new_state(method="seidel", f_number=16.0, field_deg=3.0)))
     rested(panel, qtbot)
     assert headings(panel) == ["0° A", "0° B", "10° A", "10° B", "14° A", "14° B"]
     qtbot.mouseClick(panel.grid.chart(2, 1), Qt.MouseButton.LeftButton)
@@ -178,7 +178,7 @@ def test_a_value_that_cannot_be_is_refused_and_changes_nothing(window, wrong):
 @pytest.mark.parametrize("shape", [(2, 2), (3, 3), (3, 5), (5, 5), (3, 1)])
 @pytest.mark.parametrize("room", [(650, 180), (1000, 640), (2600, 1700), (400, 900)])
 def test_charts_stand_within_their_room_and_beside_each_other(room, shape, square):
-    places, narrow = arranged(room, shape, 16, (6, 14), square)
+    places, narrow = arrange(room, shape, 16, (6, 14), square)
     assert len(places) == shape[0] * shape[1] and min(p.width() for p in places) > 8
     assert all(QRect(0, 0, room[0] + 1, room[1] + 1).contains(place) for place in places)
     assert not any(a.intersects(b) for a, b in combinations(places, 2))

@@ -17,7 +17,7 @@ from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views import image
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
 SHIFT_UM = 60.0
@@ -84,7 +84,9 @@ def sharpened_by_what_was_measured(panel, store, folder, shift):
     truth = photographed(folder / "photo.tif")
 
     def quality(**changes):
-        found = image.planned(image.question(live(changed(taken, photo_source=str(folder / "photo.tif"), **changes))))
+        found = image.planned_picture(
+            image.question(live(change(taken, photo_source=str(folder / "photo.tif"), **changes)))
+        )
         return psnr(found.after[16:-16, 16:-16, :1], truth[16:-16, 16:-16])
 
     as_measured, true, designed = quality(), quality(sensor_shift_um=SHIFT_UM), quality(sensor_shift_um=0.0)

@@ -11,7 +11,7 @@ from p2sf.metrics.perfect import diffraction_mtf
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts
 from p2sf_explorer.compute.views.mtf import contrast
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from tests.support.overlap import overlap
 from tests.support.windows.windows import settled
 
@@ -24,7 +24,7 @@ def between(frequency_per_mm: np.ndarray) -> np.ndarray:
 
 
 def test_a_perfect_lens_has_the_closed_form_between_the_samples():
-    answer = live(changed(ALONE, added_waves=(1e-9, 0.0, 0.0, 0.0, 0.0, 0.0)))
+    answer = live(change(ALONE, added_waves=(1e-9, 0.0, 0.0, 0.0, 0.0, 0.0)))
     found, source = contrast(answer), answer.setup.source
     asked = between(found.frequency_per_mm)
     exact = diffraction_mtf(asked, float(answer.setup.coefficients.na), source.wavelength_um)
@@ -35,7 +35,7 @@ def test_a_perfect_lens_has_the_closed_form_between_the_samples():
 
 @pytest.mark.parametrize("waves", [(0.0, 0.0, 0.0, 0.0, 6.0, 0.0), (4.0, 6.0, 3.0, 0.0, 0.0, 0.0)])
 def test_what_is_painted_is_the_autocorrelation_of_the_pupil(waves):
-    answer = live(changed(ALONE, added_waves=waves))
+    answer = live(change(ALONE, added_waves=waves))
     found = contrast(answer)
     c = answer.setup.coefficients
     for nu in (0.0131, 0.0517, 0.113, 0.27, 0.61):  # of the cut-off
@@ -82,7 +82,7 @@ def circles(apart: np.ndarray, one: float, other: float) -> np.ndarray:
 
 def test_behind_a_ring_the_perfect_curve_is_that_of_the_same_pupil_and_the_clear_one_stands_beside(window, qtbot):
     """The autocorrelation of an annulus: circles' overlaps, outer less two mixed plus inner (O'Neill 1956)."""
-    window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="mtf"))
+    window.store.replace(change(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="mtf"))
     panel = window.panels["mtf"]
     beside = panel.curves["perfect, clear pupil"]
     settled(panel, qtbot)
@@ -99,7 +99,7 @@ def test_behind_a_ring_the_perfect_curve_is_that_of_the_same_pupil_and_the_clear
 
 def test_energy_behind_a_ring_is_beside_that_of_the_same_pupil(window, qtbot):
     """That of the annular Airy pattern, 2J₁(v)/v − ε²·2J₁(εv)/(εv) over 1 − ε², summed over rings."""
-    window.store.replace(changed(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="profiles"))
+    window.store.replace(change(ALONE, added_waves=(0.0, 0.0, 0.0, 0.0, 0.5, 0.0), obscuration=0.5, tab="profiles"))
     panel = window.panels["profiles"]
     settled(panel, qtbot)
     (radius, perfect), (_, clear) = panel.perfect.data(), panel.clear.data()

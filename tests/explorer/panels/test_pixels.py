@@ -6,24 +6,24 @@ from PySide6.QtCore import Qt
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.pixels import airy_share, beside, over_pixels, pixel_weights
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 FIRST = new_state(method="seidel", theme="light")
 
 
 def test_without_aberrations_this_lens_is_the_perfect_one():
-    view = beside(live(changed(FIRST, free_pupil=True)))
+    view = beside(live(change(FIRST, free_pupil=True)))
     assert view.real == pytest.approx(view.perfect, abs=2e-3)  # the settled sum keeps 1e-4 of the whole
 
 
 def test_pixels_share_the_light_out_without_loss():
-    answer = live(changed(FIRST, f_number=8.0))
+    answer = live(change(FIRST, f_number=8.0))
     for pixel in (1.0, 3.3, 50.0, 1000.0):
         assert over_pixels(answer.psf, pixel).sum() == pytest.approx(1, abs=1e-9)
 
 
 def test_a_pixel_of_one_sample_is_the_sample_and_a_sensor_of_one_pixel_sees_all():
-    answer = live(changed(FIRST, f_number=8.0))
+    answer = live(change(FIRST, f_number=8.0))
     same = over_pixels(answer.psf, answer.psf.pixel_um)
     n = answer.psf.values.shape[0]
     middle = same.shape[0] // 2

@@ -9,7 +9,7 @@ from PySide6.QtGui import QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.crosshair import boxed, lines_of, marks_of
+from p2sf_explorer.charts.crosshair import lines_of, marks_of, place_box
 from p2sf_explorer.charts.plots import ColourBar
 from p2sf_explorer.compute.reference import measure
 from p2sf_explorer.state.panels import REGISTRY
@@ -131,7 +131,7 @@ def test_what_is_under_the_pointer_is_said_beside_it(charts, qtbot):
         reading = chart.crosshair()
         assert reading is not None and lines_of(reading) and all(text for *_, text, _ in lines_of(reading))
         assert not reading.values or any(character.isdigit() for character in reading.values[0].text)
-        box = boxed(reading, chart)[1]
+        box = place_box(reading, chart)[1]
         assert not any(box.contains(mark) for mark in marks_of(reading, chart)), "the box covers what it reads"
         assert chart.rect().contains(box.toAlignedRect().adjusted(1, 1, -1, -1))
         assert chart.grab().toImage() != bare, "and it is painted"

@@ -7,10 +7,10 @@ import pytest
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.profiles import profiles
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 
 FIRST = new_state(method="seidel", theme="light")
-PERFECT = changed(FIRST, free_pupil=True)
+PERFECT = change(FIRST, free_pupil=True)
 
 
 def test_a_perfect_lens_paints_the_airy_pattern_on_both_sections(window):
@@ -34,7 +34,7 @@ def test_four_fifths_of_a_perfect_lens_light_lie_inside_the_first_ring(window):
 
 @pytest.mark.parametrize(("method", "lens"), [("seidel", "double_gauss_28"), ("fitted", "double_gauss_28")])
 def test_fine_sections_go_through_the_samples_of_the_picture(method, lens):
-    answer = live(changed(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))
+    answer = live(change(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))
     view, psf = profiles(answer), answer.psf
     assert view.position_um.size > 3 * psf.values.shape[-1]
     rows = psf.values.shape[0] // 2
@@ -69,7 +69,7 @@ def test_defocus_spreads_the_energy(window):
 
 
 def test_where_rays_are_clipped_the_samples_are_shown():
-    answer = live(changed(FIRST, method="traced", field_deg=14.0, f_number=5.6, clip=True), "preview")
+    answer = live(change(FIRST, method="traced", field_deg=14.0, f_number=5.6, clip=True), "preview")
     answer = replace(answer, quality="settled")
     view = profiles(answer)
     middle = answer.psf.values[answer.psf.values.shape[0] // 2]
@@ -77,7 +77,7 @@ def test_where_rays_are_clipped_the_samples_are_shown():
 
 
 def test_beside_a_difference_the_radii_are_said_to_be_those_of_a(window):
-    window.store.update(pinned=changed(window.store.state, f_number=8.0), shown="a", tab="profiles")
+    window.store.update(pinned=change(window.store.state, f_number=8.0), shown="a", tab="profiles")
     caption = window.panels["profiles"].widget.readout
     assert "R50" in caption.text() and "A: R50" not in caption.text()
     window.store.update(shown="difference")

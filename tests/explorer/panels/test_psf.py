@@ -6,10 +6,10 @@ import pytest
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.panels.psf import badge_words, tip_words, top_value, unit_of
-from p2sf_explorer.state.state import changed, new_state
-from p2sf_explorer.window.bars import shortened
+from p2sf_explorer.state.state import change, new_state
+from p2sf_explorer.window.bars import shorten
 
-BLURRED = changed(default_state("double_gauss_28"), depth_mm=10.0, method="auto")
+BLURRED = change(default_state("double_gauss_28"), depth_mm=10.0, method="auto")
 
 
 def test_the_picture_is_summed_for_the_pixels_it_is_shown_on(window, qtbot):
@@ -62,7 +62,7 @@ def test_the_tool_tip_says_how_rays_fill_the_pupil():
 
 
 def test_ray_density_is_shown_over_its_peak_where_a_strehl_ratio_is_asked_for():
-    shown = live(changed(BLURRED, psf_units="strehl"))
+    shown = live(change(BLURRED, psf_units="strehl"))
     assert shown.psf.method == "geometric"
     assert (unit_of(shown.state, shown.psf), top_value(shown.state, shown.psf, 0.1)) == ("peak", 1.0)
     assert "R²" not in badge_words(shown, {"settled": "1.0"}, None)[0]
@@ -71,7 +71,7 @@ def test_ray_density_is_shown_over_its_peak_where_a_strehl_ratio_is_asked_for():
 
 def test_warnings_lose_their_remedies_only_as_far_as_there_is_no_room():
     first, second, third = "Too wide; stop down.", "One ray is lost.", "Too steep; go near; now."
-    assert shortened((first, second, third)) == (
+    assert shorten((first, second, third)) == (
         "⚠ Too wide; stop down.   ⚠ One ray is lost.   ⚠ Too steep …",
         "⚠ Too wide …   ⚠ One ray is lost.   ⚠ Too steep …",
     )

@@ -13,12 +13,12 @@ from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.compute.views import field_map, through_focus
 from p2sf_explorer.panels.field_map import FieldMapPanel
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.what_if import UNTOUCHED
 from tests.support.windows.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
-PURE = changed(FIRST, free_pupil=True)
+PURE = change(FIRST, free_pupil=True)
 
 
 @pytest.fixture
@@ -54,13 +54,13 @@ def test_the_brightest_picture_is_at_the_medial_focus(strip):
 
 def test_lines_stand_across_each_other_at_the_two_foci():
     """At the tangential focus the light is a line along x, at the sagittal one along y (Welford 1986, §8.4)."""
-    state = changed(FIRST, f_number=11.0, field_deg=14.0)
+    state = change(FIRST, f_number=11.0, field_deg=14.0)
     first = live(state)
     c = paraxial_setup(state).own
     places = through_focus.seidel_foci(c)
     shapes = []
     for place in (places.tangential, places.sagittal):
-        psf = in_window(changed(optics(state), sensor_shift_um=1e3 * float(place)), (64, 1.0), True)
+        psf = in_window(change(optics(state), sensor_shift_um=1e3 * float(place)), (64, 1.0), True)
         x, y = psf.values.sum(0), psf.values.sum(1)
         shapes.append((x @ psf.x_um**2) / (y @ psf.y_um**2))
     assert first.method == "seidel" and shapes[0] > 1 > shapes[1]
@@ -110,12 +110,12 @@ def test_arrow_keys_move_the_sensor(window, strip, qtbot):
 
 def test_defocus_alone_is_symmetric_about_focus():
     """Pure defocus: the picture at +Δz is that at −Δz (the kernel depends on Wd²)."""
-    lens = changed(with_lens(FIRST, "achromat_f6"), method="seidel", field_deg=0.0, muted=("w40",), f_number=12.0)
+    lens = change(with_lens(FIRST, "achromat_f6"), method="seidel", field_deg=0.0, muted=("w40",), f_number=12.0)
     question = through_focus.strip(live(lens))
     found, told = worked(question, through_focus)
     shifts = np.array(question.shifts_um)
     centre = float(through_focus.seidel_foci(paraxial_setup(question.state).coefficients).sagittal) * 1e3
-    pair = [in_window(changed(question.state, sensor_shift_um=centre + d), (32, 1.0), True).values for d in (60, -60)]
+    pair = [in_window(change(question.state, sensor_shift_um=centre + d), (32, 1.0), True).values for d in (60, -60)]
     assert pair[0] == pytest.approx(pair[1], abs=1e-6)  # the preview's float32
     assert shifts[0] < centre < shifts[-1] and told[-1] <= 1 and np.isfinite(found.light).all()
 
@@ -169,7 +169,7 @@ def test_arrow_keys_choose_a_picture_of_the_map_and_enter_goes_to_its_field(wind
 
 
 def test_coma_points_away_from_the_axis_at_every_place():
-    question = field_map.field_map(live(changed(FIRST, solo=("w31",), f_number=4.0)))
+    question = field_map.field_map(live(change(FIRST, solo=("w31",), f_number=4.0)))
     found, told = worked(question, field_map)
     where = field_map.places()
     axis = np.arange(question.window[0]) - question.window[0] // 2
@@ -189,12 +189,12 @@ MAPPED = [{"vanes": 2, "vane_width": 0.2, "vane_angle_deg": 30.0}, {"errors": ((
 @pytest.mark.parametrize("at", [(0, 4), (2, 4), (1, 8)], ids=["top", "bottom", "right"])
 def test_a_place_of_a_map_without_symmetry_shows_its_own_field_as_it_lies_on_the_sensor(changes, at):
     """Vanes stay where they are while the field turns. Of fields along y the picture needs no turning at all."""
-    state = changed(FIRST, method="auto", f_number=5.6, **changes)
+    state = change(FIRST, method="auto", f_number=5.6, **changes)
     question = field_map.field_map(live(state, "preview"))
     found, _ = worked(question, field_map)
     field_x, field_y = question.field_of(field_map.places()[at])
-    values = in_window(changed(question.state, field_deg=field_y, field_x_deg=field_x), question.window, False).values
-    sensor = field_map.turned(values, np.deg2rad(90.0)) if field_x else values
+    values = in_window(change(question.state, field_deg=field_y, field_x_deg=field_x), question.window, False).values
+    sensor = field_map.rotate_picture(values, np.deg2rad(90.0)) if field_x else values
     assert found[at] == pytest.approx(sensor / values.max(), abs=1e-6)
     symmetric = replace(question, symmetric=True)
     assert np.abs(worked(symmetric, field_map)[0][1, 8] - found[1, 8]).max() > 1e-2, "and no other field's"
@@ -214,16 +214,16 @@ def test_an_earlier_picture_is_marked_until_its_own_is_there(window, qtbot, key)
 
 def test_the_top_of_the_map_is_the_field_that_lands_there():
     """A relay's entrance pupil lies beyond its object: fields of the other sign than a camera's land above the axis."""
-    state = changed(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
+    state = change(with_lens(FIRST, "relay"), method="seidel", solo=("w31",), depth_mm=96.0, focus_mm=96.0)
     first = live(state, "preview")
     question = replace(field_map.field_map(first), window=(24, first.airy_radius_um / 3))
     lands = {}
     for side in (1, -1):
-        one = changed(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
+        one = change(question.state, field_deg=side * float(degrees_from_slope(question.corner_slope)))
         values = in_window(one, question.window, True).values
         lands[float(paraxial_setup(one).coefficients.image_height) > 0] = values / values.max()
     values, inverted = field_map.picture_at(question, question.field_of(np.array([0.0, 1.0])))
-    shown = field_map.turned(values, np.pi if inverted else 0.0)
+    shown = field_map.rotate_picture(values, np.pi if inverted else 0.0)
     assert shown[1:, 1:] == pytest.approx(lands[True][1:, 1:], abs=1e-4)
     assert np.abs(shown - lands[False]).max() > 0.1, "coma tells the two apart"
 
@@ -231,9 +231,9 @@ def test_the_top_of_the_map_is_the_field_that_lands_there():
 @pytest.mark.parametrize(("lens", "field", "up"), [("", 5.0, 1), ("", -5.0, -1), ("relay", 0.2, -1), ("", 0.0, 0)])
 def test_the_arrow_points_to_where_farther_fields_land(window, lens, field, up):
     state = with_lens(window.store.state, lens) if lens else window.store.state
-    window.store.replace(changed(state, field_deg=field))
+    window.store.replace(change(state, field_deg=field))
     near, far = (
-        float(paraxial_setup(changed(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1)
+        float(paraxial_setup(change(state, field_deg=part * field)).coefficients.image_height) for part in (1, 1.1)
     )
     panel = window.panels["psf"]
     tip = panel.arrow.data()[1][1]
@@ -258,8 +258,8 @@ def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
 )
 def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, points):
     """Six coefficients do near the axis and where all is blurred, and miss elsewhere: `auto` changes its mind."""
-    state = changed(FIRST, method="auto", aim="paraxial", field_deg=2.0, f_number=5.6)
-    answers = [live(changed(state, **point)) for point in points]
+    state = change(FIRST, method="auto", aim="paraxial", field_deg=2.0, f_number=5.6)
+    answers = [live(change(state, **point)) for point in points]
     assert {answer.method for answer in answers} == {"seidel", "fitted"}
     first, second = map(ask, answers)
     assert first == second and not first.six
@@ -267,7 +267,7 @@ def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, po
 
 @pytest.mark.parametrize("lens", ["relay", "eye_navarro", "landscape"])
 def test_other_lenses_have_a_strip_with_their_foci_inside(lens):
-    state = changed(with_lens(FIRST, lens), method="seidel")
+    state = change(with_lens(FIRST, lens), method="seidel")
     question = through_focus.strip(live(state, "preview"))
     sagittal, tangential, best = through_focus.foci(question)
     assert question.shifts_um[0] <= min(sagittal, tangential, best)
@@ -277,15 +277,15 @@ def test_other_lenses_have_a_strip_with_their_foci_inside(lens):
 def test_rays_of_a_misaligned_lens_are_thinnest_at_its_foci():
     """With all errors in the plane x = 0 the foci are where neighbours of the chief ray meet in y, and in x."""
     errors = (("tilt_x", 3, 4, 0.5), ("decentre_y", 7, 8, 0.3))
-    state = changed(FIRST, errors=errors, method="fitted", field_deg=8.0, f_number=22.0)
+    state = change(FIRST, errors=errors, method="fitted", field_deg=8.0, f_number=22.0)
     question = through_focus.strip(live(state, "preview"))
     sagittal, tangential, _ = through_focus.foci(question)
-    straight = through_focus.foci(through_focus.strip(live(changed(state, errors=()), "preview")))
+    straight = through_focus.foci(through_focus.strip(live(change(state, errors=()), "preview")))
     assert abs(tangential - straight[1]) > 10, "µm: the errors are felt"
     for axis, place in enumerate((sagittal, tangential)):
         widths = []
         for shift in (place - 20, place, place + 20):
-            setup = paraxial_setup(changed(question.state, sensor_shift_um=shift))
+            setup = paraxial_setup(change(question.state, sensor_shift_um=shift))
             near = np.array([0.02, -0.02]), np.zeros(2)
             rays = pencil(setup.lens, setup.source, near[axis], near[1 - axis])
             widths.append(abs(np.diff((rays.dx, rays.dy)[axis]))[0])

@@ -18,7 +18,7 @@ from p2sf_explorer.panels.tolerances.arrangement import TolerancesBody
 from p2sf_explorer.panels.tolerances.panel import TolerancesPanel
 from p2sf_explorer.panels.tolerances.tables import LOST, ErrorTable
 from p2sf_explorer.state.scales import significant
-from p2sf_explorer.state.state import ToleranceView, changed, new_state
+from p2sf_explorer.state.state import ToleranceView, change, new_state
 from p2sf_explorer.widgets.copying import data_of
 from tests.explorer.conftest import FEW_BUILDS
 from tests.support.tolerances import exact_quality
@@ -179,7 +179,7 @@ def test_the_field_on_screen_does_not_matter(window):
 )
 def test_what_cannot_be_is_refused(wrong):
     with pytest.raises(P2SFError):
-        changed(new_state(), **wrong)
+        change(new_state(), **wrong)
 
 
 def test_the_panel_turns_to_the_room_it_has(qtbot):

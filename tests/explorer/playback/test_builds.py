@@ -11,7 +11,7 @@ from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views import tolerances as analysis
 from p2sf_explorer.playback.builds import LARGER, moments_of_builds
 from p2sf_explorer.playback.filming import frame_of, picture_of
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from tests.support.tolerances import exact_quality
 from tests.support.windows.windows import at_rest
 
@@ -40,7 +40,7 @@ def test_each_frame_is_a_build_of_the_draw_and_says_its_value(panel):
 
 def test_a_factor_that_was_chosen_is_kept(panel):
     asked, found = panel.drawn()
-    chosen = analysis.ToleranceQuestion(asked.request, asked.view, changed(asked.state, exaggerated=10))
+    chosen = analysis.ToleranceQuestion(asked.request, asked.view, change(asked.state, exaggerated=10))
     assert "×10," in str(moments_of_builds(chosen, found, count=1)[1].caption)
 
 

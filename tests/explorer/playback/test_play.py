@@ -16,7 +16,7 @@ from p2sf_explorer.playback.filming import frame_of, picture_of
 from p2sf_explorer.playback.play_bar import seconds
 from p2sf_explorer.playback.sweep import changes, present, sweep
 from p2sf_explorer.state.limits import PLAYABLE
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.terms import NAMES
 from tests.support.windows.events import choose
 from tests.support.windows.windows import at_rest, settled
@@ -31,7 +31,7 @@ def test_every_slider_can_be_swept_from_end_to_end_and_back(key):
     assert way.at(1.0) == approx(way.at(3.0))
     for part in (0.0, 0.3, 1.0):
         assert way.part(way.value(part)) == approx(part)
-    assert present(changed(state, **changes(state, way.value(0.25)))) == approx(way.value(0.25))
+    assert present(change(state, **changes(state, way.value(0.25)))) == approx(way.value(0.25))
 
 
 def test_half_way_is_even_in_what_the_slider_is_even_in():

@@ -13,7 +13,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.camera import CAMERA, SceneCamera
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.store.store import Store
 from tests.long.crash import small_disk
 
@@ -23,7 +23,7 @@ SIDE = SceneCamera(turn=0.0, tilt=0.0)
 
 
 def scene_at(**changes):
-    return scene(live(changed(FIRST, **changes), "preview"))
+    return scene(live(change(FIRST, **changes), "preview"))
 
 
 @pytest.fixture(scope="module")

@@ -18,12 +18,12 @@ from p2sf_explorer.scene3d.meshes import (
     elements,
     masked_stop,
     plate,
-    revolved,
+    revolve,
     ring,
     volume,
 )
 from p2sf_explorer.scene3d.scene import scene
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from tests.support.interpreter import loaded_by
 
 LENSES = ("double_gauss_28", "cooke_triplet", "eye_navarro", "achromat_f6")
@@ -95,7 +95,7 @@ def test_glass_is_where_the_lens_has_it(name):
 
 @pytest.mark.parametrize("name", LENSES)
 def test_rays_meet_every_surface_and_end_at_the_image(name):
-    answer = live(changed(default_state(name), method="seidel"), "preview")
+    answer = live(change(default_state(name), method="seidel"), "preview")
     shown, lens = scene(answer), answer.setup.lens
     for number, (surface, vertex) in enumerate(zip(lens.surfaces, vertices(lens), strict=False), 1):
         x, y, z = shown.rays[:, number].T
@@ -146,7 +146,7 @@ def test_the_window_loads_no_renderer():
 
 
 def test_revolving_about_a_hole_needs_no_axis():
-    made = revolved(np.array([1.0, 2.0]), np.zeros(2), np.ones(2), sweep=(0.0, np.pi), steps=180)
+    made = revolve(np.array([1.0, 2.0]), np.zeros(2), np.ones(2), sweep=(0.0, np.pi), steps=180)
     assert volume(made) == pytest.approx(np.pi * 3 / 2, rel=1e-4)
 
 
@@ -154,7 +154,7 @@ def test_revolving_about_a_hole_needs_no_axis():
 def test_a_sensor_that_touches_the_glass_or_stands_in_it_has_a_wavefront_too(sensor_mm):
     """Found by random hands: the wavefront was drawn between last glass and sensor, where there was no room."""
     lens = with_sensor(find_lens("double_gauss_28"), sensor_mm)
-    found = scene(live(changed(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
+    found = scene(live(change(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
     assert found.front.factor > 0 and np.isfinite(found.front.mesh.points).all()
     assert np.ptp(found.front.mesh.points, axis=0).max() > 0.01
 

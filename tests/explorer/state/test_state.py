@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import AIMS
-from p2sf_explorer.state.link import shortened
+from p2sf_explorer.state.link import shorten_state
 from p2sf_explorer.state.state import CHOICES, LINKABLE, PanelChoices, State, new_state
 from p2sf_explorer.state.state_files import SCHEMA, VERSION, read_state, state_from_json, state_to_dict, state_to_json
 from p2sf_explorer.state.terms import TERMS
@@ -96,7 +96,7 @@ def test_a_state_that_says_nothing_of_choosers_has_them_as_at_the_first_start(ve
 @pytest.mark.parametrize("aim", AIMS)
 def test_every_file_and_link_says_how_rays_fill_the_pupil(aim):
     state = new_state(aim=aim, pinned=new_state(aim=aim))
-    written = state_to_dict(state), shortened(state)
+    written = state_to_dict(state), shorten_state(state)
     for groups in written:
         assert groups["optics"]["aim"] == groups["compare"]["pinned"]["optics"]["aim"] == aim
 

@@ -16,9 +16,9 @@ from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.panels.coefficients.mixer import NUMBER, waves
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.panels import FOLLOWS, REGISTRY, REMAINS, view_of
-from p2sf_explorer.state.state import State, changed, entry, new_state
+from p2sf_explorer.state.state import State, change, entry, new_state
 from p2sf_explorer.state.terms import TERMS
-from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggled, with_added
+from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, is_altered, of_preset, toggle, with_added
 from tests.support.waves import rms
 
 FIELD = new_state(method="fitted", field_deg=7.0)
@@ -31,26 +31,26 @@ def six(state) -> dict[str, float]:
 
 @pytest.mark.parametrize("term", TERMS)
 def test_added_waves_go_on_top_of_one_coefficient_and_no_other(term):
-    own, added = six(FIELD), six(changed(FIELD, added_waves=with_added(FIELD, term, 1.25)))
+    own, added = six(FIELD), six(change(FIELD, added_waves=with_added(FIELD, term, 1.25)))
     assert added == pytest.approx(own | {term: own[term] + 1.25}, abs=1e-12)
 
 
 def test_a_muted_term_is_zero_and_a_solo_one_alone():
     own = six(FIELD)
-    assert six(changed(FIELD, muted=("w22",))) == own | {"w22": 0.0}
-    assert six(changed(FIELD, solo=("w31", "w22"))) == dict.fromkeys(TERMS, 0.0) | {k: own[k] for k in ("w31", "w22")}
-    assert set(six(changed(FIELD, solo=("w31",), muted=("w31",))).values()) == {0.0}
+    assert six(change(FIELD, muted=("w22",))) == own | {"w22": 0.0}
+    assert six(change(FIELD, solo=("w31", "w22"))) == dict.fromkeys(TERMS, 0.0) | {k: own[k] for k in ("w31", "w22")}
+    assert set(six(change(FIELD, solo=("w31",), muted=("w31",))).values()) == {0.0}
 
 
 def test_a_free_pupil_knows_no_lens():
-    state = changed(FIELD, free_pupil=True, added_waves=(1.0, 0.5, 0.0, 0.0, -1.0, 0.0))
+    state = change(FIELD, free_pupil=True, added_waves=(1.0, 0.5, 0.0, 0.0, -1.0, 0.0))
     assert tuple(six(state).values()) == state.what_if.added_waves
-    assert six(changed(state, field_deg=2.0, lens="cooke_triplet")) == six(state)
+    assert six(change(state, field_deg=2.0, lens="cooke_triplet")) == six(state)
 
 
 @pytest.mark.parametrize("changes", [{"added_waves": (0.0, 0.5, 0.0, 0.0, 0.0, 0.0)}, {"muted": ("w40",)}])
 def test_the_picture_is_of_the_altered_six_whatever_the_method(changes):
-    live = compute.live(changed(FIELD, **changes))
+    live = compute.live(change(FIELD, **changes))
     expected = seidel_psf(live.setup.coefficients, *live.psf.values.shape[:1], live.psf.pixel_um, "settled")
     assert live.psf.method == "seidel"
     assert np.array_equal(live.psf.values, expected.values)
@@ -124,13 +124,13 @@ def test_autofocus_refuses_where_the_sensor_moves_nothing(changes):
 
 def test_autofocus_of_altered_coefficients_balances_them():
     state = new_state(muted=("w31", "w22", "w20"), field_deg=5.0)
-    best = paraxial_setup(changed(state, sensor_shift_um=best_shift_um(state))).coefficients
+    best = paraxial_setup(change(state, sensor_shift_um=best_shift_um(state))).coefficients
     assert float(best.wd) == pytest.approx(-float(best.w40), abs=0.02)  # the shift is rounded to a nanometre
 
 
 def test_toggling_keeps_the_order_of_the_terms():
-    assert toggled(toggled((), "wd"), "w40") == ("w40", "wd")
-    assert toggled(("w40", "wd"), "w40") == ("wd",)
+    assert toggle(toggle((), "wd"), "w40") == ("w40", "wd")
+    assert toggle(("w40", "wd"), "w40") == ("wd",)
 
 
 @pytest.fixture

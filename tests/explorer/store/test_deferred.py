@@ -20,11 +20,11 @@ from p2sf_explorer.compute.deferred_sums import AT_ONCE_SECONDS, KEPT, SumCache
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.pinning import optics
-from p2sf_explorer.state.state import State, changed, new_state
+from p2sf_explorer.state.state import State, change, new_state
 from tests.explorer.conftest import FIRST
 
-CORNER = changed(with_lens(new_state(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
-WIDE = changed(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=60.0)
+CORNER = change(with_lens(new_state(theme="light"), "double_gauss_28"), method="traced", field_deg=14.0, clip=True)
+WIDE = change(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_um=60.0)
 
 
 @pytest.fixture
@@ -79,7 +79,7 @@ def test_what_stands_in_has_the_size_of_what_follows():
 def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch):
     gate = Event()
     with noted(monkeypatch, gate):
-        window.store.replace(changed(WIDE, field_deg=12.0))
+        window.store.replace(change(WIDE, field_deg=12.0))
         first = window.live.pending
         window.store.update(field_deg=13.0)
         second = window.live.pending
@@ -147,7 +147,7 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
         return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
     monkeypatch.setattr(deferred, "psf_of", counted)
-    window.store.replace(changed(FIRST, pinned=optics(WIDE)))
+    window.store.replace(change(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
     qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending))
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
@@ -158,7 +158,7 @@ def test_what_is_summed_at_once_is_small(method):
     """The estimate of nodes before any is traced keeps what it promises, to a factor of 2 in a corner's slope."""
     for name in ("fast_gauss_f14", "telephoto", "landscape"):
         for shift in (0.0, 100.0, 300.0, 900.0):
-            state = changed(with_lens(State(), name), method=method.name, sensor_shift_um=shift)
+            state = change(with_lens(State(), name), method=method.name, sensor_shift_um=shift)
             answer = live(state, cache=SumCache())
             assert answer.pending or answer.psf.rays * method.node_seconds <= 2 * AT_ONCE_SECONDS
 
@@ -184,7 +184,7 @@ def test_what_moves_where_rims_clip_resembles_the_exact_picture():
 
 def test_a_slow_method_of_every_lens_has_something_that_stands_in():
     for name in shipped_lenses():
-        state = changed(with_lens(State(), name), method="traced", clip=True)
+        state = change(with_lens(State(), name), method="traced", clip=True)
         answer = live(state, cache=SumCache())
         assert answer.pending or answer.psf.method == "geometric"
         assert np.isfinite(answer.psf.values).all() and answer.psf.values.sum() == pytest.approx(1.0)
@@ -192,7 +192,7 @@ def test_a_slow_method_of_every_lens_has_something_that_stands_in():
 
 def test_a_window_for_a_wide_picture_shows_a_small_one_as_rays():
     """Beside a B that is blurred over millimetres a sum of waves would be of thousands of rows."""
-    sharp = changed(FIRST, field_deg=0.0)
+    sharp = change(FIRST, field_deg=0.0)
     assert live(sharp, least=(0, 100.0)).psf.method == "seidel"
     for quality in ("preview", "settled"):
         wide = live(sharp, quality, least=(0, 20_000.0)).psf

@@ -11,7 +11,7 @@ from p2sf_explorer.compute.reference import Accuracy, measure
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.panels.accuracy import anchors
 from p2sf_explorer.state.scales import written_r_squared
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.store.live_accuracy import fits
 from p2sf_explorer.window.window import MainWindow
 from tests.support.windows.windows import at_rest
@@ -99,8 +99,8 @@ def test_a_figure_answers_for_its_own_picture_only(changes, wide):
     state = new_state(method="seidel", field_deg=2.0, f_number=8.0)
     shown = live(state)
     known = Accuracy(shown, shown.psf, shown.psf, 0.9)
-    assert fits(known, live(changed(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
-    assert not fits(known, live(changed(state, **changes), least=(0, wide)), False)
+    assert fits(known, live(change(state, psf_scale="log", tab="mtf")), False), "looks change nothing"
+    assert not fits(known, live(change(state, **changes), least=(0, wide)), False)
 
 
 def test_the_names_of_the_methods_stay_inside_and_take_different_sides(qapp):

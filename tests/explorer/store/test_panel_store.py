@@ -22,5 +22,5 @@ def test_b_on_screen_is_not_edited_and_a_row_too_many_is_a_sentence(window):
     for number in (0, len(prescription(state).surfaces) + 1):
         with pytest.raises(GeometryError, match=f"there is no surface {number} in a lens of"):
             check_surface(prescription(state), number)
-    window.panels["lens"]._typed(99, "radius", "5")
+    window.panels["lens"]._on_typed(99, "radius", "5")
     assert "no surface 99" in window.banner.text.text()

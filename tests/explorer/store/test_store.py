@@ -7,10 +7,10 @@ import pytest
 from p2sf_explorer.playback.sweep import changes, sweep
 from p2sf_explorer.state.limits import CHOICES, LINKABLE, PLAYABLE
 from p2sf_explorer.state.link import link, state_of_link
-from p2sf_explorer.state.pinning import link_toggled, pin, swapped, unpin
+from p2sf_explorer.state.pinning import link_toggled, pin, swap, unpin
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
-from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, of_preset, toggled
+from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, of_preset, toggle
 from p2sf_explorer.store.store import MOST_STEPS, Store
 
 
@@ -67,8 +67,8 @@ def _what_if(store, chance):
     term = chance.choice(TERMS)
     kinds = {
         "added_waves": waves,
-        "muted": toggled(store.state.what_if.muted, term),
-        "solo": toggled(store.state.what_if.solo, term),
+        "muted": toggle(store.state.what_if.muted, term),
+        "solo": toggle(store.state.what_if.solo, term),
     }
     name = chance.choice([*kinds, "free_pupil", "preset", "reset"])
     if name in kinds:
@@ -86,7 +86,7 @@ def _compare(store, chance):
         return
     what = chance.choice(["unpin", "swap", "shown", "link"])
     if what in ("unpin", "swap"):
-        store.replace((unpin if what == "unpin" else swapped)(state))
+        store.replace((unpin if what == "unpin" else swap)(state))
     elif what == "shown":
         store.update(shown=chance.choice(CHOICES["shown"]))
     else:

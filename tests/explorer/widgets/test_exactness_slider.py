@@ -5,7 +5,7 @@ from PySide6.QtCore import Qt
 
 from p2sf.studies.trade_files import shipped_trades
 from p2sf_explorer.compute.method_bounds import PredictedCost
-from p2sf_explorer.widgets.exactness_slider import MEASURES, rounded
+from p2sf_explorer.widgets.exactness_slider import MEASURES, round_to_series
 from p2sf_explorer.widgets.slider import STEPS
 from tests.support.windows.events import choose
 
@@ -104,4 +104,4 @@ def test_the_complete_trade_of_the_lens_is_shown_and_serves_until_costs_are_know
 
 @pytest.mark.parametrize(("value", "member"), [(0.0099, 0.01), (0.0034, 0.005), (3.0, 2.0), (900.0, 1000.0)])
 def test_values_are_of_a_round_series(value, member):
-    assert rounded(value) == pytest.approx(member)
+    assert round_to_series(value) == pytest.approx(member)

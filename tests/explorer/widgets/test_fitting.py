@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QComboBox, QWidget
 
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import LIGHT, stylesheet
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.state.workspaces import WORKSPACES, on_stage, with_workspace
 from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.readout import Columns, FactTable
@@ -82,9 +82,9 @@ def test_charts_stand_along_the_longer_side(qapp, size):
 @pytest.mark.parametrize(("percent", "size"), [(100.0, (1280, 800)), (200.0, (2560, 1600))])
 def test_every_choice_of_the_matrix_can_be_read(window, qtbot, percent, size, workspace):
     state = with_workspace(window.store.state, workspace, WORKSPACES[workspace])
-    state = changed(state, **on_stage(state.display, "matrix"))
+    state = change(state, **on_stage(state.display, "matrix"))
     window.resize(*size)
-    window.store.replace(changed(state, scale_percent=percent))
+    window.store.replace(change(state, scale_percent=percent))
     card = window.panels["matrix"].widget
     QApplication.processEvents()
     lists = card.findChildren(ValueList)
@@ -110,7 +110,7 @@ def test_lengths_of_single_widgets_follow_the_type(scale):
 def test_the_first_order_data_of_a_small_window_are_not_painted_over(window, qtbot):
     window.resize(1280, 800)
     window.store.replace(
-        changed(window.store.state, stage_share=0.5, **on_stage(window.store.state.display, "first_order"))
+        change(window.store.state, stage_share=0.5, **on_stage(window.store.state.display, "first_order"))
     )
     panel = window.panels["first_order"]
 
@@ -123,7 +123,7 @@ def test_the_first_order_data_of_a_small_window_are_not_painted_over(window, qtb
 def test_the_picture_of_image_takes_the_width_of_a_narrow_stage(window, qtbot):
     window.resize(1280, 800)
     state = with_workspace(window.store.state, "explore", WORKSPACES["explore"])
-    window.store.replace(changed(state, **on_stage(state.display, "image")))
+    window.store.replace(change(state, **on_stage(state.display, "image")))
     panel = window.panels["image"]
     qtbot.waitUntil(lambda: panel.split_view.width() > 0.9 * panel.widget.width())
     assert panel.look.width() > panel.look.fontMetrics().horizontalAdvance(panel.look.currentText())

@@ -8,12 +8,12 @@ from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QWidget
 
 from p2sf.lensfile.toml.lens import lens_to_toml
-from p2sf_explorer.compute.setup import shipped, title, with_lens
+from p2sf_explorer.compute.setup import shipped_names, title, with_lens
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.what_if import PRESETS
 from p2sf_explorer.widgets.command import Command
-from p2sf_explorer.window.commands.command_palette import Palette, named, ranked, score
+from p2sf_explorer.window.commands.command_palette import Palette, full_name, rank, score
 from p2sf_explorer.window.commands.help import HelpPage
 from tests.support.lenses.zooms import focusing_zoom
 from tests.support.windows.events import choose
@@ -32,11 +32,11 @@ from tests.support.windows.events import choose
     ],
 )
 def test_a_few_letters_find_what_is_meant(sought, texts, first):
-    assert ranked(sought, texts)[0] == first
+    assert rank(sought, texts)[0] == first
 
 
 def test_letters_that_are_not_there_in_their_order_find_nothing():
-    assert score("fsp", "PSF") is None and ranked("xyz", ["PSF"]) == []
+    assert score("fsp", "PSF") is None and rank("xyz", ["PSF"]) == []
 
 
 def test_no_two_commands_answer_to_the_same_key(window):
@@ -47,11 +47,11 @@ def test_no_two_commands_answer_to_the_same_key(window):
 def test_the_palette_lists_every_panel_lens_and_preset(window):
     listed = {command.title for command in window.commands.everything()}
     assert listed >= {entry.title for entry in REGISTRY}
-    assert listed >= {title(name) for name in shipped()} | {preset.title for preset in PRESETS}
+    assert listed >= {title(name) for name in shipped_names()} | {preset.title for preset in PRESETS}
 
 
 def test_no_command_says_its_group_twice(window):
-    names = [named(command) for command in window.commands.everything()]
+    names = [full_name(command) for command in window.commands.everything()]
     assert not [name for name in names if name.split(": ")[1].startswith(name.split(": ")[0])]
 
 
@@ -71,7 +71,7 @@ def test_typing_and_enter_do_what_is_found(window, qtbot):
 
 def test_the_first_word_of_a_lens_s_title_finds_that_lens(window):
     window.commands.find()
-    palette, words = window.commands.palette, [title(name) for name in shipped()]
+    palette, words = window.commands.palette, [title(name) for name in shipped_names()]
     first = [re.match(r"\w+", text)[0] for text in words]
     for word, text in zip(first, words, strict=True):
         if first.count(word) == 1:

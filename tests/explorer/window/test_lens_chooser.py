@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from p2sf_explorer.compute.setup import shipped
+from p2sf_explorer.compute.setup import shipped_names
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.window.lens_cards import lens_card, shown_title
 from p2sf_explorer.window.lens_chooser import NAME
@@ -27,7 +27,7 @@ def index_of(gallery, name):
 def test_the_gallery_opens_on_the_present_lens_and_draws_what_is_in_sight(window, gallery, qtbot):
     assert gallery.isVisible()
     assert gallery.list.currentIndex().data(NAME) == window.store.state.optics.lens
-    assert gallery.list.model().rowCount() == len(shipped())
+    assert gallery.list.model().rowCount() == len(shipped_names())
     qtbot.waitUntil(lambda: len(gallery.cards.known) >= 8)
     before = gallery.list.viewport().grab().toImage()
     gallery.cards.known = {}
@@ -54,7 +54,7 @@ def test_keys_alone_choose_a_lens(window, qtbot):
     qtbot.keyClick(gallery.list, Qt.Key.Key_Right)
     wanted = gallery.list.currentIndex().data(NAME)
     qtbot.keyClick(gallery.list, Qt.Key.Key_Return)
-    assert window.live.state.optics.lens == wanted == shipped()[1]
+    assert window.live.state.optics.lens == wanted == shipped_names()[1]
 
 
 def test_escape_leaves_the_lens(window, gallery, qtbot):
@@ -78,7 +78,7 @@ def test_a_new_window_has_worked_out_no_card(qapp):
     made.close()
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", shipped_names())
 def test_every_shipped_lens_has_a_whole_card(name):
     card = lens_card(name)
     assert card.drawing

@@ -10,11 +10,11 @@ from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.live import Refused
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.compute.views.mtf import contrast
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.widgets.copying import data_of
 from p2sf_explorer.window.no_answer import NO_ANSWER, UNKNOWN
 
-TOO_FAR = changed(
+TOO_FAR = change(
     with_lens(new_state(theme="light", aim="paraxial", rail=("layout", "pupil", "coefficients")), "relay"),
     depth_mm=inf,
     field_deg=1.0,
@@ -23,7 +23,7 @@ TOO_FAR = changed(
 
 @pytest.fixture
 def without(window):
-    window.store.replace(changed(with_lens(window.store.state, "double_gauss_28"), free_pupil=True))
+    window.store.replace(change(with_lens(window.store.state, "double_gauss_28"), free_pupil=True))
     assert window.live.setup.focal_length_mm == pytest.approx(100, rel=0.02)
     window.store.replace(TOO_FAR)
     return window
@@ -102,7 +102,7 @@ def test_its_overlay_goes_with_the_next_answer(one_refusing, monkeypatch):
 
 
 def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
-    asked = changed(window.store.state, shown="difference", pinned=new_state(f_number=8.0, method="seidel"))
+    asked = change(window.store.state, shown="difference", pinned=new_state(f_number=8.0, method="seidel"))
     b_refuses = {"mtf": lambda live: refusing(live) if live.state.optics.f_number == 8.0 else contrast(live)}
     seen = answers(asked, "preview", b_refuses).seen
     assert str(seen.difference.why["mtf"]) == "This is A; B has none: the blur is too wide for a table; stop down"

@@ -8,7 +8,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf_explorer.compute.setup import paraxial_setup, prescription, with_lens
 from p2sf_explorer.state.link import link, state_of_link
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.window.commands.choices import choices
 from tests.support.lenses.zooms import focusing_zoom, two_group_zoom, zoom_lens_at
@@ -18,7 +18,7 @@ ZOOM, BOTH = lens_to_toml(two_group_zoom()), lens_to_toml(focusing_zoom())
 
 def take(window, text: str | None) -> None:
     """Open a lens, stopped down, so that the wide blurs of a ring's ends are painted at once."""
-    window.store.replace(changed(with_lens(window.store.state, "double_gauss_28", text), f_number=16.0))
+    window.store.replace(change(with_lens(window.store.state, "double_gauss_28", text), f_number=16.0))
 
 
 @pytest.fixture

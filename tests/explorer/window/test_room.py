@@ -13,7 +13,7 @@ from p2sf_explorer.charts.painting import fitting, width_of
 from p2sf_explorer.charts.plots import ColourBar, HeatMap
 from p2sf_explorer.compute.glass_outlines import clear_rims, glass_of, still
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped, with_lens
+from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped_names, with_lens
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
@@ -38,7 +38,7 @@ def test_the_banner_says_infinity_as_a_sign(window):
     assert "∞" in window.banner.text.text() and "inf" not in window.banner.text.text()
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", shipped_names())
 def test_every_lens_opens_at_a_field_of_its_file(name):
     state = default_state(name)
     assert 0 < state.optics.field_deg <= max(map(abs, load(name).fields_deg))
@@ -56,7 +56,7 @@ def test_the_relay_opens_with_an_object_its_glass_can_see(window):
 
 
 def test_no_other_lens_is_cut_by_its_edges():
-    for name in set(shipped()) - {"relay"}:
+    for name in set(shipped_names()) - {"relay"}:
         stated = [s.semi_diameter for s in load(name).surfaces]
         drawn = clear_rims(still(load(name)))
         assert all(d >= 0.9 * s or s == np.inf for d, s in zip(drawn, stated, strict=True)), name

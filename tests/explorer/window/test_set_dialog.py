@@ -13,7 +13,7 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state, with_lens
 from p2sf_explorer.files.snapshot import side_car
 from p2sf_explorer.i18n.language import set_language
-from p2sf_explorer.state.state import changed, new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.state_files import read_state
 from p2sf_explorer.window.commands.set_dialog import SetDialog
 from p2sf_explorer.window.commands.set_request import SetTexts, first_texts, read_axes, read_request
@@ -176,7 +176,7 @@ def test_the_fields_keep_what_was_typed_until_another_lens_comes(window, dialog)
     fill(dialog, TEXTS)
     window.commands.ask_set()
     assert dialog.texts() == TEXTS
-    window.store.replace(changed(window.store.state, lens="tessar"))
+    window.store.replace(change(window.store.state, lens="tessar"))
     window.commands.ask_set()
     assert dialog.texts() != TEXTS
 

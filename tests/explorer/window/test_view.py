@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.charts import painting
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.panels import REGISTRY
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.window.presentation import LARGER
 from p2sf_explorer.window.view import PERCENTS
@@ -75,7 +75,7 @@ def test_on_a_large_screen_no_type_is_too_small_to_read(large, monkeypatch, size
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_workspace_fits_a_screen_of_1280_by_720(qapp, language):
     set_language(language)
-    made = MainWindow(changed(FIRST, language=language), measured=False)
+    made = MainWindow(change(FIRST, language=language), measured=False)
     try:
         made.show()
         for name, workspace in WORKSPACES.items():

@@ -7,13 +7,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QInputDialog
 
 from p2sf_explorer.files import recent
-from p2sf_explorer.files.opening import opened
+from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.files.workspaces import kept_workspaces, workspaces_path
 from p2sf_explorer.state.link import link, state_of_link
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.workspaces import WORKSPACES, Workspace, arrangement, with_workspace
 from p2sf_explorer.window.window import MainWindow
 from tests.explorer.conftest import FIRST
@@ -101,7 +101,7 @@ def test_ones_own_is_saved_found_and_deleted(window, bar, qtbot, monkeypatch):
 @pytest.mark.parametrize("name", [*WORKSPACES, "mine"])
 def test_each_survives_restart_link_and_snapshot(window, bar, tmp_path, name):
     own = Workspace("spot", ("mtf", "layout"), "seidel", 0.63, (0.2, 0.5, 0.3), "bottom", show_controls=False)
-    state = with_workspace(changed(window.store.state, field_deg=4.0), name, WORKSPACES.get(name, own))
+    state = with_workspace(change(window.store.state, field_deg=4.0), name, WORKSPACES.get(name, own))
     window.store.replace(state)
     keeper = SessionKeeper(window, window.store, lambda: window.floating.open, {})
     keeper.keep()
@@ -118,7 +118,7 @@ def test_each_survives_restart_link_and_snapshot(window, bar, tmp_path, name):
         again.deleteLater()
     assert state_of_link(link(state)) == state
     write_state(state, tmp_path / "state.json")
-    assert opened(State(), str(tmp_path / "state.json")) == state
+    assert open_file(State(), str(tmp_path / "state.json")) == state
 
 
 def test_a_link_brings_a_workspace_of_its_own_name(window, bar):

@@ -18,7 +18,7 @@ from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.source import Source
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import is_altered, is_heard
 from tests.support.pupil_sums import (
@@ -402,7 +402,7 @@ def r_squared(state: State) -> float:
 def r_squared_narrow(state: State) -> float:
     """Return R² of the six coefficients' picture against the plain sum, both on 32² samples over 22.12 µm."""
     axis = (np.arange(32) - 16) * (22.12 / 32)
-    by_hand = changed(state, free_pupil=True, added_waves=tuple(coefficients(state)[term] for term in TERMS))
+    by_hand = change(state, free_pupil=True, added_waves=tuple(coefficients(state)[term] for term in TERMS))
     return likeness(intensity(by_hand, axis, axis), np.abs(_exact_field(state, axis, axis)) ** 2)
 
 
@@ -466,7 +466,7 @@ def sharpening(state: State) -> float:
     from p2sf_explorer.compute.views.image import COLUMNS, ROWS, coarse, question
     from p2sf_explorer.compute.views.photos import scene_values
 
-    found = coarse(question(compute.live(changed(state, method="seidel"))))
+    found = coarse(question(compute.live(change(state, method="seidel"))))
     truth = scene_values(state.photo.source, (ROWS, COLUMNS))
     before, after = (float(((picture - truth) ** 2).mean()) for picture in (found.before, found.after))
     return 10 * float(np.log10(before / after))

@@ -25,7 +25,7 @@ from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficient
 from p2sf_explorer.compute.views.colour import at_wavelength
 from p2sf_explorer.compute.views.field import widest_slope
 from p2sf_explorer.compute.views.through_focus import shift_range
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.what_if import check_focusable
 
 FREQUENCIES = 257
@@ -95,23 +95,23 @@ def overlay_request(live: Live) -> OverlayRequest:
     widest = float(degrees_from_slope(widest_slope(live)))
     if view.of == "fields":
         fields = matrix.fields_deg or stated_fields(lens, matrix.rows)
-        return OverlayRequest("fields", changed(state, field_deg=0.0), lens, FREQUENCIES, fields)
+        return OverlayRequest("fields", change(state, field_deg=0.0), lens, FREQUENCIES, fields)
     if view.of == "field":
         fields = tuple(np.linspace(0.0, widest, FIELDS[quality]).tolist())
-        found = OverlayRequest("field", changed(state, field_deg=0.0), lens, len(fields), fields)
+        found = OverlayRequest("field", change(state, field_deg=0.0), lens, len(fields), fields)
         return replace(found, frequencies=view.frequencies_per_mm or USUAL_PER_MM)
     if view.of == "focus":
         check_focusable(state)
-        low, high, _ = shift_range(paraxial_setup(changed(state, sensor_shift_um=0.0)))
+        low, high, _ = shift_range(paraxial_setup(change(state, sensor_shift_um=0.0)))
         shifts = tuple(np.linspace(low, high, SHIFTS[quality]).tolist())
-        found = OverlayRequest("focus", changed(state, sensor_shift_um=0.0), lens, len(shifts), shifts=shifts)
+        found = OverlayRequest("focus", change(state, sensor_shift_um=0.0), lens, len(shifts), shifts=shifts)
         return replace(found, frequencies=view.frequencies_per_mm or USUAL_PER_MM)
     waves = matrix.wavelengths_nm or usual_wavelengths(lens, spectral_lines(live.state), COLOURS_SHOWN)
     if view.of == "colours":
-        shown = changed(state, spectrum=live.state.display.spectrum)
+        shown = change(state, spectrum=live.state.display.spectrum)
         return OverlayRequest("colours", shown, lens, BANDS[quality], wavelengths=waves)
     fields = tuple(np.linspace(0.0, widest, (FIELDS if view.of == "illumination" else RAYS)[quality]).tolist())
-    return OverlayRequest(view.of, changed(state, field_deg=0.0), lens, len(fields), fields, wavelengths=waves)
+    return OverlayRequest(view.of, change(state, field_deg=0.0), lens, len(fields), fields, wavelengths=waves)
 
 
 Tell = Callable[[float, object], None]
@@ -160,7 +160,7 @@ def of_fields(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     names = tuple(Message("{angle}°", angle=Number(f"{angle:.4g}")) for angle in request.fields)
     lines: list[Line] = []
     for number, angle in enumerate(request.fields, 1):
-        lines += pair(contrast_at(changed(request.state, field_deg=angle), x), number, names[number - 1])
+        lines += pair(contrast_at(change(request.state, field_deg=angle), x), number, names[number - 1])
         yield number / len(names), CurveOverlay(x, tuple(lines), MTF_AXES, names)
 
 
@@ -198,13 +198,13 @@ def of_colours(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
 
 def over_field(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast at each frequency over the field, from the axis outwards."""
-    states = [changed(request.state, field_deg=angle) for angle in request.fields]
+    states = [change(request.state, field_deg=angle) for angle in request.fields]
     yield from over_places(request, states, np.array(request.fields), "field, °")
 
 
 def through_focus(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
     """Yield the contrast at each frequency over the position of the sensor."""
-    states = [changed(request.state, sensor_shift_um=shift) for shift in request.shifts]
+    states = [change(request.state, sensor_shift_um=shift) for shift in request.shifts]
     yield from over_places(request, states, np.array(request.shifts), "sensor shift, µm")
 
 

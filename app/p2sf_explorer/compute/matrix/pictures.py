@@ -26,15 +26,15 @@ from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import psf_request
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request
-from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused
+from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused_tile
 from p2sf_explorer.compute.measured import MeasureRequest
 from p2sf_explorer.compute.method import (
     ALONE,
     NO_REASON,
     Task,
     Window,
-    chosen,
-    rimmed,
+    choose_for_state,
+    clipped_picture,
     too_coarse,
 )
 from p2sf_explorer.compute.preview import (
@@ -48,7 +48,7 @@ from p2sf_explorer.compute.preview import (
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.compute.views.mtf import contrast_of
-from p2sf_explorer.compute.views.rays import FAN_RAYS, landed, opd_fan_behind, ray_fan_behind, spot_of
+from p2sf_explorer.compute.views.rays import FAN_RAYS, landing_points, opd_fan_behind, ray_fan_behind, spot_of
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
 
@@ -118,12 +118,12 @@ def previews(request: MatrixRequest, quality: str = "preview") -> Tiles:
     if request.what == "psf":
         places, tasks = _psf_tasks(request)
         each = zip(places, tasks, _widths(tasks, request.shared), strict=True)
-        return _rows(request, [_attempted(_moving_psf, place, task, width) for place, task, width in each])
-    places = _traced(_places(request), request.what, quality)
-    return _rows(request, [_attempted(MAKERS[request.what], place, quality) for place in places])
+        return _rows(request, [_try_tile(_moving_psf, place, task, width) for place, task, width in each])
+    places = _trace_points(_places(request), request.what, quality)
+    return _rows(request, [_try_tile(MAKERS[request.what], place, quality) for place in places])
 
 
-def settled(request: MatrixRequest, stopped: Callable[[], bool], tell: Callable[[float, Tiles], None]) -> Tiles:
+def settle(request: MatrixRequest, stopped: Callable[[], bool], tell: Callable[[float, Tiles], None]) -> Tiles:
     """Return the settled pictures, for a worker; ``tell(share, so far)`` is called after each."""
     places = _places(request)
     empty = (MatrixTile(None, settled=False),) * len(request.columns)
@@ -134,11 +134,11 @@ def settled(request: MatrixRequest, stopped: Callable[[], bool], tell: Callable[
         if stopped():
             break
         if request.what == "psf":
-            found[number] = _attempted(_resting_psf, place, widths[number], stopped)
+            found[number] = _try_tile(_resting_psf, place, widths[number], stopped)
         elif request.what == "mtf":
-            found[number] = _attempted(_contrast, place, request.pixel_um)
+            found[number] = _try_tile(_contrast, place, request.pixel_um)
         else:
-            found[number] = _attempted(MAKERS[request.what], place, "settled")
+            found[number] = _try_tile(MAKERS[request.what], place, "settled")
         tell((number + 1) / len(places), _rows(request, found))
     return _rows(request, found)
 
@@ -163,17 +163,17 @@ def _place(state: State) -> Found:
         return error.message
 
 
-def _attempted(make: Callable[..., MatrixTile], place: Found, *arguments: object) -> MatrixTile:
+def _try_tile(make: Callable[..., MatrixTile], place: Found, *arguments: object) -> MatrixTile:
     """Return a picture, or why there is none."""
     if isinstance(place, Message):
-        return refused(place)
+        return refused_tile(place)
     try:
         return make(place, *arguments)
     except P2SFError as error:
-        return refused(error.message)
+        return refused_tile(error.message)
 
 
-def _traced(places: list[Found], what: str, quality: str) -> list[Found]:
+def _trace_points(places: list[Found], what: str, quality: str) -> list[Found]:
     """Return the points with their rays, those of one lens traced together: that takes a quarter of the time."""
     found = list(places)
     groups: dict[tuple[Lens, bool], list[int]] = {}
@@ -250,7 +250,7 @@ def _task(place: MatrixPoint, method: str) -> Task:
 
 def _psf_tasks(request: MatrixRequest) -> tuple[list[Found], list[Task | None]]:
     """Return the points and how each PSF is previewed, None where the point has no setup."""
-    places = _traced(_places(request), "psf", "preview")
+    places = _trace_points(_places(request), "psf", "preview")
     return places, [_task(place, _quick_method(place)) if isinstance(place, MatrixPoint) else None for place in places]
 
 
@@ -279,13 +279,13 @@ def _moving_psf(place: MatrixPoint, task: Task, width_um: float) -> MatrixTile:
     if not task.exact:
         return _light(place, preview_of_coefficients(place.setup, window), settled=False)
     rays = task.known
-    psf = preview_psf(rays, *window, task.fitted) if rays else rimmed(task, window, "preview").psf
+    psf = preview_psf(rays, *window, task.fitted) if rays else clipped_picture(task, window, "preview").psf
     return _light(place, psf, settled=False)
 
 
 def _resting_psf(place: MatrixPoint, width_um: float, stopped: Callable[[], bool]) -> MatrixTile:
     """Return the PSF by the method that was chosen; the density of rays where that would need too many samples."""
-    method = SEIDEL.name if place.setup.altered else chosen(place.state, place.setup)[0]
+    method = SEIDEL.name if place.setup.altered else choose_for_state(place.state, place.setup)[0]
     task = _task(place, method)
     count = SAMPLES[2 * task.own_width_um * AIRY_RADIUS / task.extent.airy_um > SAMPLES[0]]
     window = count, width_um / count
@@ -358,7 +358,11 @@ def _spot(place: MatrixPoint, quality: str) -> MatrixTile:
     airy = float(airy_radius_um(setup.source.wavelength_um, setup.own.na))
     figure = Message("RMS {value} µm", value=Number(significant(float(found.rms_um), 3)))
     return MatrixTile(
-        SpotTile(landed(found), airy), figure, BY_RAYS, None, quality == "settled" or not place.state.optics.clip
+        SpotTile(landing_points(found), airy),
+        figure,
+        BY_RAYS,
+        None,
+        quality == "settled" or not place.state.optics.clip,
     )
 
 

@@ -17,8 +17,8 @@ from p2sf_explorer.compute.ranges import closest_distance, wavelength_range
 from p2sf_explorer.compute.sampled import optics
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.compute.views.colour import at_wavelength
-from p2sf_explorer.state.scales import nice, signed, told_apart
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.scales import nice, told_apart, with_sign
+from p2sf_explorer.state.state import State, change
 
 SIDE = "side"
 LISTS = {
@@ -59,7 +59,7 @@ def matrix_request(live: Live) -> MatrixRequest:
     sides = [optics(side) for side in live.sides or (live.state,)]
     base = {"A": sides[0], "B": sides[-1]}
     states = tuple(
-        tuple(moved(base.get(str(column), optics(live.state)), row, view.across, column) for column in columns)
+        tuple(move_to(base.get(str(column), optics(live.state)), row, view.across, column) for column in columns)
         for row in rows
     )
     lenses = tuple(prescription(side) for side in sides)
@@ -67,11 +67,11 @@ def matrix_request(live: Live) -> MatrixRequest:
     return MatrixRequest(view.what, view.across, rows, columns, states, lenses, view.shared, pixel)
 
 
-def moved(state: State, field_deg: float, across: str, value: Value) -> State:
+def move_to(state: State, field_deg: float, across: str, value: Value) -> State:
     """Return a state at another field, and at a value of ``across``."""
     if across == "wavelength_nm":
         return at_wavelength(state, float(value), field_deg=field_deg)
-    return changed(state, field_deg=field_deg, **({} if across == SIDE else {across: float(value)}))
+    return change(state, field_deg=field_deg, **({} if across == SIDE else {across: float(value)}))
 
 
 def columns_of(live: Live) -> tuple[Value, ...]:
@@ -138,10 +138,10 @@ def depths_around(live: Live, count: int) -> tuple[float, ...]:
     places = max(0.0, first) + step * np.arange(count)
     places[np.argmin(np.abs(places - here))] = here
     own = live.state.optics.depth_mm
-    return tuple(own if place == here else inf if place <= 0 else _rounded(1 / float(place)) for place in places)
+    return tuple(own if place == here else inf if place <= 0 else _round(1 / float(place)) for place in places)
 
 
-def _rounded(distance_mm: float) -> float:
+def _round(distance_mm: float) -> float:
     return float(f"{distance_mm:.6g}")
 
 
@@ -165,7 +165,7 @@ def shifts_around(live: Live, count: int) -> tuple[float, ...]:
     return tuple(float(live.state.optics.sensor_shift_um + step) for step in steps)
 
 
-def told(request: MatrixRequest) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def heading_texts(request: MatrixRequest) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return how rows and columns are written, with their units."""
     rows = tuple(f"{_short(angle)}°" for angle in request.rows)
     if request.across == "depth_mm":
@@ -178,7 +178,7 @@ def told(request: MatrixRequest) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _short(value: float, places: int = 2) -> str:
-    text = signed(value, places)
+    text = with_sign(value, places)
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 

@@ -69,7 +69,7 @@ Tiles = tuple[tuple[MatrixTile, ...], ...]
 """Rows of columns."""
 
 
-def refused(why: Message) -> MatrixTile:
+def refused_tile(why: Message) -> MatrixTile:
     """Return the place of a picture that cannot be."""
     return MatrixTile(None, why=why)
 

@@ -15,13 +15,13 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pitch_um
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.brightness import stretched
+from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 COUNT = {"preview": 7, "settled": 15}
 FINE_UM = np.arange(0.4, 0.7001, 0.005)
@@ -96,7 +96,7 @@ def at_wavelength(state: State, wavelength_nm: float, **entries: Any) -> State:
     """
     ratio = state.optics.wavelength_nm / wavelength_nm
     added = tuple(ratio * waves for waves in state.what_if.added_waves)
-    return changed(state, wavelength_nm=wavelength_nm, added_waves=added, **entries)
+    return change(state, wavelength_nm=wavelength_nm, added_waves=added, **entries)
 
 
 def hues(wavelength_um: np.ndarray) -> np.ndarray:
@@ -107,6 +107,6 @@ def hues(wavelength_um: np.ndarray) -> np.ndarray:
 
 def pixels(found: ColourPsf, scale: str) -> np.ndarray:
     """Return the picture as 0xffRRGGBB, rows +y, brightness stretched on a scale, hue kept."""
-    rgb = srgb_from_linear(np.clip(faint_rgb(found, lambda top: stretched(top, scale)), 0.0, 1.0))
+    rgb = srgb_from_linear(np.clip(faint_rgb(found, lambda top: stretch(top, scale)), 0.0, 1.0))
     red, green, blue = np.moveaxis(np.rint(255 * rgb).astype(np.uint32), -1, 0)
     return 0xFF000000 | red << 16 | green << 8 | blue

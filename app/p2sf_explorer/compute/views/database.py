@@ -14,7 +14,7 @@ from p2sf.database import ExactDatabase, GridDatabase, Space, build_database, de
 from p2sf.database.accuracy import accuracy
 from p2sf.database.build import build_exact
 from p2sf.database.parts import KINDS
-from p2sf.database.render import Sampling, rendered
+from p2sf.database.render import Sampling, render_source
 from p2sf.errors import Cancelled, P2SFError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
@@ -104,23 +104,25 @@ def answer(request: DatabaseRequest, stopped: Callable[[], bool] = lambda: False
     near = np.linspace(1 / request.depths_mm[1], 1 / request.depths_mm[0], MAP[1])
     near[-1] = 1 / space.depths_mm[0]
     exact = build_exact(request.lens, space, stop(request))
-    maps = mapped(exact, near, fields, request.wavelength_um)
+    maps = map_errors(exact, near, fields, request.wavelength_um)
     errors, largest = {}, {"exact": exact.errors}
     for rule in LOSSY:
         if stopped():
             raise Cancelled("the database maps were stopped")
         lossy = build_database(request.lens, space, rule, stop(request))
-        found = mapped(lossy, near, fields, request.wavelength_um)
+        found = map_errors(lossy, near, fields, request.wavelength_um)
         errors[rule] = {kind: np.abs(found[kind] - maps[kind]) for kind in KINDS}
         largest[rule] = lossy.errors
-    known = DatabaseResult(request, near, fields, space, maps, errors, largest, None, accuracy=told(exact, request))
+    known = DatabaseResult(
+        request, near, fields, space, maps, errors, largest, None, accuracy=prediction_message(exact, request)
+    )
     try:
         return replace(known, atlas=atlas(exact, request))
     except P2SFError as error:
         return replace(known, why_no_atlas=error.message)
 
 
-def told(exact: ExactDatabase, request: DatabaseRequest) -> Message:
+def prediction_message(exact: ExactDatabase, request: DatabaseRequest) -> Message:
     """Return what is predicted of the database's PSFs, or why nothing is."""
     try:
         return accuracy(exact, request.lens).summary
@@ -145,7 +147,7 @@ def stop(request: DatabaseRequest) -> Stop:
     return Stop(surface, np.asarray(request.stop_rim), surface, "file")
 
 
-def mapped(
+def map_errors(
     database: ExactDatabase | GridDatabase, near: np.ndarray, fields_deg: np.ndarray, wavelength_um: float
 ) -> dict[str, np.ndarray]:
     """Return each coefficient, (fields, depths), in waves; NaN between the last depth a rule reaches and infinity."""
@@ -178,7 +180,7 @@ def atlas(exact: ExactDatabase, request: DatabaseRequest) -> Atlas:
     pitch = float(np.quantile(suitable_pixel_um(found, ATLAS_PIXELS)[drawn], SHOWN_WHOLE))
     points = [np.broadcast_to(axis, drawn.shape)[drawn] for axis in (depths, slopes, request.wavelength_um)]
     psfs = np.full((*drawn.shape, ATLAS_PIXELS, ATLAS_PIXELS), np.nan, np.float32)
-    psfs[drawn] = rendered(exact, points, Sampling(ATLAS_PIXELS, pitch, "preview"))
+    psfs[drawn] = render_source(exact, points, Sampling(ATLAS_PIXELS, pitch, "preview"))
     return Atlas(psfs / psfs.max((-2, -1), keepdims=True), depths, fields, pitch)
 
 

@@ -47,7 +47,7 @@ def depth_of_field(live: Live) -> DepthOfField:
     s, tolerated = live.setup, live.state.display.blur_um
     axial = axial_blur(s)
     clear = axial.sharp_mm(tolerated)
-    near = np.linspace(*shown(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
+    near = np.linspace(*visible_range(live, 1 / closest_distance(prescription(live.state))), DEPTHS[live.quality])
     if focus := axial.sharp_mm(FOCUS_UM):
         near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur reaches its tip
     depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
@@ -62,7 +62,7 @@ def depth_of_field(live: Live) -> DepthOfField:
     )
 
 
-def shown(live: Live, closest: float) -> tuple[float, float]:
+def visible_range(live: Live, closest: float) -> tuple[float, float]:
     """Return the 1/depth to show, 1/mm, up to ``closest``: about what is sharp, wider where there is more to see.
 
     As wide as the paraxial blur stays below three times what is tolerated, or twice the least there is; where the
@@ -70,10 +70,10 @@ def shown(live: Live, closest: float) -> tuple[float, float]:
     """
     blur = max(SEEN * live.state.display.blur_um, 2 * least_axial(live, closest))
     ends = within(live.setup, blur, closest)
-    least = np.nanmin(probed(live, ends)[1], initial=inf)
+    least = np.nanmin(probe_blur(live, ends)[1], initial=inf)
     if blur < least < inf:
         ends = within(live.setup, least, closest)
-    vertex, air = vertex_of(*probed(live, ends)), AIR * (ends[1] - ends[0])
+    vertex, air = vertex_of(*probe_blur(live, ends)), AIR * (ends[1] - ends[0])
     if not -FAR_OFF < (vertex - ends[0]) / (ends[1] - ends[0]) < 1 + FAR_OFF:
         return ends
     return max(0.0, min(ends[0], vertex - air)), min(max(closest, ends[1]), max(ends[1], vertex + air))
@@ -104,7 +104,7 @@ def least_axial(live: Live, closest: float) -> float:
     return 2 * UM_PER_MM * float(np.abs(axial.heights_mm(np.array([inf, 1 / closest]))).min())
 
 
-def probed(live: Live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+def probe_blur(live: Live, ends: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Return three 1/depth over a range and the exact rays' blur there, µm."""
     near = np.linspace(*ends, 3)
     return near, real_blur(live, np.divide(1.0, near, out=np.full(3, inf), where=near > 0), FEWER_RINGS)

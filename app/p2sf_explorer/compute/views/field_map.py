@@ -18,7 +18,7 @@ from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.compute.views.field import widest_slope
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 SHAPE = 3, 9  # rows, columns
 ASPECT = 1.5  # of the sensor, whose corner is the field's edge
@@ -59,7 +59,7 @@ def field_map(live: Live) -> FieldMapRequest:
     wide = nice(MOST_OF * pixels * float(np.max(suitable_pixel_um(c, pixels))), WINDOWS)
     six, state = (
         everywhere_by_coefficients(live.state, live.setup),
-        changed(optics(live.state), field_deg=0.0, field_x_deg=0.0),
+        change(optics(live.state), field_deg=0.0, field_x_deg=0.0),
     )
     bent = s.lens.misaligned and not six
     nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if bent else ()
@@ -110,14 +110,14 @@ def answer(request: FieldMapRequest, stopped: Callable[[], bool], tell: Callable
             break
         values, inverted = picture_at(request, field)
         for at in own:
-            found[at] = turned(values, float(np.arctan2(*where[at])) + (np.pi if inverted else 0.0))
+            found[at] = rotate_picture(values, float(np.arctan2(*where[at])) + (np.pi if inverted else 0.0))
         tell(number / len(fields), found)
     return found
 
 
 def picture_at(request: FieldMapRequest, field_deg: tuple[float, float]) -> tuple[np.ndarray, bool]:
     """Return the PSF of a field (x, y) over its peak, NaN where there is none, and whether +y is towards the axis."""
-    state = changed(request.state, field_x_deg=field_deg[0], field_deg=field_deg[1])
+    state = change(request.state, field_x_deg=field_deg[0], field_deg=field_deg[1])
     try:
         values = in_window(state, request.window, request.six).values
     except P2SFError:  # rays lost at the edge of the field: an empty place
@@ -126,7 +126,7 @@ def picture_at(request: FieldMapRequest, field_deg: tuple[float, float]) -> tupl
     return values / (float(values.max()) or 1.0), inverted
 
 
-def turned(values: np.ndarray, angle: float) -> np.ndarray:
+def rotate_picture(values: np.ndarray, angle: float) -> np.ndarray:
     """Return a picture whose +y points ``angle`` radians from +y towards +x, straight lines between samples."""
     if abs(np.remainder(angle + 1, 2 * np.pi) - 1) < SAME_ANGLE:
         return values

@@ -1,6 +1,6 @@
 """A photo through the present lens: a coarse picture, a planned one, and one sharpened by its own PSFs.
 
-Only `question` runs on the live path; a worker runs `coarse` (some 0.2 s) and `planned` (some seconds).
+Only `question` runs on the live path; a worker runs `coarse` (some 0.2 s) and `planned_picture` (some seconds).
 """
 
 from collections.abc import Callable
@@ -201,7 +201,7 @@ def question(live: Live) -> ImageRequest:
     """Return what the picture of the present state depends on."""
     state, setup = live.state, live.setup
     if state.photo.show == TAKEN:
-        return _taken(live)
+        return _photo_request(live)
     whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
     photo, optics = state.photo, state.optics
@@ -221,7 +221,7 @@ def _known_shape(shape_of: Callable[[str], tuple[int, int]], photo: str) -> tupl
         return None
 
 
-def _taken(live: Live) -> ImageRequest:
+def _photo_request(live: Live) -> ImageRequest:
     """Return the request for a photo that the lens took: all of it, or its pixels at the field point."""
     state, setup = live.state, live.setup
     photo, wave_nm = state.photo, setup.source.wavelength_um * NM_PER_UM
@@ -246,7 +246,7 @@ def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     """Return the picture by at most 3 × 3 PSFs per colour, which promise nothing; P2SFError, Cancelled among them."""
     begun, watch = perf_counter(), watch or Progress()
     if request.show == TAKEN:
-        return _sharpened(request, watch, begun, quick=True)
+        return _sharpen(request, watch, begun, quick=True)
     small = replace(request, shape=small_shape(request.shape))
     coarse_plan = unmeasured_plan(small)
     why_not = no_plan(coarse_plan if small == request else unmeasured_plan(request))
@@ -268,14 +268,16 @@ def small_shape(shape: tuple[int, int]) -> tuple[int, int]:
     return max(8, round(shape[0] / shrink)), max(8, round(shape[1] / shrink))
 
 
-def planned(request: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None) -> ImageResult:
+def planned_picture(
+    request: ImageRequest, watch: Progress | None = None, known: ImageResult | None = None
+) -> ImageResult:
     """Return the picture by a plan that keeps TOLERANCE; raises P2SFError, Cancelled among them.
 
     ``known``: a planned picture of the same optics, whose plan and kernels are this one's too.
     """
     begun, watch = perf_counter(), watch or Progress()
     if request.show == TAKEN:
-        return _sharpened(request, watch, begun, known)
+        return _sharpen(request, watch, begun, known)
     if known:
         return _answer(request, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
     share = PLANNING if request.shape == small_shape(request.shape) else PLANNING_LARGE
@@ -283,7 +285,7 @@ def planned(request: ImageRequest, watch: Progress | None = None, known: ImageRe
     return _answer(request, new_plan, forming(watch, share), begun, plan_notes(new_plan))
 
 
-def _sharpened(
+def _sharpen(
     request: ImageRequest, watch: Progress, begun: float, known: ImageResult | None = None, quick: bool = False
 ) -> ImageResult:
     """Return a photo that the lens took and the same sharpened, ``quick``: by few PSFs, or not yet if it is large."""
@@ -385,7 +387,7 @@ def _answer(
 ) -> ImageResult:
     values = scene_values(request.photo, request.shape)
     lattice = lattice or plan_lattice(plan, plan.vergences[0], part_of(watch, 0.0, KERNELS))
-    before, after, sharpening = shown(request.show, plan, values, lattice, part_of(watch, KERNELS, 1.0))
+    before, after, sharpening = shown_picture(request.show, plan, values, lattice, part_of(watch, KERNELS, 1.0))
     alike = (
         [
             Message("{name}: {likeness}", name=name, likeness=likeness(x, values))
@@ -412,7 +414,7 @@ def _answer(
     )
 
 
-def shown(
+def shown_picture(
     show: str, plan: Plan, values: np.ndarray, lattice: Lattice, watch: Progress
 ) -> tuple[np.ndarray, np.ndarray, Notes]:
     """Return the two pictures to compare, and notes on them."""

@@ -34,16 +34,16 @@ def report(live: Live) -> Report:
         away = Message("{path} is not on this computer; the saved state carries the lens itself", path=path)
         return Report(heading, away, ())
     try:
-        as_filed = described(heading, import_of(path).report)
+        as_filed = describe_report(heading, import_of(path).report)
     except P2SFError as error:
-        as_filed = refused(heading, path, error.message)
+        as_filed = describe_refusal(heading, path, error.message)
     if state.optics.lens_text is None:
         return as_filed
     edited = Message("{source}; {note}", source=as_filed.source, note=Message("edited since"))
     return replace(as_filed, source=edited)
 
 
-def described(heading: str, read: ImportReport) -> Report:
+def describe_report(heading: str, read: ImportReport) -> Report:
     """Return a report grouped by what happened to each thing of the file."""
     groups = ((Message(title), tuple(note.sentence for note in read.of(kind))) for kind, title in TITLES.items())
     source = Message(
@@ -55,11 +55,11 @@ def described(heading: str, read: ImportReport) -> Report:
     return Report(heading, source, tuple((title, sentences) for title, sentences in groups if sentences))
 
 
-def refused(heading: str, path: str, reason: Message) -> Report:
+def describe_refusal(heading: str, path: str, reason: Message) -> Report:
     """Return the report on a file that is refused; with consent to substitutes, what they would be."""
     groups = ((REFUSED, (without_path(reason),)),)
     try:
-        accepted = described(heading, import_of(path, True).report)
+        accepted = describe_report(heading, import_of(path, True).report)
     except P2SFError:
         return Report(heading, Message("{path}", path=path), groups)
     consented = ((Message("with consent: {title}", title=title), notes) for title, notes in accepted.groups)

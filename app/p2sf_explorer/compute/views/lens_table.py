@@ -8,7 +8,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
 from p2sf.lens.properties import short_words_of, words_of
 from p2sf.messages import Message
-from p2sf_explorer.compute.editing import written
+from p2sf_explorer.compute.editing import cell_text
 from p2sf_explorer.compute.glass_outlines import clear_rims, still
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription
@@ -44,7 +44,7 @@ class Rows:
 def rows(live: Live) -> Rows:
     """Return what the table shows: the lens before the focus and f-number controls change it."""
     lens = prescription(live.state)
-    texts = tuple(tuple(written(surface, column) for column in COLUMNS) for surface in lens.surfaces)
+    texts = tuple(tuple(cell_text(surface, column) for column in COLUMNS) for surface in lens.surfaces)
     beside = tuple(
         {column: CellNote(short_words_of(surface, column), words_of(surface, column)) for column in COLUMNS}
         for surface in lens.surfaces

@@ -28,8 +28,8 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views.first_order import Row
 from p2sf_explorer.state.build_errors import with_error, without_piece
-from p2sf_explorer.state.scales import signed, significant
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.scales import significant, with_sign
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import UNTOUCHED
 from p2sf_explorer.state.workspaces import on_stage
@@ -96,16 +96,16 @@ def question(live: Live) -> MeasurementRequest:
     """Return the measurement of the state's picture; where the window's source lies in the field does not matter."""
     view, source = live.state.measured, live.setup.source
     known = view.picture, view.pixel_um, view.beside, view.encoding
-    return MeasurementRequest(*known, designed(live), source.depth_mm, source.wavelength_um, live.state.optics.clip)
+    return MeasurementRequest(*known, design_of(live), source.depth_mm, source.wavelength_um, live.state.optics.clip)
 
 
-def designed(live: Live) -> Lens:
+def design_of(live: Live) -> Lens:
     """Return the lens on screen with its sensor set straight: its tilt is what a measurement tells."""
     state, sensor = live.state, sensor_piece(live.setup.lens)
     straight = without_piece(state.optics.errors, sensor)
     if straight == state.optics.errors:
         return live.setup.lens
-    return paraxial_setup(changed(state, errors=straight)).lens
+    return paraxial_setup(change(state, errors=straight)).lens
 
 
 def sensor_piece(lens: Lens) -> tuple[int, int]:
@@ -114,7 +114,7 @@ def sensor_piece(lens: Lens) -> tuple[int, int]:
     return behind, behind
 
 
-def dated(asked: MeasurementRequest) -> MeasurementRequest:
+def with_file_date(asked: MeasurementRequest) -> MeasurementRequest:
     """Return the request for its file as it is now."""
     return replace(asked, stamp=stamp(asked.picture))
 
@@ -147,7 +147,7 @@ def scale(asked: MeasurementRequest, pixel_um: float) -> PictureOptics:
     return lens_optics(asked.lens, asked.depth_mm, asked.wavelength_um, pixel_um)
 
 
-def shown(found: Measurement, number: int) -> PointPictures | None:
+def point_pictures(found: Measurement, number: int) -> PointPictures | None:
     """Return a point's pictures on one scale; None for a point that was not fitted."""
     fit, frame = found.fits[number], found.frames[0]
     window = window_of(frame, found.points[number], found.half)
@@ -170,7 +170,7 @@ def point_lines(found: Measurement) -> tuple[PointLine, ...]:
 
 
 def _plain(value: float) -> str:
-    return signed(value, 3)
+    return with_sign(value, 3)
 
 
 def point_rows(found: Measurement, number: int, own: tuple[float, ...] | None) -> tuple[Row, ...]:
@@ -194,13 +194,13 @@ def _value(value: float, error: float, lens: float | None) -> Message:
     said = _with_error(value, error)
     if lens is None:
         return Message("{value} ± {error} λ", **said)
-    return Message("{value} ± {error} λ ({own})", **said, own=Number(signed(lens, 3)))
+    return Message("{value} ± {error} λ ({own})", **said, own=Number(with_sign(lens, 3)))
 
 
 def _with_error(value: float, error: float) -> dict[str, Number]:
     """Return an error to two digits, and its value to as many decimals."""
     text = significant(error, 2)
-    return {"value": Number(signed(value, len(text.partition(".")[2]))), "error": Number(text)}
+    return {"value": Number(with_sign(value, len(text.partition(".")[2]))), "error": Number(text)}
 
 
 def whole_rows(found: Measurement) -> tuple[Row, ...]:

@@ -27,7 +27,7 @@ CHART_WORDS = {
 
 def scene_values(photo: str, shape: tuple[int, int]) -> np.ndarray:
     """Return a chart by name or a photo by path in linear light, (rows, columns, 3) float32; RequestError."""
-    return _chart(photo, shape) if photo in CHARTS else _photo(photo, changed(photo), shape)[0]
+    return _chart(photo, shape) if photo in CHARTS else _photo(photo, change_time(photo), shape)[0]
 
 
 def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
@@ -39,7 +39,7 @@ def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
     return 1 - tall / rows, 1 - wide / columns
 
 
-def changed(photo: str) -> int:
+def change_time(photo: str) -> int:
     """Return when a photo's file was changed, ns; 0 where there is none."""
     path = Path(photo)
     return path.stat().st_mtime_ns if path.is_file() else 0
@@ -63,7 +63,7 @@ def full_shape(photo: str) -> tuple[int, int]:
 
 def own_shape(photo: str) -> tuple[int, int]:
     """Return the rows and columns of a photo; RequestError."""
-    return _shape(photo, changed(photo))
+    return _shape(photo, change_time(photo))
 
 
 @lru_cache(maxsize=16)
@@ -73,18 +73,18 @@ def _shape(path: str, _changed: int) -> tuple[int, int]:
 
 def _photo(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
     """Return a photo in a shape, and its own; large ones are not kept."""
-    return (_kept if shape[0] * shape[1] <= MOST_KEPT else _fitted)(path, stamp, shape)
+    return (_cached_photo if shape[0] * shape[1] <= MOST_KEPT else _cached_fit)(path, stamp, shape)
 
 
 @lru_cache(maxsize=4)
-def _kept(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
-    return _fitted(path, stamp, shape)
+def _cached_photo(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
+    return _cached_fit(path, stamp, shape)
 
 
-def _fitted(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
+def _cached_fit(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
     values = read_photo(path).values
     colours = np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values
-    return fitted(colours, shape), values.shape[:2]
+    return crop_and_resize(colours, shape), values.shape[:2]
 
 
 def middle(rows: int, columns: int, shape: tuple[int, int]) -> tuple[float, float]:
@@ -92,7 +92,7 @@ def middle(rows: int, columns: int, shape: tuple[int, int]) -> tuple[float, floa
     return min(rows, columns * shape[0] / shape[1]), min(columns, rows * shape[1] / shape[0])
 
 
-def fitted(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+def crop_and_resize(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     """Return the middle of a picture in another size, (rows, columns, 3): its sides cut to the frame's, averaged."""
     from PIL import Image
 

@@ -54,15 +54,15 @@ def spot_of(lens: Lens, source: Source | Sources, clip: bool, quality: str) -> S
 
 def ray_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
     """Return transverse ray errors of the rays that the mask in the stop lets through, µm, NaN for the others."""
-    return behind(mask_of_rays(lens, source), ray_fan(lens, source, count, clip))
+    return clip_by_mask(mask_of_rays(lens, source), ray_fan(lens, source, count, clip))
 
 
 def opd_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
     """Return path differences of the rays that the mask in the stop lets through, waves, NaN for the others."""
-    return behind(mask_of_rays(lens, source), opd_fan(lens, source, count, clip))
+    return clip_by_mask(mask_of_rays(lens, source), opd_fan(lens, source, count, clip))
 
 
-def behind(mask: PupilMask, fan: Fan) -> Fan:
+def clip_by_mask(mask: PupilMask, fan: Fan) -> Fan:
     """Return a fan without what a mask covers; its vanes, one of which may lie along the whole line, are set aside."""
     if mask.clear:
         return fan
@@ -72,7 +72,7 @@ def behind(mask: PupilMask, fan: Fan) -> Fan:
     return replace(fan, tangential=tangential, sagittal=sagittal)
 
 
-def landed(spot: Spot) -> np.ndarray:
+def landing_points(spot: Spot) -> np.ndarray:
     """Return x and y, (rays, 2) in µm, of the rays that reach the sensor."""
     points = np.stack([spot.x_um, spot.y_um], axis=-1)
     return points[np.isfinite(points).all(axis=-1)]
@@ -93,7 +93,7 @@ def figures(spot: Spot, airy_um: float, clip: bool = False) -> tuple[Row, ...]:
         ("Airy radius, the circle", micrometres(airy_um), "First dark ring of a perfect lens, 0.61 λ/NA."),
         (
             "Rays within the rims" if clip else "Rays",
-            Message("{count} / {all}", count=len(landed(spot)), all=np.size(spot.x_um)),
+            Message("{count} / {all}", count=len(landing_points(spot)), all=np.size(spot.x_um)),
             WITHIN_RIMS if clip else ARRIVE,
         ),
     )

@@ -17,7 +17,7 @@ from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.state.scales import nice
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.what_if import check_focusable
 
 COUNT = {"preview": 7, "settled": 11}
@@ -62,7 +62,7 @@ def strip(live: Live) -> Strip | Message:
         check_focusable(live.state)
     except GeometryError as error:
         return error.message
-    state = changed(optics(live.state), sensor_shift_um=0.0)
+    state = change(optics(live.state), sensor_shift_um=0.0)
     setup = paraxial_setup(state)
     low, high, half = shift_range(setup)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
@@ -102,7 +102,7 @@ def answer(request: Strip, stopped: Callable[[], bool], tell: Callable[[float, o
 def light(shift_um: float, request: Strip) -> np.ndarray:
     """Return the light per sample of one position, in units of the unaberrated peak; NaN where there is no PSF."""
     try:
-        state = changed(request.state, sensor_shift_um=shift_um)
+        state = change(request.state, sensor_shift_um=shift_um)
         psf = in_window(state, request.window, request.six)
         setup, units = paraxial_setup(state), psf.over_unaberrated
         if units is not None:
@@ -125,7 +125,7 @@ def foci(request: Strip) -> tuple[float, float, float]:
     else:
         near = real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
     try:
-        best = best_shift_um(changed(request.state, method="seidel" if request.six else "fitted"))
+        best = best_shift_um(change(request.state, method="seidel" if request.six else "fitted"))
     except P2SFError:
         best = np.nan
     return 1e3 * float(near.sagittal), 1e3 * float(near.tangential), best

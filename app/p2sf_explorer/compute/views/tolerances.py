@@ -31,9 +31,9 @@ from p2sf.tolerance.errors_of_build import MOVES, Kind
 from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.state.build_errors import BuildErrors, ordered
+from p2sf_explorer.state.build_errors import BuildErrors, order_errors
 from p2sf_explorer.state.pinning import pin, unpin
-from p2sf_explorer.state.state import State, ToleranceView, changed
+from p2sf_explorer.state.state import State, ToleranceView, change
 
 BUILDS = 10_000
 PREPARATION = 0.4  # of the time, as progress is told, for differentials, and as much for single errors
@@ -103,7 +103,7 @@ class Figures:
 
 def question(live: Live) -> ToleranceQuestion:
     """Return what is asked of the lens on screen as designed: without the errors of a build that is opened."""
-    state, setup = changed(unpin(live.state), errors=()), live.setup
+    state, setup = change(unpin(live.state), errors=()), live.setup
     if live.state.optics.errors:
         setup = paraxial_setup(state)
     return ToleranceQuestion(request_of(setup.lens, setup.source, state.tolerances), state.tolerances, state)
@@ -113,7 +113,7 @@ def errors_of(found: ToleranceResult, number: int) -> BuildErrors:
     """Return the errors of a build, from 0, as a state has them."""
     amounts = found.builds.errors[number].tolist()
     pairs = zip(found.known.tolerances, amounts, strict=True)
-    return ordered([(one.kind, *one.piece, amount) for one, amount in pairs if amount])
+    return order_errors([(one.kind, *one.piece, amount) for one, amount in pairs if amount])
 
 
 def opened_build(state: State, found: ToleranceResult) -> int:
@@ -262,11 +262,11 @@ def _reach(values: np.ndarray, limit: float, criterion: Criterion) -> tuple[floa
 
 def with_build(asked: ToleranceQuestion, found: ToleranceResult, number: int) -> State:
     """Return the state that shows a build, from 0, as A and the designed lens as B; P2SFError without a picture."""
-    made = changed(pin(asked.state), errors=errors_of(found, number), tolerances_build=number + 1)
+    made = change(pin(asked.state), errors=errors_of(found, number), tolerances_build=number + 1)
     paraxial_setup(made)
     return made
 
 
 def without_build(state: State) -> State:
     """Return the state with the lens as designed, and nothing beside it."""
-    return changed(unpin(state), errors=(), tolerances_build=0)
+    return change(unpin(state), errors=(), tolerances_build=0)

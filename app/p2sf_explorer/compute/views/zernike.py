@@ -9,10 +9,10 @@ from p2sf.metrics.wavefront_map import WavefrontSamples, samples_of_coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
-from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decomposed, open_nodes, pupil_opd
+from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, pupil_opd
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.first_order import NONE, Row
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ def zernike(live: Live) -> ZernikeView:
         nodes, waves = samples.nodes, samples.waves
     else:
         nodes, waves = _over_the_ring(live, exact)
-    fits = {order: decomposed(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
+    fits = {order: decompose(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
     return ZernikeView(fits, live.pupil.kind)
 
 
@@ -68,7 +68,7 @@ def rows(fit: ZernikeFit) -> tuple[Row, ...]:
 
 
 def _waves(waves: float) -> Number:
-    return Number(signed(waves, 4))
+    return Number(with_sign(waves, 4))
 
 
 def _share(n: int, part: float) -> Message:

@@ -21,9 +21,9 @@ from p2sf_explorer.charts.axes import LOCK_PX, paint_lock
 from p2sf_explorer.charts.chart import blank_pixmap
 from p2sf_explorer.charts.painting import fitting, write
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.charts.view import steadied
+from p2sf_explorer.charts.view import keep_or_grow
 from p2sf_explorer.i18n.tr import local, tr
-from p2sf_explorer.state.scales import signed
+from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.state.terms import FORMULAS, NAMES, TERMS, WORDS
 from p2sf_explorer.widgets.value_edit import ShortField
 
@@ -101,7 +101,7 @@ class MixerPlaces:
         return min(1.0, max(-1.0, (2 * x - left - right) / max(1.0, right - left)))
 
 
-def clamped(value: float, limit: float) -> float:
+def clamp(value: float, limit: float) -> float:
     """Return a value as a part of the limit, from −1 to 1."""
     return max(-1.0, min(1.0, value / limit))
 
@@ -183,7 +183,7 @@ def paint_overflow(painter: QPainter, bar: QRectF, theme: Tokens, right: bool) -
 def waves(value: float) -> str:
     """Return a coefficient as text, no longer than its column."""
     size = abs(value)
-    return f"{signed(value, 2 if size < 10 else 1 if size < 100 else 0)} λ"
+    return f"{with_sign(value, 2 if size < 10 else 1 if size < 100 else 0)} λ"
 
 
 STEPS: dict[int, float] = {
@@ -274,7 +274,7 @@ class Mixer(QWidget):
         if not self._dragged:
             everything = [abs(v) for kind in (values, own, added) for name, v in kind.items() if name != "w11"]
             most = max(SMALLEST_LIMIT, abs(added["w11"]), *everything)
-            self.limit = self.limit if self.locked else steadied((-self.limit, self.limit), (-most, most))[1]
+            self.limit = self.limit if self.locked else keep_or_grow((-self.limit, self.limit), (-most, most))[1]
         if before != (self.limit, self.waves, self.on):
             self._background = None
             self.update()
@@ -306,14 +306,14 @@ class Mixer(QWidget):
         for number, name in enumerate(TERMS):
             if not event.region().intersects(places.row(number).toAlignedRect()):
                 continue
-            value, part = self.values[name], clamped(self.values[name], self.limit)
+            value, part = self.values[name], clamp(self.values[name], self.limit)
             paint_value(painter, places, self._theme, number, part, waves(value))
             if abs(value) > self.limit:
                 paint_overflow(painter, places.bar(number, part), self._theme, value > 0)
             if self.own[name] != value:
                 painter.setPen(QPen(QColor(self._theme.muted), self._theme.scale, Qt.PenStyle.DotLine))
                 painter.setBrush(Qt.BrushStyle.NoBrush)
-                painter.drawRect(places.bar(number, clamped(self.own[name], self.limit)))
+                painter.drawRect(places.bar(number, clamp(self.own[name], self.limit)))
 
     def _painted_background(self) -> QPixmap:
         theme, places = self._theme, self.places
@@ -325,7 +325,7 @@ class Mixer(QWidget):
         for number, name in enumerate(TERMS):
             focused = self.hasFocus() and number == self.row
             paint_names(painter, places, theme, number)
-            paint_slider(painter, places, theme, number, clamped(self.waves[name], self.limit), focused)
+            paint_slider(painter, places, theme, number, clamp(self.waves[name], self.limit), focused)
             for kind, letter, colour in LETTERS:
                 on = name in self.on.get(kind, ())
                 paint_button(painter, places.button(number, kind), theme, letter, colour, on)

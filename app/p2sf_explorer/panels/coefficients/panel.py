@@ -15,7 +15,7 @@ from p2sf_explorer.panels.coefficients.mixer import Mixer
 from p2sf_explorer.state.scales import read_number
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.state.terms import NAMES, TERMS
-from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, Preset, alterations, of_preset, toggled, with_added
+from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, Preset, alterations, of_preset, toggle, with_added
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 
@@ -63,7 +63,7 @@ class CoefficientsPanel:
         bars.released.connect(store.end)
         bars.added.connect(lambda term, waves: store.update(added_waves=with_added(store.state, term, waves)))
         bars.typed.connect(self._type)
-        bars.toggled.connect(lambda kind, term: store.update(**{kind: toggled(entry(store.state, kind), term)}))
+        bars.toggled.connect(lambda kind, term: store.update(**{kind: toggle(entry(store.state, kind), term)}))
 
     def _type(self, term: str, text: str) -> None:
         """Set a coefficient to a typed number of waves, by adding the rest."""
@@ -115,10 +115,10 @@ class CoefficientsPanel:
         self.reset.setEnabled(altered)
         # "A − B" needs the room, and λ stand at the numbers
         words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.optics.wavelength_nm:.1f}")
-        self._note = self._altered(state, live.side) if altered else ""
-        self.widget.set_readout(self._coloured() or words)
+        self._note = self._alteration_text(state, live.side) if altered else ""
+        self.widget.set_readout(self._colour_key() or words)
 
-    def _altered(self, state: State, side: str) -> str:
+    def _alteration_text(self, state: State, side: str) -> str:
         """Return what is altered, as much of it as there is room for beside the title, and the link that undoes it.
 
         On B's side there is no link, since undo moves A.
@@ -134,7 +134,7 @@ class CoefficientsPanel:
             return words
         return f'{words} · <a href="undo" style="color:{{accent}}">{undo}</a>'
 
-    def _coloured(self) -> str:
+    def _colour_key(self) -> str:
         note = self._note.format(accent=self._theme.accent)
         return note and f'<span style="color:{self._theme.warning}">{note}</span>'
 
@@ -143,7 +143,7 @@ class CoefficientsPanel:
         self._theme = theme
         self.bars.restyle(theme)
         if self._note:
-            self.widget.set_readout(self._coloured())
+            self.widget.set_readout(self._colour_key())
 
 
 def as_numbers(coefficients: Coefficients) -> dict[str, float]:

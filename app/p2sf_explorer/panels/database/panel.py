@@ -66,7 +66,7 @@ class DatabasePanel:
         self.note.setWordWrap(True)
         self.heads = [QLabel() for _ in range(3)]
         parts = ((self.map, self.bars[0]), (self.error, self.bars[1]), (self.atlas,))
-        headings = tuple(headed(head, part) for head, part in zip(self.heads, parts, strict=True))
+        headings = tuple(with_heading(head, part) for head, part in zip(self.heads, parts, strict=True))
         self.body = DatabaseBody(headings, self.note)
         self.body.counted.connect(lambda count: self.rule.setVisible(count > 1))
         self.widget.set_body(self.body)
@@ -185,7 +185,7 @@ class DatabaseBody(QWidget):
         self.counted.emit(count)
 
 
-def headed(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:
+def with_heading(head: QLabel, parts: tuple[QWidget, ...]) -> QWidget:
     """Return widgets beside one another under a heading."""
     head.setObjectName("muted")
     head.setWordWrap(True)

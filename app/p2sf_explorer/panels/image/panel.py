@@ -22,7 +22,7 @@ from p2sf_explorer.compute.views.image import (
     fine_enough,
     local_psf,
     pixels,
-    planned,
+    planned_picture,
     same_optics,
     save_picture,
     work,
@@ -146,7 +146,7 @@ class ImagePanel:
     def _quickest(self, asked: ImageRequest) -> Callable[[ImageRequest, Progress], ImageResult]:
         """Return what makes a picture at once: the known plan, where only the photo or what is shown has changed."""
         known = self._planned
-        return partial(planned, known=known) if known and same_optics(known.question, asked) else coarse
+        return partial(planned_picture, known=known) if known and same_optics(known.question, asked) else coarse
 
     def _present(self) -> ImageResult | None:
         """Return the picture on screen where it is the present question's."""
@@ -163,7 +163,7 @@ class ImagePanel:
         if answer.quality == "coarse" and fine_enough(answer):
             self._ordered = asked
             self.plan_line.begin()
-            self.fine.submit(asked, work(planned, asked))
+            self.fine.submit(asked, work(planned_picture, asked))
 
     def _turn(self) -> None:
         """Stop the plan that is being made, or make the one that was stopped."""

@@ -17,7 +17,7 @@ from p2sf_explorer.panels.layout.grips import (
     Grip,
     Span,
     can_bend,
-    dragged,
+    drag,
     glass_runs,
     group_of,
     placed_grips,
@@ -144,7 +144,7 @@ class LayoutDrag:
             self._store.update(**self._source.changes(shown, self._at))
             return
         try:
-            self._store.replace(dragged(self.grip, self._start, *self._chart.from_pixels(self._at)))
+            self._store.replace(drag(self.grip, self._start, *self._chart.from_pixels(self._at)))
         except P2SFError as error:
             self._store.refused.emit(error)
 

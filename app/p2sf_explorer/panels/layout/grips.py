@@ -11,15 +11,15 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens, Surface
-from p2sf.paraxial.bending import bent, element_of, elements, shape_factor
+from p2sf.paraxial.bending import bend, element_of, elements, shape_factor
 from p2sf_explorer.compute.editing import edited_state, radius_through, stop_gap, with_stop_shift, with_surface
 from p2sf_explorer.compute.glass_outlines import GlassOutline, Section, clear_rims, sag, still, vertices
 from p2sf_explorer.compute.layout import Layout, nearly_straight
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription, ranges
 from p2sf_explorer.state.build_errors import amount_of, with_error
-from p2sf_explorer.state.built import exaggerated
+from p2sf_explorer.state.built import exaggerate
 from p2sf_explorer.state.pinning import with_links
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 Span = tuple[int, int]
 """First and last surface, from 1, of what is selected."""
@@ -126,7 +126,7 @@ def group_of(lens: Lens, runs: tuple[Span, ...], run: Span) -> Span:
     return same[0][0], same[-1][1]
 
 
-def dragged(grip: Grip, start: State, z: float, y: float) -> State:
+def drag(grip: Grip, start: State, z: float, y: float) -> State:
     """Return the state when a grip that was taken in the state ``start`` is at z and y, mm; P2SFError where it cannot.
 
     The grip comes as near to this place as the lens allows.
@@ -140,7 +140,7 @@ def _sensor(grip: Grip, start: State, z: float, y: float) -> State:
     lens = prescription(start)
     last, along = sum(surface.thickness for surface in lens.surfaces[:-1]), lens.directions[-1]
     by = along * max(along * z, along * last + LEAST_MM) - grip.z
-    return changed(start, sensor_shift_um=start.optics.sensor_shift_um + UM_PER_MM * by)
+    return change(start, sensor_shift_um=start.optics.sensor_shift_um + UM_PER_MM * by)
 
 
 def _rim(grip: Grip, start: State, z: float, y: float) -> State:
@@ -149,7 +149,7 @@ def _rim(grip: Grip, start: State, z: float, y: float) -> State:
     number = start.optics.f_number or limits.file_f_number
     height = max(y * copysign(1.0, grip.y), 1e-9)
     low, high = limits.f_number
-    return changed(start, f_number=min(max(number * abs(grip.y) / height, low), high))
+    return change(start, f_number=min(max(number * abs(grip.y) / height, low), high))
 
 
 def _stop(grip: Grip, start: State, z: float, y: float) -> State:
@@ -178,17 +178,17 @@ def _glass(grip: Grip, start: State, z: float, y: float) -> State:
     """Bend the selected element, its front's edge following the hand; move a group of several along the axis."""
     lens, (first, last) = prescription(start), grip.surfaces
     if (first, last) in elements(lens):
-        return edited_state(start, bent(lens, first, last, _curvature_by(lens, first, z - grip.z)))
+        return edited_state(start, bend(lens, first, last, _curvature_by(lens, first, z - grip.z)))
     return edited_state(start, with_group_shift(lens, first, last, z - grip.z))
 
 
 def _decentre(grip: Grip, start: State, z: float, y: float) -> State:
     """Move a piece across the axis; where the drawing enlarges decentres, the hand's way is the enlarged one."""
     errors = start.optics.errors
-    _, factor = exaggerated(errors, start.display.exaggerated)
+    _, factor = exaggerate(errors, start.display.exaggerated)
     amount = amount_of(errors, "decentre_y", grip.surfaces) + (y - grip.y) / factor
     made = with_error(errors, "decentre_y", grip.surfaces, round(amount, DECENTRE_DIGITS))
-    return changed(start, **with_links(start, {"errors": made}))
+    return change(start, **with_links(start, {"errors": made}))
 
 
 def _curvature_by(lens: Lens, number: int, by_mm: float) -> float:

@@ -18,14 +18,14 @@ NEAREST = 0.15  # of the glass's half height: how near the break counts as to th
 BEFORE_GLASS = 1e-3  # mm, as near to the glass as a source comes
 
 
-def pressed(value: float, knee: float, end: float) -> float:
+def compress(value: float, knee: float, end: float) -> float:
     """Return a positive value as it is up to ``knee``, and beyond it ever nearer to ``end``."""
     beyond, room = value - knee, end - knee
     return value if beyond <= 0 else knee + room * (beyond / (beyond + room))
 
 
-def released(value: float, knee: float, end: float) -> float:
-    """Return what `pressed` has made this of; inf at the end."""
+def expand(value: float, knee: float, end: float) -> float:
+    """Return what `compress` has made this of; inf at the end."""
     beyond, room = value - knee, end - knee
     if beyond <= 0:
         return value
@@ -84,13 +84,13 @@ class ObjectSpace:
     def place(self, depth_mm: float, slope: float) -> tuple[float, float]:
         """Return the pixel of a source at this depth and field."""
         height = slope * self._reach(-depth_mm) * self.scale
-        drawn = pressed(abs(height), KNEE * self.half, self.half)
+        drawn = compress(abs(height), KNEE * self.half, self.half)
         return self.x(depth_mm), self.axis - (drawn if height > 0 else -drawn)
 
     def source(self, x: float, y: float) -> tuple[float, float]:
         """Return depth in mm and field in degrees of a source at a pixel, as far as the fields of the lens go."""
         depth, up = self.depth(x), self.axis - y
-        height = released(abs(up), KNEE * self.half, self.half) / self.scale
+        height = expand(abs(up), KNEE * self.half, self.half) / self.scale
         slope = min(height / abs(self._reach(-depth)), self.widest)
         same = (up > 0) == (self._reach(-depth) > 0)
         return depth, degrees(atan(slope if same else -slope)) if up else 0.0

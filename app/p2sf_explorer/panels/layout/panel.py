@@ -31,7 +31,7 @@ from p2sf_explorer.panels.layout.object_space import END_PX, SHARE, STRIP_PX
 from p2sf_explorer.panels.layout.source_point import TIP as TIP_OF_SOURCE
 from p2sf_explorer.panels.layout.source_point import DrawnSetup, SourceHandle, space_of
 from p2sf_explorer.panels.layout.surface_highlight import SurfaceHighlight
-from p2sf_explorer.state.scales import nice, signed
+from p2sf_explorer.state.scales import nice, with_sign
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser, select_or_add
 from p2sf_explorer.widgets.thumbnail import glass
@@ -170,7 +170,7 @@ class LayoutChart(Chart):
             self._fit(*self._drawn)
         for kind, curve in self.rays.items():
             paths = [] if layout.groups else [ray for ray in layout.rays if ray.kind == kind]
-            curve.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
+            curve.set_data(_join([p.z for p in paths]), _join([p.y for p in paths]))
         self._show_fans(layout, live.state.optics.field_deg)
         self.update()
 
@@ -180,7 +180,7 @@ class LayoutChart(Chart):
         for number, colour in enumerate(fan_colours(layout.groups, field_deg)):
             fan, paths = RayCurve(colour, 1), [ray for ray in layout.rays if ray.group == number]
             fan.name = fan_name(layout.groups, number)
-            fan.set_data(_joined([p.z for p in paths]), _joined([p.y for p in paths]))
+            fan.set_data(_join([p.z for p in paths]), _join([p.y for p in paths]))
             self.fans.append(fan)
         self.curves = [*self.rays.values(), *self.fans]
 
@@ -380,7 +380,7 @@ def same_glass(before: Drawing, now: Drawing) -> bool:
     return before.glass is now.glass and not (filled and before.sensor_z != now.sensor_z)
 
 
-def _joined(parts: list[np.ndarray]) -> np.ndarray:
+def _join(parts: list[np.ndarray]) -> np.ndarray:
     """Return polylines one after the other, with a NaN between them."""
     return np.concatenate([np.append(part, np.nan) for part in parts]) if parts else np.array([])
 
@@ -401,7 +401,7 @@ def fan_name(groups: tuple[LayoutRays, ...], number: int) -> str:
     fan = groups[number]
     if len({other.wavelength_nm for other in groups}) > 1:
         return local(f"{fan.wavelength_nm:.0f} nm")
-    return local(f"{signed(fan.field_deg, 1)}°")
+    return local(f"{with_sign(fan.field_deg, 1)}°")
 
 
 def drawing_note(layout: Layout) -> str:

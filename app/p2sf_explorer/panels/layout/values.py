@@ -9,7 +9,7 @@ from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.panels.layout.grips import DECENTRE_DIGITS, Grip, can_bend, shape_of
 from p2sf_explorer.panels.layout.source_point import DrawnSetup
 from p2sf_explorer.state.build_errors import amount_of
-from p2sf_explorer.state.scales import signed, significant, written_distance
+from p2sf_explorer.state.scales import significant, with_sign, written_distance
 
 DIGITS = 5
 
@@ -25,7 +25,7 @@ def _source(grip: Grip, shown: DrawnSetup) -> str:
 
 
 def _sensor(grip: Grip, shown: DrawnSetup) -> str:
-    sensor = signed(shown.setup.lens.sensor_mm, 3)
+    sensor = with_sign(shown.setup.lens.sensor_mm, 3)
     shift = SHIFT.write(shown.state.optics.sensor_shift_um)
     return tr("sensor at {place} mm, shift {shift}", place=sensor, shift=shift)
 
@@ -57,7 +57,7 @@ def _glass(grip: Grip, shown: DrawnSetup) -> str:
     lens, (first, last) = shown.setup.prescription, grip.surfaces
     if can_bend(lens, grip.surfaces):
         radii = " / ".join(_radius(lens, number) for number in (first, last))
-        return tr("bending X = {shape}, R = {radii} mm", shape=signed(shape_of(lens, grip.surfaces), 3), radii=radii)
+        return tr("bending X = {shape}, R = {radii} mm", shape=with_sign(shape_of(lens, grip.surfaces), 3), radii=radii)
     behind = _mm(lens.surfaces[last - 1].thickness)
     if first == 1:
         return tr("{behind} mm behind surface {last}", behind=behind, last=last)
@@ -68,7 +68,7 @@ def _glass(grip: Grip, shown: DrawnSetup) -> str:
 
 def _decentre(grip: Grip, shown: DrawnSetup) -> str:
     amount = amount_of(shown.state.optics.errors, "decentre_y", grip.surfaces)
-    return tr("decentre y {amount} mm", amount=signed(amount, DECENTRE_DIGITS))
+    return tr("decentre y {amount} mm", amount=with_sign(amount, DECENTRE_DIGITS))
 
 
 def _radius(lens: Lens, number: int) -> str:

@@ -13,9 +13,9 @@ from p2sf_explorer.charts.painting import metrics
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.editing import (
     check_surface,
-    deleted,
+    delete_surface,
     edited_state,
-    inserted,
+    insert_surface,
     with_scrubbed,
     with_stop,
     with_value,
@@ -29,8 +29,8 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.lens_table.glass_completion import GlassDelegate
 from p2sf_explorer.panels.lens_table.sliders import bending_slider, show_bending, show_stop, stop_slider
 from p2sf_explorer.panels.lens_table.surface_table import KEYS, STOP, LocalNumbers, SurfaceModel, SurfaceTableView
-from p2sf_explorer.state.build_errors import renumbered
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.build_errors import renumber
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
@@ -54,7 +54,7 @@ TOOLS = (
     ("Save lens as…", "Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)", "_save"),
 )
 
-STEPS_OF_ROWS: dict[Callable[..., Lens], int] = {inserted: 1, deleted: -1}
+STEPS_OF_ROWS: dict[Callable[..., Lens], int] = {insert_surface: 1, delete_surface: -1}
 """By how many the surfaces behind an edited one are renumbered."""
 
 
@@ -76,7 +76,7 @@ class LensTablePanel:
         self.widget.set_body(self.view)
         self.widget.add_footer(self.bending, self.stop_place)
         self.widget.add_footer(self.focus)
-        self.model.typed.connect(self._typed)
+        self.model.typed.connect(self._on_typed)
         self.view.clicked.connect(self._choose_stop)
         self.view.activated.connect(self._choose_stop)
         self.widget.bind(store, keep_focus=self.focus)
@@ -185,7 +185,7 @@ class LensTablePanel:
         )
         self._size(theme)
 
-    def _typed(self, number: int, column: str, text: str) -> None:
+    def _on_typed(self, number: int, column: str, text: str) -> None:
         self._edit(with_value, number, column, text)
 
     def _choose_stop(self, index: QModelIndex) -> None:
@@ -193,10 +193,10 @@ class LensTablePanel:
             self._edit(with_stop, index.row() + 1)
 
     def _insert(self) -> None:
-        self._edit_row(inserted, 1)
+        self._edit_row(insert_surface, 1)
 
     def _delete(self) -> None:
-        self._edit_row(deleted, 0)
+        self._edit_row(delete_surface, 0)
 
     def _edit_row(self, edit: Callable[..., Lens], step: int) -> None:
         """Insert or delete at the present row, and select the row after it or in its place."""
@@ -214,8 +214,8 @@ class LensTablePanel:
             lens = prescription(state)
             check_surface(lens, number)
             if edit in STEPS_OF_ROWS and state.optics.errors:
-                errors = renumbered(state.optics.errors, number, STEPS_OF_ROWS[edit])
-                state = changed(state, errors=errors)
+                errors = renumber(state.optics.errors, number, STEPS_OF_ROWS[edit])
+                state = change(state, errors=errors)
             self._store.replace(edited_state(state, edit(lens, number, *arguments)))
         except P2SFError as error:
             self._store.refused.emit(error)

@@ -11,7 +11,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.editing import edited_state, stop_gap, with_stop_shift
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import Linear, nice, read_number, signed
+from p2sf_explorer.state.scales import Linear, nice, read_number, with_sign
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
@@ -99,7 +99,7 @@ class LensSlider(QWidget):
         self.slider.blockSignals(True)
         self.slider.setValue(round(STEPS * self._scale.travel(self._value)))
         self.slider.blockSignals(False)
-        self._shown = "" if value is None else f"{signed(value, self._digits)}{self._unit}"
+        self._shown = "" if value is None else f"{with_sign(value, self._digits)}{self._unit}"
         self.number.set_text(self._shown)
 
     def restyle(self, theme: Tokens) -> None:

@@ -4,7 +4,7 @@ from PySide6.QtCore import QAbstractTableModel, QEvent, QLocale, QModelIndex, QO
 from PySide6.QtGui import QBrush, QHideEvent, QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem, QTableView, QWidget
 
-from p2sf_explorer.compute.editing import written
+from p2sf_explorer.compute.editing import cell_text
 from p2sf_explorer.compute.views.lens_table import COLUMNS, Rows
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
@@ -175,7 +175,7 @@ class SurfaceModel(QAbstractTableModel):
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             return entries(self._rows, row)[index.column()]
         if role == Qt.ItemDataRole.EditRole and key != "stop":
-            text = written(self._rows.lens.surfaces[row], key, full=True)
+            text = cell_text(self._rows.lens.surfaces[row], key, full=True)
             return text if key == "medium" else local(text)
         return self._tip(row, key) if role == Qt.ItemDataRole.ToolTipRole else None
 

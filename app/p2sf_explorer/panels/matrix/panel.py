@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QCheckBox
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.brightness import SCALES, UNITS
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.matrix.pictures import Matrix, settled
-from p2sf_explorer.compute.matrix.points import LISTS, SIDE, MatrixRequest, nearest, point_entries, told
+from p2sf_explorer.compute.matrix.pictures import Matrix, settle
+from p2sf_explorer.compute.matrix.points import LISTS, SIDE, MatrixRequest, heading_texts, nearest, point_entries
 from p2sf_explorer.compute.matrix.tiles import (
     Light,
     Lines,
@@ -37,7 +37,7 @@ from p2sf_explorer.panels.matrix.tile_charts import (
     WavesChart,
     Words,
 )
-from p2sf_explorer.state.state import changed
+from p2sf_explorer.state.state import change
 from p2sf_explorer.state.terms import PLACES, PUPIL_AXES
 from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
@@ -103,7 +103,7 @@ class MatrixPanel:
         for group in (*pairs, (self.badge,)):
             self.widget.add_group(*group)
         self.widget.set_body(self.grid)
-        self.asking = Asking(self.widget, settled, self._take, self._say)
+        self.asking = Asking(self.widget, settle, self._take, self._say)
         self.shown: tuple[MatrixRequest, Tiles] | None = None
         self.settled: tuple[MatrixRequest, Tiles] | None = None
         self._live: Live | None = None
@@ -149,13 +149,13 @@ class MatrixPanel:
         self.shared.setChecked(view.shared)
         for box in (self.scale, self.units):
             box.setVisible(view.what == "psf")
-        rows, columns = told(request)
+        rows, columns = heading_texts(request)
         self.fields.name(tr(NAMES["field_deg"]), READERS["field_deg"])
-        self.fields.show_values(listed(rows))
+        self.fields.show_values(list_values(rows))
         self.values.setVisible(view.across != SIDE)
         if view.across != SIDE:
             self.values.name(tr(NAMES[view.across]), READERS[view.across])
-            self.values.show_values(columns if view.across == "depth_mm" else listed(columns))
+            self.values.show_values(columns if view.across == "depth_mm" else list_values(columns))
 
     def _take(self, request: MatrixRequest, tiles: Tiles) -> str:
         """Show what the worker has made so far."""
@@ -176,7 +176,7 @@ class MatrixPanel:
         self.shown = request, tiles
         self.widget.set_readout(self._legend(tiles))
         self.grid.linked = request.shared
-        rows, columns = told(request)
+        rows, columns = heading_texts(request)
         one_brightness = request.shared and self._live.state.display.psf_units != "peak"
         sizes, brightest = scales(request.what, tiles, request.shared), peaks(tiles, one_brightness)
         numbers = figures(tiles)
@@ -245,7 +245,7 @@ class MatrixPanel:
                 store.update(shown="a")
                 store.update(**entries)
         elif (pinned := store.state.compare.pinned) is not None:
-            store.update(pinned=changed(pinned, **entries), shown="b")
+            store.update(pinned=change(pinned, **entries), shown="b")
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -260,7 +260,7 @@ class MatrixPanel:
         self.asking.worker.stop()
 
 
-def listed(texts: tuple[str, ...]) -> tuple[str, ...]:
+def list_values(texts: tuple[str, ...]) -> tuple[str, ...]:
     """Return values of one unit with the unit behind the last alone."""
     return *(re.sub(r"[^\d.−]+$", "", text) for text in texts[:-1]), texts[-1]
 

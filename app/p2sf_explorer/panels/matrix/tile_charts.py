@@ -12,10 +12,10 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.cursor import ARROWS, TAKES
 from p2sf_explorer.charts.painting import fitting, polygon, small_font, width_of, write
-from p2sf_explorer.charts.plots import BRIGHTNESS, EMPTY, as_indices, lookup, named
+from p2sf_explorer.charts.plots import BRIGHTNESS, EMPTY, as_indices, colour_map_name, lookup
 from p2sf_explorer.charts.reading import Reading, Samples, closest, point_reading
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.brightness import stretched
+from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.i18n.tr import local, tr
 
 WAVES_MAP = "CET-D1A"
@@ -221,7 +221,7 @@ class LightChart(TileChart):
         return WHITE
 
     def _darkest(self) -> QColor:
-        return QColor.fromRgb(int(lookup(named(BRIGHTNESS, self.theme))[0]))
+        return QColor.fromRgb(int(lookup(colour_map_name(BRIGHTNESS, self.theme))[0]))
 
     def paint_background(self, painter: QPainter) -> None:
         """Paint the ground beside the window of the PSF."""
@@ -233,8 +233,8 @@ class LightChart(TileChart):
         pixel = width_um / count
         start = -(count // 2 + 0.5) * pixel
         self.set_range((-across_um / 2, across_um / 2), (-across_um / 2, across_um / 2))
-        bright = stretched(values.astype(float) / (peak or 1.0), scale)
-        pixels = lookup(named(BRIGHTNESS, self.theme))[as_indices(bright, 0.0, 1.0)]
+        bright = stretch(values.astype(float) / (peak or 1.0), scale)
+        pixels = lookup(colour_map_name(BRIGHTNESS, self.theme))[as_indices(bright, 0.0, 1.0)]
         rect = start, start, width_um, width_um
         self.show_pixels(pixels, rect, Samples(values, rect, tr("share of the light, 1/µm²")))
 
@@ -319,7 +319,7 @@ class LinesChart(TileChart):
         self.update()
 
 
-def arranged(
+def arrange(
     room: tuple[int, int], shape: tuple[int, int], line_px: int, gaps: tuple[int, int], square: bool
 ) -> tuple[list[QRect], bool]:
     """Return the places of rows × columns of charts, and whether they are narrow: all in one line.
@@ -407,7 +407,7 @@ class TileGrid(QWidget):
             return
         first = self.charts[0]
         px, room = first.theme.px, (self.width(), self.height())
-        places, narrow = arranged(room, self.shape, px(LINE_PX), (px(GAP_PX), px(GROUP_PX)), first.square)
+        places, narrow = arrange(room, self.shape, px(LINE_PX), (px(GAP_PX), px(GROUP_PX)), first.square)
         for chart, place in zip(self.charts, places, strict=True):
             chart.set_narrow(narrow)
             chart.setGeometry(place)

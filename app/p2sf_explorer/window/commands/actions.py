@@ -19,7 +19,7 @@ from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.editing import edited_state
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription, with_lens
-from p2sf_explorer.files.opening import KINDS, Refusal, opened, refusal
+from p2sf_explorer.files.opening import KINDS, Refusal, open_file, refusal
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.saving import ask_save_lens
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
@@ -164,7 +164,7 @@ class Actions(QObject):
     def open_path(self, path: str) -> bool:
         """Open a lens file of any known format or a saved state; its content decides."""
         try:
-            self._store.replace(opened(self._store.state, path))
+            self._store.replace(open_file(self._store.state, path))
         except P2SFError as error:
             self._panels.explain(refusal(path, error))
             return False

@@ -6,7 +6,7 @@ from functools import partial
 from PySide6.QtWidgets import QMenu
 
 from p2sf_explorer.compute.quantities import OF_THE_LENS
-from p2sf_explorer.compute.setup import prescription, ranges, shipped, title
+from p2sf_explorer.compute.setup import prescription, ranges, shipped_names, title
 from p2sf_explorer.i18n.language import languages
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CHOICES
@@ -43,7 +43,7 @@ def _rings(store: Store) -> Iterator[Command]:
 
 
 def _lenses(open_lens: Callable[[str], object]) -> Iterator[Command]:
-    for name in shipped():
+    for name in shipped_names():
         yield Command(title(name), partial(open_lens, name), (), "Lens")
 
 

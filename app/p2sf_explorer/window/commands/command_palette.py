@@ -47,7 +47,7 @@ def _begins(words: str, at: int) -> bool:
     return at == 0 or not words[at - 1].isalnum()
 
 
-def ranked(sought: str, texts: Iterable[str]) -> list[int]:
+def rank(sought: str, texts: Iterable[str]) -> list[int]:
     """Return the numbers of the texts that fit, the best first, equals in their order."""
     found = [(-worth, number) for number, text in enumerate(texts) if (worth := score(sought, text)) is not None]
     return [number for _, number in sorted(found)]
@@ -95,9 +95,9 @@ class Palette(QFrame):
         self.sought.setFocus()
 
     def _find(self, sought: str) -> None:
-        names = [named(command) for command in self._commands]
+        names = [full_name(command) for command in self._commands]
         english = [f"{command.group}: {command.title}" for command in self._commands]  # whatever language was left on
-        fitting = dict.fromkeys(number % len(names) for number in ranked(sought, [*names, *english]))
+        fitting = dict.fromkeys(number % len(names) for number in rank(sought, [*names, *english]))
         self.found.clear()
         for number in list(fitting)[:MOST]:
             keys = self._commands[number].keys
@@ -134,6 +134,6 @@ class Palette(QFrame):
         return False
 
 
-def named(command: Command) -> str:
+def full_name(command: Command) -> str:
     """Return a command's name with its group, in the present language."""
     return f"{tr(command.group)}: {tr(command.title)}"

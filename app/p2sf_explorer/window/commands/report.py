@@ -11,15 +11,15 @@ from PySide6.QtGui import QColor, QFont, QImage, QPageSize, QPainter, QPdfWriter
 from p2sf.files.writing import write_beside
 from p2sf_explorer.charts.plots import as_indices, lookup
 from p2sf_explorer.charts.theme import LIGHT, tokens
-from p2sf_explorer.compute.brightness import stretched
+from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.compute.views.first_order import described_depth, rows
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import local, tr, unbroken
-from p2sf_explorer.state.scales import signed, significant
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.scales import significant, with_sign
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.terms import FORMULAS, TERMS, WORDS
 from p2sf_explorer.widgets.thumbnail import glass
 from p2sf_explorer.window.lens_cards import shown_title
@@ -92,7 +92,7 @@ def pdf(answer: Live, over_field: list[Live]) -> bytes:
 def fields(state: State) -> tuple[State, ...]:
     """Return the state at the fields whose PSFs are printed: from the axis to the widest of the lens file."""
     widest = max(abs(angle) for angle in prescription(state).fields_deg)
-    return tuple(changed(state, field_deg=share * widest) for share in SHARES)
+    return tuple(change(state, field_deg=share * widest) for share in SHARES)
 
 
 def paint(page: ReportPage, answer: Live, over_field: list[Live]) -> None:
@@ -100,7 +100,7 @@ def paint(page: ReportPage, answer: Live, over_field: list[Live]) -> None:
     state, wide = answer.state, PAGE.width() - 2 * MARGIN
     page.write(QRectF(MARGIN, 12, wide, 9), shown_title(state), 16, bold=True)
     source = tr("{depth}, field {field}°, {wavelength} nm", depth=described_depth(state.optics.depth_mm).text(WINDOW),
-                field=signed(state.optics.field_deg, 2), wavelength=f"{state.optics.wavelength_nm:.1f}")  # fmt: skip
+                field=with_sign(state.optics.field_deg, 2), wavelength=f"{state.optics.wavelength_nm:.1f}")  # fmt: skip
     page.write(QRectF(MARGIN, 21, wide, 6), f"{source} · {said(answer.dominant)}", 9)
     draw_layout(page, answer.layout, QRectF(MARGIN, 30, wide, 62))
     heading(page, 95, tr("First order"))
@@ -121,7 +121,7 @@ def paint(page: ReportPage, answer: Live, over_field: list[Live]) -> None:
 
 def _coefficients(answer: Live) -> list[tuple[str, str]]:
     values = {term: float(getattr(answer.setup.coefficients, term)) for term in TERMS}
-    return [(f"{NAMES[t]}  {tr(WORDS[t])}, {FORMULAS[t]}", f"{signed(values[t], 3)} λ") for t in TERMS]
+    return [(f"{NAMES[t]}  {tr(WORDS[t])}, {FORMULAS[t]}", f"{with_sign(values[t], 3)} λ") for t in TERMS]
 
 
 SCALE_WORDS = {"linear": "linear brightness", "sqrt": "square root of brightness", "log": "logarithm of brightness"}
@@ -184,13 +184,13 @@ def draw_psf(page: ReportPage, answer: Live, room: QRectF) -> None:
     """Draw a PSF with its field, its width and its Strehl ratio under it."""
     psf, peak = answer.psf, float(answer.psf.values.max()) or 1.0
     table = lookup(tokens("light", answer.state.display.colours).brightness)
-    bright = stretched(psf.values[::-1] / peak, answer.state.display.psf_scale)
+    bright = stretch(psf.values[::-1] / peak, answer.state.display.psf_scale)
     pixels = np.ascontiguousarray(table[as_indices(np.asarray(bright, float), 0.0, 1.0)])
     image = QImage(pixels.data, pixels.shape[1], pixels.shape[0], 4 * pixels.shape[1], QImage.Format.Format_RGB32)
     page.painter.drawImage(page.pixels(room), image)
     width = psf.values.shape[-1] * psf.pixel_um
     ratio = float(np.asarray(psf.strehl, float))  # NaN for None
     strehl = f" · Strehl {significant(ratio, 2)}" if isfinite(ratio) else ""
-    words = f"{signed(answer.state.optics.field_deg, 1)}° · {significant(width, 3)} µm"
+    words = f"{with_sign(answer.state.optics.field_deg, 1)}° · {significant(width, 3)} µm"
     page.write(QRectF(room.x(), room.bottom() + 1, room.width(), 5), words, 7.5, side=0)
     page.write(QRectF(room.x(), room.bottom() + 6, room.width(), 5), f"{psf.method}{strehl}", 7.5, side=0)

@@ -15,7 +15,7 @@ from p2sf_explorer.compute.setup import Ranges, prescription, ranges, request_se
 from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import read_distance, read_number, significant, written_distance
-from p2sf_explorer.state.state import State, changed
+from p2sf_explorer.state.state import State, change
 
 SEPARATOR = ";"  # a comma may belong to a number
 NEAREST = 2.0  # times the middle of the slider of distance: the nearest of the distances that are offered first
@@ -52,9 +52,9 @@ def first_texts(state: State) -> SetTexts:
     lens = prescription(state)
     widest = max(abs(angle) for angle in lens.fields_deg)
     return SetTexts(
-        depths=listed(written_distance(depth) for depth in first_depths(ranges(lens), state)),
-        fields=listed(f"{share * widest:.4g}°" for share in SHARES) if widest else "0°",
-        wavelengths=listed(f"{wave:.6g} nm" for wave in lens.wavelengths_nm),
+        depths=list_texts(written_distance(depth) for depth in first_depths(ranges(lens), state)),
+        fields=list_texts(f"{share * widest:.4g}°" for share in SHARES) if widest else "0°",
+        wavelengths=list_texts(f"{wave:.6g} nm" for wave in lens.wavelengths_nm),
         pixel=f"{significant(state.display.pixel_um, 3)} µm",
         fill="100 %",
         pixels=str(PIXELS),
@@ -70,7 +70,7 @@ def first_depths(limits: Ranges, state: State) -> tuple[float, ...]:
     return tuple(NEAREST * limits.middle_mm / (1 - share) if share < 1 else inf for share in SHARES)
 
 
-def listed(texts: Iterable[str]) -> str:
+def list_texts(texts: Iterable[str]) -> str:
     """Return texts as one, as a person would type them."""
     return f"{SEPARATOR} ".join(texts)
 
@@ -81,7 +81,7 @@ def read_request(state: State, texts: SetTexts, path: str) -> SetRequest:
     axes = read_axes(texts)
     for name, values in zip(("depth_mm", "field_deg", "wavelength_nm"), astuple(axes), strict=True):
         for value in values:
-            changed(state, **{name: value})  # refuses what no slider can be set to
+            change(state, **{name: value})  # refuses what no slider can be set to
     pixels = texts.pixels.strip().lower()
     grid = PixelGrid(
         read_number(texts.pixel, "pixel", MICRONS),
