@@ -4,7 +4,7 @@ import json
 import tracemalloc
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from itertools import product
+from itertools import cycle, product
 from math import inf, isinf
 from statistics import median
 from time import process_time
@@ -27,6 +27,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import NAMES, REFERENCE, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
+from p2sf.studies.trade_plots import MARKERS
 from p2sf.threads import one_blas_thread, using_threads
 
 PIXELS = 64
@@ -262,7 +263,7 @@ def draw(handle: BinaryIO, rows: list[MethodCost], title: str = "") -> None:
 
     figure = Figure(figsize=(6.4, 4.4), dpi=150, layout="constrained")
     axes = figure.add_subplot(xscale="log", yscale="log", xlabel="CPU time of one PSF, ms", ylabel="relative L2 error")
-    for method, marker in zip(NAMES, "vosD^", strict=True):
+    for method, marker in zip(NAMES, cycle(MARKERS), strict=False):
         for quality, filled in (("preview", "none"), ("settled", "full")):
             some = [row for row in rows if (row.method, row.quality) == (method, quality)]
             if some:

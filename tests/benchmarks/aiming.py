@@ -25,7 +25,6 @@ from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render
 from p2sf.psf.seidel import suitable_pixel_um
-from p2sf.psf.traced import in_rows
 from p2sf_explorer.compute.preview import preview, preview_psf, preview_pupil
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 
@@ -92,9 +91,6 @@ def main() -> None:
                 line = f"{name:20} {source.field_deg:5.1f}° {source.depth_mm:6g} mm"
                 for method in asked.methods:
                     try:
-                        if method == "traced" and not all(in_rows(with_aim(lens, aim), source) for aim in AIMS):
-                            line += "  traced ray by ray"
-                            continue
                         times = ratio(METHODS[method], lens, source, pixel_um, asked.known)
                     except P2SFError as error:
                         line += f"  {method} refused ({type(error).__name__})"
