@@ -31,7 +31,7 @@ def test_the_picture_is_summed_for_the_pixels_it_is_shown_on(window, qtbot):
 def test_a_finer_picture_that_comes_late_is_not_shown(window, qtbot):
     panel = window.panels["psf"]
     window.store.update(method="fitted", f_number=8.0, field_deg=4.0)
-    wanted = panel._wanted(window.live)
+    wanted = panel._finer_request(window.live)
     window.store.update(field_deg=5.0)
     before = panel.map.indices
     panel._take(wanted, live(new_state()).psf)
