@@ -15,7 +15,7 @@ LAYERS = (
     "p2sf.lens",
     "p2sf.paraxial",
     "p2sf.camera p2sf.lensfile p2sf.raytrace",
-    "p2sf.psf p2sf.pixel_kernels",
+    "p2sf.psf p2sf.pixel_kernels p2sf.request",
     "p2sf.metrics p2sf.io p2sf.scene",
     "p2sf.tolerance p2sf.database p2sf.image",
     "p2sf.export p2sf.measure p2sf.studies",

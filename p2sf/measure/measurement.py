@@ -5,6 +5,7 @@ Measurements are kept in files, and two of them compared.
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -463,3 +464,11 @@ def _pairs(one: np.ndarray, two: np.ndarray) -> list[tuple[int, int]]:
         return []
     away = np.hypot(*(one[:, None] - two[None]).transpose(2, 0, 1))
     return [(k, int(np.argmin(row))) for k, row in enumerate(away) if row.min() < NEAR_MM]
+
+
+def __getattr__(name: str) -> object:
+    """Return `measure_frame` by its former name, for one version more."""
+    if name != "measured":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    warnings.warn("measured is measure_frame now", DeprecationWarning, stacklevel=2)
+    return measure_frame
