@@ -79,8 +79,10 @@ def opened():
         from app.window import Window
     else:
         from p2sf_explorer.charts.theme import configure_plots
-        from p2sf_explorer.window.window import MainWindow as Window
         from p2sf_explorer.state.state import new_state as fresh
+        from importlib import import_module
+        folder = "shell" if sys.argv[1] == "0.2" else "window"
+        Window = import_module(f"p2sf_explorer.{folder}.window").MainWindow
     app = QApplication([])
     app.setStyle("Fusion")
     configure_plots()
@@ -135,7 +137,8 @@ class Version:
     """One checkout: a process that stays alive for its window, and its command line."""
 
     def __init__(self, folder: Path):
-        self.layout = "now" if (folder / "app" / "p2sf_explorer").is_dir() else "0.1"
+        explorer = folder / "app" / "p2sf_explorer"
+        self.layout = "now" if (explorer / "window").is_dir() else "0.2" if explorer.is_dir() else "0.1"
         paths = os.pathsep.join(map(str, (folder, folder / "app")))
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "P2SF_THREADS": "1"}
         self.environment = os.environ | threads | {"PYTHONPATH": paths, "QT_QPA_PLATFORM": "offscreen"}
