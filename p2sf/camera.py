@@ -289,7 +289,7 @@ def _with_stop(lens: Lens, camera: Camera, source: Source, named: bool) -> Setup
     except GlassError as error:
         raise (_with_parameter(error) if named else error) from None
     lens, focused = _opened_and_focused(lens, camera)
-    used, stop = _find_stop(focused, camera.stop, source)
+    used, stop = _lens_and_stop(focused, camera.stop, source)
     return Setup(used, source, stop, lens)
 
 
@@ -356,7 +356,7 @@ def sensor_position(lens: Lens, camera: Camera) -> float:
     It does not depend on the wavelength of the source: with ``focus_mm`` the sensor is at the paraxial image for the
     lens's middle wavelength. Raises RequestError when that image is not a real one at a finite place.
     """
-    place = _focus_shift(lens, camera.focus_mm)
+    place = _sensor_in_focus(lens, camera.focus_mm)
     shifted = place + camera.sensor_shift_um / UM_PER_MM
     if shifted * lens.directions[-1] <= 0 < place * lens.directions[-1]:
         raise RequestError(
@@ -369,7 +369,7 @@ def sensor_position(lens: Lens, camera: Camera) -> float:
     return shifted
 
 
-def _focus_shift(lens: Lens, focus_mm: float | None) -> float:
+def _sensor_in_focus(lens: Lens, focus_mm: float | None) -> float:
     if focus_mm is None:
         return lens.sensor_mm
     place = float(image_distance(lens, focus_mm, lens.reference_wavelength_um))
@@ -426,7 +426,7 @@ def aimed(lens: Lens, aim: AimChoice | None) -> Lens:
     return lens if aim is None else with_aim(lens, "stop" if aim == "real" else aim)
 
 
-def _find_stop(lens: Lens, choice: StopChoice, source: Source) -> tuple[Lens, Stop]:
+def _lens_and_stop(lens: Lens, choice: StopChoice, source: Source) -> tuple[Lens, Stop]:
     """Return the stop in use, and the lens naming it, so that every later step agrees on it."""
     stop = find_stop(lens, source.depth_mm, source.wavelength_um, choice)
     if choice == "file":

@@ -2,14 +2,20 @@
 
 import numpy as np
 import pytest
-from scipy.special import j0, j1
 
 from p2sf.metrics.perfect import airy_curves
 
 
+def bessel(order: int, v: np.ndarray) -> np.ndarray:
+    """Return Jₙ(v) by its integral over half a turn, the mean of cos(nτ − v·sin τ) (DLMF 10.9.2)."""
+    tau = (np.arange(400) + 0.5) * np.pi / 400
+    return np.cos(order * tau - v[:, None] * np.sin(tau)).mean(1)
+
+
 def test_the_airy_pattern_and_its_energy_are_bessels():
+    """The mean of a periodic function converges faster than any power: 400 points are exact for v below 60."""
     position, pattern, energy = airy_curves(201, 30.0, 2.0)
-    v = 3.8317059702 * np.abs(position) / 2.0
+    v = 3.8317059702075123 * np.abs(position) / 2.0
     safe = np.where(v > 0, v, 1.0)
-    assert pattern == pytest.approx(np.where(v > 0, (2 * j1(safe) / safe) ** 2, 1.0), abs=1e-12)
-    assert energy == pytest.approx(1 - j0(v) ** 2 - j1(v) ** 2, abs=1e-12)
+    assert pattern == pytest.approx(np.where(v > 0, (2 * bessel(1, safe) / safe) ** 2, 1.0), abs=1e-12)
+    assert energy == pytest.approx(1 - bessel(0, v) ** 2 - bessel(1, v) ** 2, abs=1e-12)
