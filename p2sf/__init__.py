@@ -13,87 +13,167 @@ from typing import TYPE_CHECKING, Any
 from p2sf.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from p2sf.api import (
-        choose_method,
-        coefficients,
-        encircled_energy,
-        line_spread,
-        load_lens,
-        mtf,
-        render,
-        zernike,
-    )
+    from p2sf.api import choose_method, coefficients, encircled_energy, line_spread, load_lens, mtf, render, zernike
     from p2sf.camera import Camera
     from p2sf.database.files.building import build_database
-    from p2sf.errors import P2SFError, P2SFWarning
+    from p2sf.database.files.provenance import Stored
+    from p2sf.errors import (
+        DatabaseError,
+        ExportError,
+        GeometryError,
+        GlassError,
+        LensFileError,
+        P2SFError,
+        P2SFWarning,
+        RequestError,
+        SamplingError,
+    )
     from p2sf.export.psf_cube import open_database
     from p2sf.image.picture import form_image
+    from p2sf.io.psf_files import read_psf, write_psf
     from p2sf.io.psf_plot import draw_psf
-    from p2sf.lens.lens import Lens, with_absorption, with_mask
+    from p2sf.lens.lens import Aperture, Lens, Surface, with_absorption, with_mask
+    from p2sf.lens.misalignment import displaced
+    from p2sf.lens.placement import Placement
     from p2sf.lens.source import Source
+    from p2sf.measure.fitting.point_fit import PointFit
+    from p2sf.measure.single_psf import fit_psf
+    from p2sf.metrics.measures import Energy, LineSpread, Mtf
+    from p2sf.metrics.opd_pupil import Pupil, fit_zernike
+    from p2sf.metrics.samples import energy_of_psf, line_spread_of_psf, mtf_of_psf
+    from p2sf.named_arrays import NamedArrays
     from p2sf.notebook_widget import widget
     from p2sf.paraxial.positions import lens_at
+    from p2sf.paraxial.seidel import Coefficients
     from p2sf.psf.from_opd import psf_of_opd
     from p2sf.psf.result import Psf
     from p2sf.pupil.mask import PupilMap, PupilMask
+    from p2sf.raytrace.zernike_fit import ZernikeFit
     from p2sf.scene.planning.plan import plan
-    from p2sf.scene.scene import Scene
+    from p2sf.scene.scene import Channel, Scene
     from p2sf.scene.sensor import Sensor
     from p2sf.studies.tradeoff import tradeoff
+    from p2sf.sweep import Sweep
+    from p2sf.tolerance.errors_of_build import Tolerance
+    from p2sf.tolerance.yields import ToleranceStudy, tolerances
 
 __all__ = [
+    "Aperture",
     "Camera",
+    "Channel",
+    "Coefficients",
+    "DatabaseError",
+    "Energy",
+    "ExportError",
+    "GeometryError",
+    "GlassError",
     "Lens",
+    "LensFileError",
+    "LineSpread",
+    "Mtf",
+    "NamedArrays",
     "P2SFError",
     "P2SFWarning",
+    "Placement",
+    "PointFit",
     "Psf",
+    "Pupil",
     "PupilMap",
     "PupilMask",
+    "RequestError",
+    "SamplingError",
     "Scene",
     "Sensor",
     "Source",
+    "Stored",
+    "Surface",
+    "Sweep",
+    "Tolerance",
+    "ToleranceStudy",
+    "ZernikeFit",
     "build_database",
     "choose_method",
     "coefficients",
+    "displaced",
     "draw_psf",
     "encircled_energy",
+    "energy_of_psf",
+    "fit_psf",
+    "fit_zernike",
     "form_image",
     "lens_at",
     "line_spread",
+    "line_spread_of_psf",
     "load_lens",
     "mtf",
+    "mtf_of_psf",
     "open_database",
     "plan",
     "psf_of_opd",
+    "read_psf",
     "render",
+    "tolerances",
     "tradeoff",
     "widget",
     "with_absorption",
     "with_mask",
+    "write_psf",
     "zernike",
 ]
 _ELSEWHERE = {
+    "Aperture": "p2sf.lens.lens",
     "Camera": "p2sf.camera",
+    "Channel": "p2sf.scene.scene",
+    "Coefficients": "p2sf.paraxial.seidel",
+    "DatabaseError": "p2sf.errors",
+    "Energy": "p2sf.metrics.measures",
+    "ExportError": "p2sf.errors",
+    "GeometryError": "p2sf.errors",
+    "GlassError": "p2sf.errors",
     "Lens": "p2sf.lens.lens",
+    "LensFileError": "p2sf.errors",
+    "LineSpread": "p2sf.metrics.measures",
+    "Mtf": "p2sf.metrics.measures",
+    "NamedArrays": "p2sf.named_arrays",
     "P2SFError": "p2sf.errors",
     "P2SFWarning": "p2sf.errors",
+    "Placement": "p2sf.lens.placement",
+    "PointFit": "p2sf.measure.fitting.point_fit",
     "Psf": "p2sf.psf.result",
+    "Pupil": "p2sf.metrics.opd_pupil",
     "PupilMap": "p2sf.pupil.mask",
     "PupilMask": "p2sf.pupil.mask",
+    "RequestError": "p2sf.errors",
+    "SamplingError": "p2sf.errors",
     "Scene": "p2sf.scene.scene",
     "Sensor": "p2sf.scene.sensor",
     "Source": "p2sf.lens.source",
+    "Stored": "p2sf.database.files.provenance",
+    "Surface": "p2sf.lens.lens",
+    "Sweep": "p2sf.sweep",
+    "Tolerance": "p2sf.tolerance.errors_of_build",
+    "ToleranceStudy": "p2sf.tolerance.yields",
+    "ZernikeFit": "p2sf.raytrace.zernike_fit",
     "build_database": "p2sf.database.files.building",
+    "displaced": "p2sf.lens.misalignment",
+    "draw_psf": "p2sf.io.psf_plot",
+    "energy_of_psf": "p2sf.metrics.samples",
+    "fit_psf": "p2sf.measure.single_psf",
+    "fit_zernike": "p2sf.metrics.opd_pupil",
     "form_image": "p2sf.image.picture",
     "lens_at": "p2sf.paraxial.positions",
+    "line_spread_of_psf": "p2sf.metrics.samples",
+    "mtf_of_psf": "p2sf.metrics.samples",
     "open_database": "p2sf.export.psf_cube",
     "plan": "p2sf.scene.planning.plan",
+    "psf_of_opd": "p2sf.psf.from_opd",
+    "read_psf": "p2sf.io.psf_files",
+    "tolerances": "p2sf.tolerance.yields",
     "tradeoff": "p2sf.studies.tradeoff",
+    "widget": "p2sf.notebook_widget",
     "with_absorption": "p2sf.lens.lens",
     "with_mask": "p2sf.lens.lens",
-    "draw_psf": "p2sf.io.psf_plot",
-    "psf_of_opd": "p2sf.psf.from_opd",
-    "widget": "p2sf.notebook_widget",
+    "write_psf": "p2sf.io.psf_files",
 }
 
 

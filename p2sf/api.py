@@ -139,14 +139,14 @@ def render(
     >>> p2sf.render(lens, p2sf.Source(field_deg=10), camera=p2sf.Camera(focus_mm=3000, f_number=5.6)).method
     'fitted'
     """
+    from p2sf.psf.methods import PsfOptions
     from p2sf.psf.pixel_integrals import render_integrated
     from p2sf.psf.result import warn_of_window
 
     setup = set_up_source(lens, source, camera)
     with using_threads(threads):
-        psf = render_integrated(
-            setup.lens, setup.source, method, pixels, pixel_um, tolerance, quality, clip, integrated
-        )
+        options = PsfOptions(quality, tolerance, clip)
+        psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
     return warn_of_window(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 5)
 
 

@@ -1,4 +1,4 @@
-"""Arguments as a script gives them: quantities with a unit, masked arrays, lists for tuples, and what is no number."""
+"""Conversion and checks of arguments: quantities with a unit, masked arrays, lists for tuples, non-numbers."""
 
 import os
 from collections.abc import Callable
@@ -17,9 +17,9 @@ from p2sf.messages import Alternatives
 
 UNITS = (("_per_mm", "1/mm"), ("_mm", "mm"), ("_um", "um"), ("_nm", "nm"), ("_deg", "deg"))
 """Endings of parameters, the longer ones first, and their units as astropy writes them; any other is a plain number."""
-NUMBERS = (float, int, Real)  # the first two are found ten times as fast
+NUMBERS = (float, int, Real)  # looking up the first two is ten times as fast
 CLASSES = {float: NUMBERS, int: NUMBERS, bool: (bool, np.bool_), None: NoneType}
-"""What a value of an annotation may be; whether a count is whole is checked where it is used."""
+"""Types accepted for an annotation; whether a count is an integer is checked where it is used."""
 PLAIN = frozenset((float, int, bool, str, NoneType))
 WANTED = {
     **dict.fromkeys(("float", "int", "Real"), "a number"),
@@ -36,7 +36,7 @@ Kinds = tuple[type, ...]
 
 
 def check_arguments(function: Function) -> Function:
-    """Return a function that takes its arguments as `argument` has them."""
+    """Decorate a function so that `argument` converts and checks its arguments."""
     kinds = {name: each.annotation for name, each in signature(function).parameters.items()}
 
     @wraps(function)
@@ -49,7 +49,7 @@ def check_arguments(function: Function) -> Function:
 
 
 def check_fields(instance: Any) -> None:
-    """Put what `argument` returns into the fields of a frozen dataclass; RequestError as it."""
+    """Convert the fields of a frozen dataclass by `argument`; raises RequestError as it does."""
     for name, annotation, allowed in _fields(cast("Any", type(instance))):
         value = getattr(instance, name)
         if value == () if type(value) is tuple else type(value) in allowed:
@@ -61,15 +61,15 @@ def check_fields(instance: Any) -> None:
 
 @lru_cache(maxsize=64)
 def _fields(kind: Any) -> tuple[tuple[str, Any, Kinds], ...]:
-    """Return the fields of a dataclass that can be checked: name, annotation, and the classes that need no more."""
+    """Return the fields of a dataclass that can be checked: name, annotation, and the classes accepted unconverted."""
     known = ((field.name, field.type, _kinds(cast("Any", field.type))[0]) for field in fields(kind))
     return tuple((name, annotation, tuple(set(kinds) - {tuple})) for name, annotation, kinds in known if kinds)
 
 
 def argument(name: str, value: Any, annotation: Any) -> Any:
-    """Return the value of a parameter: without its unit, and as a tuple where that is annotated.
+    """Return the value of a parameter without its unit, as a tuple if the annotation is one.
 
-    Raises RequestError for a value of another kind than the annotation states; what that leaves open is not checked.
+    Raises RequestError for a value of a type that the annotation excludes; whatever the annotation allows passes.
     """
     kinds, part = _kinds(annotation)
     if part is not None and not isinstance(value, str):
@@ -95,9 +95,9 @@ def _kind_words(kind: type) -> str:
 
 @lru_cache(maxsize=256)
 def _kinds(annotation: Any) -> tuple[Kinds, Any]:
-    """Return the classes that an annotation allows, and of a tuple what its parts are annotated as, None of others.
+    """Return the classes that an annotation allows, and the annotation of a tuple's items (None for other types).
 
-    No classes if the annotation says more than that, as of arrays or choices.
+    No classes if the annotation cannot be expressed by classes, such as arrays or choices.
     """
     origin = get_origin(annotation)
     if origin in (Union, UnionType):
@@ -111,22 +111,20 @@ def _kinds(annotation: Any) -> tuple[Kinds, Any]:
 
 
 def _tuple_of(name: str, value: Any, annotation: Any) -> tuple[Any, ...]:
-    """Return a tuple, a list, an array or another collection as a tuple, each part as `argument` has it."""
+    """Return a tuple, list, array or other collection as a tuple of items converted by `argument`."""
     value = in_own_unit(name, value)
     try:
         parts = iter(value.tolist() if isinstance(value, np.ndarray) else value)
     except TypeError:
-        raise RequestError(
-            "{parameter} is {value}; give several, in a tuple", parameter=name, value=f"{value!r:.60}"
-        ) from None
+        raise RequestError("{parameter} is {value}; give a tuple", parameter=name, value=f"{value!r:.60}") from None
     return tuple(argument(name, part, annotation) for part in parts)
 
 
 def in_own_unit(name: str, value: Any) -> Any:
-    """Return an astropy quantity as a number in the unit of the parameter, and anything without a unit as it is.
+    """Return an astropy quantity as a number in the unit of the parameter; values without a unit are unchanged.
 
-    A list or tuple of quantities is converted one by one. Raises RequestError for a quantity of another kind, such as
-    a time for a length, and for one that cannot be converted here.
+    Lists and tuples of quantities are converted item by item. Raises RequestError for a quantity of another dimension,
+    such as a time for a length, and for one that cannot be converted.
     """
     if isinstance(value, list | tuple) and any(_has_unit(part) for part in value):
         return type(value)(in_own_unit(name, part) for part in value)
@@ -135,7 +133,7 @@ def in_own_unit(name: str, value: Any) -> Any:
     unit = next((unit for ending, unit in UNITS if name.endswith(ending)), "")
     try:
         found = value.to_value(unit)
-    except (AttributeError, TypeError, ValueError):  # of another package, or no length, angle …
+    except (AttributeError, TypeError, ValueError):  # from another package, or neither length nor angle
         raise RequestError(
             "{parameter} is {value}; give a number without a unit, in {unit}",
             parameter=name,
@@ -150,9 +148,9 @@ def _has_unit(value: object) -> bool:
 
 
 def real_array(name: str, values: ArrayLike, masked: float = np.nan) -> np.ndarray:
-    """Return values as an array of float64, with ``masked`` where a masked array has no value.
+    """Return values as an array of float64, with ``masked`` in place of the masked items of a masked array.
 
-    Raises RequestError for complex numbers, and for what is no array of numbers.
+    Raises RequestError for complex numbers and for values that do not form an array of numbers.
     """
     values = in_own_unit(name, values)
     try:
@@ -163,19 +161,20 @@ def real_array(name: str, values: ArrayLike, masked: float = np.nan) -> np.ndarr
         raise RequestError(
             "{parameter} holds {kind}; give real numbers",
             parameter=name,
-            kind="complex numbers" if given.dtype.kind == "c" else "what is no array of numbers",
+            kind="complex numbers" if given.dtype.kind == "c" else "values that are not an array of numbers",
         )
     numbers: np.ndarray = np.ma.filled(given.astype(float), masked)
     return numbers
 
 
 def number_list(name: str, values: ArrayLike, infinite: bool = False) -> np.ndarray:
-    """Return one or several numbers as an array (n,); RequestError for anything else, and unless all are finite."""
+    """Return one or several finite numbers as an array (n,); raises RequestError for anything else."""
     numbers = np.atleast_1d(real_array(name, values))
     possible = ~np.isnan(numbers) if infinite else np.isfinite(numbers)
     if numbers.ndim > 1 or not possible.all():
         raise RequestError(
-            "{parameter} has the shape {shape}, or holds what is no finite number; give one number or a list of them",
+            "{parameter} has the shape {shape} or contains values that are not finite; "
+            "give one number or a list of numbers",
             parameter=name,
             shape=str(numbers.shape),
         )

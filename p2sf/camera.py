@@ -1,19 +1,21 @@
-"""How a camera is set and where a point source is, as a person states them, and the lens, source and stop they mean.
+"""Settings of a camera and position of a point source as a user states them, and the resulting lens, source and stop.
 
 The library, the command line, the window and files all come through `set_up` or `set_up_source`, so that the same
-numbers mean the same everywhere. `p2sf.parameters` declares every number once.
+numbers mean the same everywhere. `p2sf.parameters` declares every parameter once.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, lru_cache, wraps
 from inspect import signature
 from math import inf, isfinite, isinf
-from typing import Any, Literal, TypeVar, cast
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_fields
+from p2sf.arguments import check_fields, real_array
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import (
@@ -28,8 +30,16 @@ from p2sf.lens.lens import (
 )
 from p2sf.lens.source import Source, check_one
 from p2sf.messages import Message, ParameterName
-from p2sf.parameters import OF_THE_CAMERA, OF_THE_MASK, OF_THE_SOURCE, check_angle, check_values, unit_behind
-from p2sf.paraxial.first_order import image_distance
+from p2sf.parameters import (
+    CAMERA_PARAMETERS,
+    MASK_PARAMETERS,
+    SOURCE_PARAMETERS,
+    check_angle,
+    check_positive,
+    check_values,
+    unit_behind,
+)
+from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.positions import focused_inside, lens_at
 from p2sf.paraxial.pupils import (
     Stop,
@@ -41,18 +51,21 @@ from p2sf.paraxial.pupils import (
 )
 from p2sf.pupil.mask import CLEAR, PupilMask
 
+if TYPE_CHECKING:
+    from p2sf import Psf, Stored, Sweep, ToleranceStudy
+
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]
 """As `Lens.aim`; "real" is the former name of "stop"."""
 FIELDS = ("field_deg", "object_height_mm", "image_height_mm")
-MASK = tuple(parameter.name for parameter in OF_THE_MASK)
-"""What of the mask in the stop a camera may state."""
+MASK = tuple(parameter.name for parameter in MASK_PARAMETERS)
+"""The parameters of the pupil mask that a camera may set."""
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-@dataclass(frozen=True)
-class Camera:
-    """How a camera is set; None means: as the lens file has it.
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """The settings of a camera; None means the value of the lens file.
 
     Attributes
     ----------
@@ -61,26 +74,25 @@ class Camera:
     focus_position : float or str, optional
         Position of the focus ring of a lens that focuses inside, given as for zoom.
     focus_mm : float, optional
-        Focus on the plane this far in front of the first vertex, mm; inf is allowed. The sensor moves to the paraxial
+        Distance of the plane in focus from the first vertex, mm; inf is allowed. The sensor moves to the paraxial
         image of that plane at the lens's middle wavelength. A lens that focuses inside turns its ring instead, and
         moves its sensor only for planes beyond an end of the ring.
     sensor_shift_um : float
-        Then move the sensor by this much away from the lens, µm.
+        Additional shift of the sensor away from the lens, µm.
     f_number : float, optional
         Focal length over entrance-pupil diameter, instead of the file's aperture.
     stop : {"file", "auto"}
-        Take the stop from the file, or let the narrowest rim at the depth of the source decide (auto).
+        Use the stop of the file, or the rim that limits the cone of light at the depth of the source (auto).
     aim : {"stop", "paraxial"}, optional
-        Fill the rim of the real stop with exact rays, or the paraxial entrance pupil; "real" is the former name of
-        "stop".
+        Whether exact rays fill the real stop or the paraxial entrance pupil; "real" is the former name of "stop".
     absorption : bool, optional
-        Take from the rays what the media absorb whose catalogue (AGF) states their internal transmittance.
+        Account for absorption in those media whose catalogue (AGF) states their internal transmittance.
     obscuration : float, optional
         Radius of a dark disc in the stop, as a share of the rim's, 0 to 0.99.
     obscuration_x : float, optional
-        Where the middle of the dark disc stands in x, as a share of the rim's radius; all of it lies within the rim.
+        Centre of the dark disc in x, as a share of the rim's radius; the whole disc must lie within the rim.
     obscuration_y : float, optional
-        Where it stands in y.
+        Centre of the dark disc in y.
     vanes : int, optional
         Number of vanes that run from the middle of the stop to its rim.
     vane_width : float, optional
@@ -103,16 +115,7 @@ class Camera:
     Raises
     ------
     RequestError
-        For a value that no camera can have, and for a focus stated twice.
-
-    Examples
-    --------
-    >>> import p2sf
-    >>> camera = p2sf.Camera(f_number=5.6, focus_mm=3000, blades=7)
-    >>> camera
-    Camera(focus_mm=3000, f_number=5.6, blades=7)
-    >>> p2sf.render(p2sf.load_lens("double_gauss_28"), p2sf.Source(3000), camera=camera).method
-    'seidel'
+        For an impossible value, and for a focus stated twice.
     """
 
     zoom: float | str | None = None
@@ -138,7 +141,7 @@ class Camera:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        check_values(self, (*OF_THE_CAMERA, *OF_THE_MASK))
+        check_values(self, (*CAMERA_PARAMETERS, *MASK_PARAMETERS))
         if self.focus_mm is not None and self.focus_position is not None:
             raise RequestError(
                 "the focus is stated twice, by {first} and {second}; keep one",
@@ -147,27 +150,28 @@ class Camera:
             )
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in stated(self).items())})"
+        return _call_text(self, [], explicit_values(self))
 
 
 @dataclass(frozen=True)
 class PointSource:
-    """Where a point source is; None for the field: on the axis.
+    """Position and wavelength of a point source; without a field it lies on the axis.
 
     Attributes
     ----------
     depth_mm
         Object distance from the first vertex, mm, up to 1e16; inf is allowed.
     field_deg
-        Chief-ray angle at the entrance pupil, degrees, at finite depth too; in y where there is one in x as well.
+        Chief-ray angle at the entrance pupil, degrees, also at finite depth; the angle in y if ``field_x_deg`` is
+        given.
     field_x_deg
-        Chief-ray angle in x, degrees, for sources beside the plane of x = 0, which a misaligned lens tells apart.
+        Chief-ray angle in x, degrees, for sources outside the plane x = 0; it matters for misaligned lenses.
     object_height_mm
         Object height instead of an angle, mm. A positive one stands for a positive field: the object lies at −y.
     image_height_mm
         Height of the paraxial chief ray on the sensor instead of an angle, mm.
     wavelength_nm
-        Wavelength, nm; the file's middle one when not given.
+        Wavelength, nm; by default the middle wavelength of the file.
     """
 
     depth_mm: float = inf
@@ -179,24 +183,244 @@ class PointSource:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        check_values(self, OF_THE_SOURCE)
+        check_values(self, SOURCE_PARAMETERS)
         _check_one_field(self)
 
 
 @dataclass(frozen=True, repr=False)
-class Request(Camera, PointSource):
-    """One point source and how the camera is set, as a command line states both."""
+class Request(Settings, PointSource):
+    """One point source together with the settings of the camera, as on the command line."""
 
     def __post_init__(self) -> None:
         PointSource.__post_init__(self)
-        Camera.__post_init__(self)
+        Settings.__post_init__(self)
+
+
+@dataclass(frozen=True, repr=False)
+class Camera(Settings):
+    """A lens on a sensor and how both are set: what PSFs, sweeps, pictures and databases are asked of.
+
+    Every number that the settings do not state is as the lens file has it. Without a lens it is what ``camera`` of
+    `p2sf.render` and its like take.
+
+    Parameters
+    ----------
+    lens : Lens or str or path, optional
+        The lens, or what `p2sf.load_lens` finds it by.
+    pixel_um : float, optional
+        Distance between the sensor's pixels, µm, and so between the samples of PSFs; a pixel wider than λ/(4 NA)
+        holds the light that falls on it.
+    zoom, focus_position, focus_mm, sensor_shift_um, f_number, stop, aim, absorption
+        How the lens is set, see `p2sf.camera.Settings`.
+    obscuration, obscuration_x, obscuration_y, vanes, vane_width, vane_angle_deg, blades, roundness, blade_angle_deg
+        What stands in its stop, and ``apodisation``, ``apodisation_power``, ``cubic_um``; see there too.
+
+    Raises
+    ------
+    RequestError
+        For a value that no camera can have, and for a focus stated twice.
+    LensFileError
+        For a lens that is not found.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> camera = p2sf.Camera("double_gauss_28", focus_mm=3000, f_number=5.6, pixel_um=4)
+    >>> camera
+    Camera('double_gauss_28', focus_mm=3000, f_number=5.6, pixel_um=4)
+    >>> camera.psf(3000, field_deg=10, wavelength_nm=550).pixel_um
+    4
+    >>> camera.sweep(depth_mm=3000, field_deg=[0, 7, 14]).mtf(20)["tangential"].round(2)
+    array([0.79, 0.53, 0.06])
+
+    A camera without a lens sets any:
+
+    >>> p2sf.render(p2sf.load_lens("tessar"), p2sf.Source(3000), camera=p2sf.Camera(f_number=11)).method
+    'seidel'
+    """
+
+    lens: Lens | None = None
+    pixel_um: float | None = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        if isinstance(self.lens, str | PathLike):
+            from p2sf import load_lens
+
+            object.__setattr__(self, "lens", load_lens(self.lens))
+        super().__post_init__()
+        check_positive("pixel_um", self.pixel_um)
+
+    def __repr__(self) -> str:
+        given = explicit_values(self)
+        lens = given.pop("lens", None)
+        return _call_text(self, ([] if lens is None else [repr(lens.name)]), given)
+
+    @property
+    def settings(self) -> "Camera":
+        """Return how the camera is set, without its lens and its pixels."""
+        return replace(self, lens=None, pixel_um=None)
+
+    @property
+    def its_lens(self) -> Lens:
+        """Return the lens as its file has it; RequestError for a camera without one."""
+        if self.lens is None:
+            raise RequestError(
+                "this camera has no lens; give its name, a file or what p2sf.load_lens returns as the first argument"
+            )
+        return self.lens
+
+    def source(
+        self,
+        depth_mm: float = inf,
+        field_deg: float | tuple[float, float] = 0.0,
+        wavelength_nm: float | None = None,
+    ) -> Source:
+        """Return a point source, by default at infinity, on the axis, of the lens's middle wavelength.
+
+        ``field_deg``: the angle of its chief ray, degrees, or the angles (x, y). RequestError for what cannot be.
+        """
+        if wavelength_nm is None:
+            wavelength_nm = self.its_lens.reference_wavelength_um * NM_PER_UM
+        return Source(depth_mm, field_deg=field_deg, wavelength_nm=wavelength_nm)
+
+    def psf(
+        self,
+        depth_mm: float = inf,
+        *,
+        field_deg: float | tuple[float, float] = 0.0,
+        wavelength_nm: float | None = None,
+        **how: Any,
+    ) -> "Psf":
+        """Return the PSF of one source, `p2sf.render` with this camera.
+
+        The source is that of `source`; ``how``: ``method``, ``pixels``, ``pixel_um``, ``quality``, ``tolerance``,
+        ``clip``, ``integrated`` and ``threads`` as `p2sf.render` has them, whose errors it raises.
+        """
+        from p2sf import render
+
+        return render(self.its_lens, self.source(depth_mm, field_deg, wavelength_nm), camera=self, **how)
+
+    def sweep(
+        self,
+        *,
+        threads: int | None = None,
+        progress: Callable[[float], object] | bool = False,
+        scheduler: Any = None,
+        **axes: ArrayLike,
+    ) -> "Sweep":
+        """Return the sweep of this camera over arrays of ``depth_mm``, ``field_deg``, ``wavelength_nm`` or its numbers.
+
+        See `p2sf.Sweep`, whose parameters these are and whose errors it raises. Nothing is computed before a figure is
+        asked for.
+        """
+        from p2sf import Sweep
+
+        return Sweep(self, axes, threads, progress, scheduler)
+
+    def database(
+        self,
+        method: Literal["auto", "seidel", "fitted"] = "auto",
+        *,
+        depths_mm: ArrayLike | None = None,
+        fields_deg: ArrayLike | None = None,
+        wavelengths_nm: ArrayLike | None = None,
+        **how: Any,
+    ) -> "Stored":
+        """Return the database of this camera's PSFs, `p2sf.build_database`, whose errors it raises.
+
+        By default from half of the distance in focus, or twenty focal lengths, to infinity, from the axis to the lens's
+        widest field, and over its wavelengths. ``how``: ``interpolant``, ``fields_x_deg`` and ``path``.
+        """
+        from p2sf import build_database
+
+        lens = self.its_lens
+        if depths_mm is None:
+            focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
+            focused = self.focus_mm is not None and isfinite(self.focus_mm)
+            depths_mm = [cast("float", self.focus_mm) / 2 if focused else 20 * focal, inf]
+        if fields_deg is None:
+            fields_deg = np.unique([0.0, lens.widest_field_deg])
+        if wavelengths_nm is None:
+            wavelengths_nm = np.unique([min(lens.wavelengths_nm), max(lens.wavelengths_nm)])
+        return build_database(lens, depths_mm, fields_deg, wavelengths_nm, method=method, camera=self, **how)
+
+    def photograph(
+        self,
+        image: ArrayLike,
+        depth_mm: ArrayLike | None = None,
+        *,
+        tolerance: float = 0.05,
+        clip: bool = False,
+        **how: Any,
+    ) -> np.ndarray:
+        """Return the picture that the sensor receives of a scene, `p2sf.plan` and `p2sf.form_image` with this camera.
+
+        Parameters
+        ----------
+        image : array_like
+            The scene in linear light, floats, (rows, columns, 3) for red, green and blue, or (rows, columns) for light
+            of the lens's middle wavelength; row 0 is the top, and a pixel as wide as the sensor's.
+        depth_mm : array_like, optional
+            One depth, mm, or that of every pixel, (rows, columns); the distance in focus, or infinity, by default.
+        tolerance : float
+            Relative L2 error of a pixel's kernel that is tolerable.
+        clip : bool
+            Stop rays at every clear semi-diameter.
+        how
+            ``method``, ``surround`` and ``threads`` as `p2sf.form_image` has them.
+
+        Returns
+        -------
+        numpy.ndarray
+            Linear light, float32, of the shape of ``image``.
+
+        Raises
+        ------
+        RequestError, GeometryError, GlassError
+            As for `p2sf.plan` and `p2sf.form_image`, and for a camera without ``pixel_um``.
+        """
+        from p2sf import Channel, Scene, Sensor, form_image, plan
+
+        if self.pixel_um is None:
+            raise RequestError("this camera has no pixels; give {parameter}", parameter="pixel_um")
+        values = real_array("image", image)
+        if values.ndim not in (2, 3):
+            raise RequestError("a picture of shape {shape}; give rows, columns and colours", shape=str(values.shape))
+        depths = np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
+        lens, middle = self.its_lens, self.its_lens.reference_wavelength_um
+        seen = set_up_source(lens, Source(float(depths.max()), wavelength_um=middle), self.settings).lens
+        near, far = float(depths.min()), float(depths.max())
+        sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
+        scene = Scene(sensor, near_mm=near, far_mm=far, tolerance=tolerance, clip=clip)
+        if values.ndim == 2:
+            scene = replace(scene, channels=(Channel("light", (middle * NM_PER_UM,), (1.0,)),))
+        planned = plan(seen, scene)
+        given = None if depths.size == 1 else depths
+        formed: np.ndarray = form_image(planned, values.reshape(*values.shape[:2], -1), given, **how)
+        return formed.reshape(values.shape)
+
+    def tolerances(
+        self, limits: Mapping[str, float], depth_mm: float | None = None, wavelength_nm: float | None = None, **how: Any
+    ) -> "ToleranceStudy":
+        """Return what share of built lenses keeps limits, `p2sf.tolerances` of this camera, whose errors it raises.
+
+        The object is at the distance in focus, or at infinity, by default; ``how``: ``grade``, ``builds`` and ``seed``.
+        """
+        from p2sf import tolerances
+
+        source = self.source((self.focus_mm or inf) if depth_mm is None else depth_mm, 0.0, wavelength_nm)
+        return tolerances(set_up_source(self.its_lens, source, self.settings).lens, source, limits, **how)
 
 
 AS_IN_FILE = Camera()
 
 
-def stated(camera: Camera) -> dict[str, Any]:
-    """Return what a camera, or a request, states otherwise than by default, plain numbers for those of numpy."""
+def _call_text(camera: Settings, first: list[str], given: Mapping[str, Any]) -> str:
+    return f"{type(camera).__name__}({', '.join([*first, *(f'{name}={value!r}' for name, value in given.items())])})"
+
+
+def explicit_values(camera: Settings) -> dict[str, Any]:
+    """Return the values of a camera or request that differ from their defaults; numpy scalars become plain numbers."""
     values = ((name, usual, getattr(camera, name)) for name, usual in _defaults(cast("Any", type(camera))))
     return {
         name: value.item() if isinstance(value, np.generic) else value
@@ -211,30 +435,38 @@ def _defaults(kind: Any) -> tuple[tuple[str, Any], ...]:
 
 
 def with_camera(function: Function) -> Function:
-    """Return a function whose keywords by the names of a camera's numbers reach it as one ``camera``.
+    """Decorate a function so that keywords named after fields of `Settings` reach it as one ``camera`` without a lens.
 
-    RequestError where a keyword and the camera state the same number, and for a `Request`, whose source is another.
+    The pixels of the camera are used unless the call gives its own. The decorated function raises RequestError if a
+    keyword and the camera set the same field, and if the camera has another lens than the call.
     """
-    usual = {name: default for name, default in _defaults(Camera) if name in signature(function).parameters}
+    parameters = signature(function).parameters
+    usual = {name: default for name, default in _defaults(Settings) if name in parameters}
 
     @wraps(function)
-    def called(*args: Any, camera: Camera = AS_IN_FILE, **kwargs: Any) -> Any:
-        if isinstance(camera, PointSource):
-            raise RequestError(
-                "{parameter} is {value}; give {wanted}",
-                parameter="camera",
-                value=f"{camera!r:.60}",
-                wanted="a p2sf.Camera",
-            )
+    def wrapper(*args: Any, camera: Camera = AS_IN_FILE, **kwargs: Any) -> Any:
         own = {name: kwargs.pop(name) for name in usual.keys() & kwargs.keys()}
-        return function(*args, camera=_together(camera, own) if own else camera, **kwargs)
+        if camera.lens is not None:
+            _check_lens(camera.lens, args[0] if args else kwargs.get("lens"))
+        if camera.pixel_um is not None and "pixel_um" in parameters and kwargs.get("pixel_um") is None:
+            kwargs["pixel_um"] = camera.pixel_um
+        camera = camera if camera.lens is None and camera.pixel_um is None else camera.settings
+        return function(*args, camera=_merge(camera, own) if own else camera, **kwargs)
 
-    return cast("Function", called)
+    return cast("Function", wrapper)
 
 
-def _together(camera: Camera, keywords: Mapping[str, Any]) -> Camera:
-    """Return a camera with what keywords state besides; None states nothing."""
-    defaults = dict(_defaults(Camera))
+def _check_lens(own: Lens, other: object) -> None:
+    """Raise RequestError unless the lens of a camera is that of the call."""
+    if other is not own and other != own:
+        raise RequestError(
+            "{parameter} and {other} are both given; keep one of them", parameter="lens", other="camera.lens"
+        )
+
+
+def _merge(camera: Camera, keywords: Mapping[str, Any]) -> Camera:
+    """Return a camera with the fields that keywords set in addition; None sets nothing."""
+    defaults = dict(_defaults(Settings))
     given = {name: value for name, value in keywords.items() if value is not None or defaults[name] is not None}
     twice = next((name for name in given if getattr(camera, name) != defaults[name]), None)
     if twice:
@@ -246,9 +478,9 @@ def _together(camera: Camera, keywords: Mapping[str, Any]) -> Camera:
 
 @dataclass(frozen=True)
 class Setup:
-    """A request made concrete: the lens with its sensor, aperture, stop and aim as asked, and the source.
+    """A request applied to a lens: the lens with its sensor, aperture, stop and aim set, and the source.
 
-    ``prescription`` is the lens as its file has it, with its rings where it stands.
+    ``prescription`` is the lens of the file at its zoom and focus position.
     """
 
     lens: Lens
@@ -263,18 +495,18 @@ class Setup:
 
 
 def set_up(lens: Lens, request: Request) -> Setup:
-    """Return the setup that a request means for this lens.
+    """Return the setup of a request for this lens.
 
-    Raises RequestError for a value that cannot be, GeometryError for one this lens cannot take, and
-    GlassError for a wavelength outside its glasses.
+    Raises RequestError for an impossible value, GeometryError for one this lens does not allow, and GlassError for a
+    wavelength outside the data of its glasses.
     """
     lens = at_position(lens, request)
     source = Source(request.depth_mm, 0.0, wavelength_um(lens, request))
     return with_field(_with_stop(lens, request, source, request.wavelength_nm is not None), request)
 
 
-def set_up_source(lens: Lens, source: Source, camera: Camera = AS_IN_FILE) -> Setup:
-    """Return the setup of a source that is known already; raises as `set_up` does."""
+def set_up_source(lens: Lens, source: Source, camera: Settings = AS_IN_FILE) -> Setup:
+    """Return the setup of a given source; raises as `set_up` does."""
     check_one(source)
     check_angle("field_deg", source.field_deg)
     setup = _with_stop(at_position(lens, camera), camera, source, True)
@@ -282,31 +514,31 @@ def set_up_source(lens: Lens, source: Source, camera: Camera = AS_IN_FILE) -> Se
     return setup
 
 
-def _with_stop(lens: Lens, camera: Camera, source: Source, named: bool) -> Setup:
-    """Return the setup of a lens whose rings stand as asked; ``named``: the wavelength was stated by a parameter."""
+def _with_stop(lens: Lens, camera: Settings, source: Source, named: bool) -> Setup:
+    """Return the setup of a lens at its position; ``named``: the wavelength was given by a parameter."""
     try:
         indices(lens, source.wavelength_um)
     except GlassError as error:
         raise (_with_parameter(error) if named else error) from None
-    lens, focused = _opened_and_focused(lens, camera)
-    used, stop = _lens_and_stop(focused, camera.stop, source)
+    lens, focused = _apply_camera(lens, camera)
+    used, stop = _apply_stop(focused, camera.stop, source)
     return Setup(used, source, stop, lens)
 
 
 @lru_cache(maxsize=64)
-def _opened_and_focused(lens: Lens, camera: Camera) -> tuple[Lens, Lens]:
-    """Return the lens with the mask and the absorption asked for, and the same with aperture, aim and sensor as asked.
+def _apply_camera(lens: Lens, camera: Settings) -> tuple[Lens, Lens]:
+    """Return the lens with the camera's mask and absorption, and the same with its aperture, aim and sensor as well.
 
-    Kept, so that sources one after the other find the very same lens, of which much is known already.
+    Cached, so that successive sources get the identical object, for which other caches hold results.
     """
     lens = with_mask(lens, mask_of(lens, camera))
     lens = lens if camera.absorption is None else with_absorption(lens, camera.absorption)
-    opened = aimed(_with_f_number(lens, camera.f_number), camera.aim)
+    opened = with_chosen_aim(_with_f_number(lens, camera.f_number), camera.aim)
     return lens, with_sensor(opened, sensor_position(lens, camera))
 
 
-def mask_of(lens: Lens | None, camera: Camera) -> PupilMask:
-    """Return the lens's mask, or a clear one, with what a camera states; RequestError for what no mask can have."""
+def mask_of(lens: Lens | None, camera: Settings) -> PupilMask:
+    """Return the lens's mask, or a clear one, with the camera's values; raises RequestError for impossible ones."""
     own = CLEAR if lens is None else lens.mask
     asked = {name: value for name in MASK if (value := getattr(camera, name)) is not None}
     return replace(own, **asked) if asked else own
@@ -321,7 +553,7 @@ def _with_parameter(error: GlassError) -> GlassError:
 
 
 def with_field(setup: Setup, request: PointSource) -> Setup:
-    """Return a setup with its source at the field of a request that is the setup's own but for the field.
+    """Return a setup with its source moved to the field of a request that otherwise equals that of the setup.
 
     Raises as `set_up` does.
     """
@@ -331,36 +563,36 @@ def with_field(setup: Setup, request: PointSource) -> Setup:
 
 
 def _direction(request: PointSource) -> Source:
-    """Return a source at the two angles of a request."""
+    """Return the source at the two field angles of a request."""
     return Source(field_deg=(request.field_x_deg or 0.0, request.field_deg or 0.0))
 
 
 def wavelength_um(lens: Lens, request: PointSource) -> float:
-    """Return the asked wavelength in µm, the lens's middle one when none is asked."""
+    """Return the wavelength of a request in µm, by default the middle wavelength of the lens."""
     if request.wavelength_nm is None:
         return lens.reference_wavelength_um
     return request.wavelength_nm / NM_PER_UM
 
 
-def at_position(lens: Lens, camera: Camera) -> Lens:
-    """Return the lens with its rings turned as asked; RequestError for a ring it lacks, or a place not on one."""
+def at_position(lens: Lens, camera: Settings) -> Lens:
+    """Return the lens at the camera's zoom and focus; RequestError for a missing ring or an impossible position."""
     if lens.positions is None and camera.zoom is None and camera.focus_position is None:
         return lens
     turned = lens_at(lens, camera.zoom, camera.focus_position)
     return turned if camera.focus_mm is None else focused_inside(turned, camera.focus_mm)
 
 
-def sensor_position(lens: Lens, camera: Camera) -> float:
-    """Return where the sensor stands, mm behind the last vertex.
+def sensor_position(lens: Lens, camera: Settings) -> float:
+    """Return the position of the sensor, mm behind the last vertex.
 
     It does not depend on the wavelength of the source: with ``focus_mm`` the sensor is at the paraxial image for the
-    lens's middle wavelength. Raises RequestError when that image is not a real one at a finite place.
+    lens's middle wavelength. Raises RequestError unless that image is real and at a finite distance.
     """
     place = _sensor_in_focus(lens, camera.focus_mm)
     shifted = place + camera.sensor_shift_um / UM_PER_MM
     if shifted * lens.directions[-1] <= 0 < place * lens.directions[-1]:
         raise RequestError(
-            "{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; "
+            "{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into the lens; "
             "give a smaller shift",
             parameter="sensor_shift_um",
             value=camera.sensor_shift_um,
@@ -376,8 +608,8 @@ def _sensor_in_focus(lens: Lens, focus_mm: float | None) -> float:
     if not (isfinite(place) and place * lens.directions[-1] > 0):
         finite = Message("{place:g} mm from the last vertex", place=place)
         raise RequestError(
-            "{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind "
-            "the lens; give a distance whose image is real, usually a longer one",
+            "{parameter} is {value:g} mm, but the image of that distance lies {where}, not on a sensor behind the "
+            "lens; give a distance with a real image, usually a longer one",
             parameter="focus_mm",
             value=focus_mm,
             where=finite if isfinite(place) else Message("at infinity"),
@@ -386,7 +618,7 @@ def _sensor_in_focus(lens: Lens, focus_mm: float | None) -> float:
 
 
 def field_slope(setup: Setup, request: PointSource) -> float:
-    """Return the field slope that the one stated field means; 0 when none is stated."""
+    """Return the field slope of the stated field; 0 when none is stated."""
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     if request.object_height_mm is not None:
         slope = field_from_object_height(lens, request.depth_mm, wavelength, request.object_height_mm, stop)
@@ -421,13 +653,13 @@ def _with_f_number(lens: Lens, f_number: float | None) -> Lens:
     return lens if f_number is None else with_f_number(lens, f_number)
 
 
-def aimed(lens: Lens, aim: AimChoice | None) -> Lens:
-    """Return the lens with its pupil filled as asked, as the lens says where nothing is."""
+def with_chosen_aim(lens: Lens, aim: AimChoice | None) -> Lens:
+    """Return the lens with this aim, or unchanged for None."""
     return lens if aim is None else with_aim(lens, "stop" if aim == "real" else aim)
 
 
-def _lens_and_stop(lens: Lens, choice: StopChoice, source: Source) -> tuple[Lens, Stop]:
-    """Return the stop in use, and the lens naming it, so that every later step agrees on it."""
+def _apply_stop(lens: Lens, choice: StopChoice, source: Source) -> tuple[Lens, Stop]:
+    """Return the lens with the chosen stop stated, so that every later step uses the same one, and the stop."""
     stop = find_stop(lens, source.depth_mm, source.wavelength_um, choice)
     if choice == "file":
         return lens, stop

@@ -25,17 +25,17 @@ sensor offset (x, y) is ΣA·exp(+i2πW)·exp(−i2π n'u'(ξx + ηy)/λ) over e
 this numpy's ``ifft2`` sign, and a relay is not turned by 180°.
 """
 
-from math import inf
+from math import atan, degrees, hypot, inf, radians, tan
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-FloatOrArray: TypeAlias = float | np.ndarray  # the same formula serves both; numbers are several times faster
+FloatOrArray: TypeAlias = float | np.ndarray  # the formula is the same; plain numbers are several times faster
 
 UM_PER_MM = 1000.0
 NM_PER_UM = 1000.0
-FARTHEST_MM = 1e16  # farther than Neptune: the rays of a point there cannot be told from parallel ones in 64 bits
+FARTHEST_MM = 1e16  # beyond Neptune: in double precision the rays from such a point are parallel
 
 
 def vergence(distance_mm: ArrayLike) -> np.ndarray:
@@ -44,7 +44,7 @@ def vergence(distance_mm: ArrayLike) -> np.ndarray:
 
 
 def depth_of(vergence_per_mm: float) -> float:
-    """Return the depth in mm of a vergence, inf for 0 and for what rounding leaves of it."""
+    """Return the depth in mm of a vergence; inf for 0 and for a rounding residue of it."""
     return inf if abs(vergence_per_mm) * FARTHEST_MM < 1 else 1 / float(vergence_per_mm)
 
 
@@ -60,13 +60,20 @@ def degrees_from_slope(slope: ArrayLike) -> np.ndarray:
     return degrees
 
 
+def angle_from_axis(x_deg: float, y_deg: float) -> float:
+    """Return the angle between the axis and a field with these angles along x and y, degrees."""
+    if not (x_deg and y_deg):
+        return abs(x_deg or y_deg)
+    return degrees(atan(hypot(tan(radians(x_deg)), tan(radians(y_deg)))))
+
+
 def centred_axis(count: int, step: float = 1.0) -> np.ndarray:
     """Return sample positions of a PSF axis, shape (count,): sample count//2 is 0, the chief ray."""
     return (np.arange(count) - count // 2) * step
 
 
 def anywhere(flags: np.ndarray | np.bool) -> bool:
-    """Return whether any flag is set; a single one, a numpy bool, needs no reduction."""
+    """Return whether any flag is set; a single numpy bool needs no reduction."""
     return bool(flags.any() if flags.ndim else flags)
 
 
@@ -76,6 +83,6 @@ def is_number(value: ArrayLike) -> bool:
 
 
 def write_protect(values: np.ndarray) -> np.ndarray:
-    """Return the array, write-protected, since a cache hands out the same one to everybody."""
+    """Return the array write-protected, since a cache returns the same array to all callers."""
     values.setflags(write=False)
     return values

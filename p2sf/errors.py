@@ -1,14 +1,14 @@
-"""The failures a user can cause, each one sentence: what is wrong, where, the value, what to do."""
+"""Errors that a user can cause; each message is one sentence: what is wrong, where, the value, what to do."""
 
 from p2sf.messages import Message, ParameterName
 
 
 class P2SFError(ValueError):
-    """Any failure caused by what a user put in.
+    """Any error caused by the user's input.
 
     ``P2SFError("{parameter} is {value:g} mm; give a positive number", parameter="depth_mm", value=-1)``: ``message`` is
-    the sentence as data (`p2sf.messages`), ``str`` of the error is it in plain English. ``parameter`` is the Python
-    name of what is wrong; whoever shows the sentence puts the flag or the control in its place.
+    the sentence as data (`p2sf.messages`), and ``str`` of the error is the sentence in plain English. ``parameter`` is
+    the Python name of the wrong parameter; the program that shows the sentence replaces it by its flag or control.
     """
 
     def __init__(self, template: str | Message, /, *, parameter: str = "", **values: object):
@@ -21,7 +21,7 @@ class P2SFError(ValueError):
 
 
 class P2SFWarning(UserWarning):
-    """A result that is right but may not be what was meant, such as a PSF that its window cuts off."""
+    """A result that is correct but possibly not what was intended, such as a PSF cut off by its window."""
 
 
 class GlassError(P2SFError):

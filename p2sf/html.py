@@ -1,4 +1,4 @@
-"""Tables as a notebook shows them: what the ``_repr_html_`` of results is made of."""
+"""HTML tables for notebooks, from which the ``_repr_html_`` of results is built."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -16,7 +16,7 @@ def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[objec
 
 
 def cell(value: object) -> str:
-    """Return one value as a table shows it: a number with six digits, ∞ for an infinite one, of an array its shape."""
+    """Return one value as text: a number with six digits, ∞ for an infinite one, and an array by its shape."""
     if value is None:
         return ""
     if isinstance(value, np.ndarray) and value.ndim:

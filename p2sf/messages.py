@@ -1,8 +1,8 @@
-"""Sentences as data: a template with named values, put into words last and once, by whoever shows it.
+"""Sentences as data: a template with named values, formatted by the program that shows it.
 
-Errors, warnings, reasons and notes carry a `Message`. The command line formats it with its flags, a window with the
-names on its controls, in its language and with that language's numbers; a script gets plain English. A template is
-English, is the key of its translations, and names its values: ``Message("{path} has {count} lines", path=…, count=…)``.
+Errors, warnings, reasons and notes carry a `Message`. The command line formats it with its flags, the window with the
+labels of its controls, in its language and number format; a script gets plain English. A template is in English, is the
+key of its translations, and names its values: ``Message("{path} has {count} lines", path=…, count=…)``.
 """
 
 from collections.abc import Callable
@@ -18,26 +18,26 @@ def identity(text: str) -> str:
 
 
 class ParameterName(str):
-    """The name of a parameter as Python has it, such as ``field_deg``; each program shows its own name for it."""
+    """The Python name of a parameter, such as ``field_deg``; each program shows its own name for it."""
 
     __slots__ = ()
 
 
 class Number(str):
-    """A number in digits already, such as "12.50" or "−3.1 mm", where no format specification writes it that way."""
+    """A number already formatted, such as "12.50" or "−3.1 mm", where no format specification would do."""
 
     __slots__ = ()
 
 
 class Alternatives(tuple[object, ...]):
-    """Choices of which one is to be taken: written "a, b or c"."""
+    """A list of alternatives, written "a, b or c"."""
 
     __slots__ = ()
 
 
 @dataclass(frozen=True)
 class Style:
-    """How messages are put into words: the language of templates, the names of parameters, the writing of numbers.
+    """How messages are formatted: the language of templates, the names of parameters and the format of numbers.
 
     ``number`` takes a number as Python writes it, such as "-0.5" or "inf".
     """
@@ -51,7 +51,7 @@ PLAIN = Style()
 
 
 class Message:
-    """A sentence or a part of one. Without values the template is a text and its braces mean nothing.
+    """A sentence or part of one. Without values the template is plain text, and its braces are literal.
 
     Values are texts, numbers, other messages, `ParameterName`, `Number`, `Alternatives`, or tuples of these, which are
     joined by commas. A format specification behind a name, ``{angle:.0f}``, belongs to the template.
@@ -64,9 +64,9 @@ class Message:
         self.values = values
 
     def text(self, style: Style = PLAIN) -> str:
-        """Return the message in words."""
+        """Return the message as text."""
         said = style.translate(self.template)
-        return _Filling(style).vformat(said, (), self.values) if self.values else said
+        return _StyledFormatter(style).vformat(said, (), self.values) if self.values else said
 
     def __str__(self) -> str:
         return self.text()
@@ -78,17 +78,17 @@ class Message:
         return isinstance(other, Message) and (self.template, self.values) == (other.template, other.values)
 
     def __hash__(self) -> int:
-        return hash(self.template)  # equal values, such as 1 and 1.0, may read differently
+        return hash(self.template)  # equal values such as 1 and 1.0 may be formatted differently
 
 
-class _Filling(Formatter):
-    """Fills a template's braces in a style."""
+class _StyledFormatter(Formatter):
+    """Formatter that fills the braces of a template in a style."""
 
     def __init__(self, style: Style):
         self.style = style
 
     def format_field(self, value: Any, format_spec: str) -> str:
-        """Return one value in words."""
+        """Return one value as text."""
         if isinstance(value, ParameterName):
             return self.style.parameter(value)
         message = getattr(value, "message", value)  # of an error

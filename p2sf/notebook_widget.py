@@ -1,6 +1,6 @@
-"""The explorer in a notebook: layout, pupil and PSF with sliders, the same state and link as the window's.
+"""The explorer in a notebook: layout, pupil and PSF with sliders; state and link are those of the window.
 
-No Qt in here. Needs ``p2sf[notebook]``.
+It does not use Qt and requires ``p2sf[notebook]``.
 """
 
 from html import escape
@@ -15,7 +15,7 @@ from p2sf.io.psf_plot import edges_um, relative
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.live import Live, live
-from p2sf_explorer.compute.quantities import OF_THE_SOURCE, Quantity
+from p2sf_explorer.compute.quantities import SOURCE_QUANTITIES, Quantity
 from p2sf_explorer.compute.setup import default_state, prescription, ranges
 from p2sf_explorer.state.link import is_link, link, state_of_link
 from p2sf_explorer.state.state import State, change, entry
@@ -29,7 +29,7 @@ STEPS = 400  # of a slider from end to end
 
 
 def widget(lens: Lens | Path | str) -> "LensWidget":
-    """Return layout, pupil and PSF of a lens with sliders, for a cell of a notebook to show.
+    """Return a widget with layout, pupil and PSF of a lens and sliders, to be shown by a notebook cell.
 
     Parameters
     ----------
@@ -39,12 +39,12 @@ def widget(lens: Lens | Path | str) -> "LensWidget":
     Returns
     -------
     LensWidget
-        ``.link`` is the link of what it shows, which the window opens; ``.state`` the state, ``.live`` the answer.
+        ``.link`` is a link to what it shows, which the window opens; ``.state`` is the state, ``.live`` the results.
 
     Raises
     ------
     P2SFError
-        For a lens or link that cannot be read, and where ipywidgets is not installed.
+        For a lens or link that cannot be read, and if ipywidgets is not installed.
     """
     if isinstance(lens, Lens):
         return LensWidget(default_state(lens.name, lens_to_toml(lens)))
@@ -53,17 +53,17 @@ def widget(lens: Lens | Path | str) -> "LensWidget":
 
 
 class LensWidget:
-    """Sliders of the source and the camera beside a picture; Jupyter shows it as the last expression of a cell.
+    """Sliders of source and camera beside a picture; Jupyter shows it as the last expression of a cell.
 
     Attributes
     ----------
     state : State
-        What is asked, as the window has it.
+        The state, as in the window.
     live : Live
-        The last answer.
+        The last results.
     sliders : dict
-        The ipywidgets slider of each quantity by its name in the state, such as "field_deg"; its value is how far
-        it has travelled, from 0 to 1.
+        The ipywidgets slider of each quantity by its name in the state, such as "field_deg"; its value is its position
+        from 0 to 1.
     """
 
     def __init__(self, state: State):
@@ -71,10 +71,10 @@ class LensWidget:
             import ipywidgets
         except ImportError as error:
             raise P2SFError("ipywidgets is not installed; run pip install 'p2sf[notebook]'") from error
-        self._following = False  # while sliders are put where the state has them
+        self._following = False  # while sliders are set from the state
         self.sliders: dict[str, Any] = {}
-        self._numbers = {quantity.key: ipywidgets.Label() for quantity in OF_THE_SOURCE}
-        for quantity in OF_THE_SOURCE:
+        self._numbers = {quantity.key: ipywidgets.Label() for quantity in SOURCE_QUANTITIES}
+        for quantity in SOURCE_QUANTITIES:
             slider = ipywidgets.FloatSlider(
                 min=0, max=1, step=1 / STEPS, readout=False, description=quantity.title, continuous_update=False
             )
@@ -90,15 +90,15 @@ class LensWidget:
 
     @property
     def link(self) -> str:
-        """Return the link of what is shown."""
+        """Return a link to what is shown."""
         return link(self.state)
 
     def set(self, **values: Any) -> None:
-        """Set entries of the state, such as ``field_deg=7, f_number=None``; P2SFError for what cannot be."""
+        """Set entries of the state, such as ``field_deg=7, f_number=None``; P2SFError for impossible values."""
         self.show(change(self.state, **values))
 
     def show(self, state: State) -> None:
-        """Show a state; P2SFError where there is no picture, and then what was shown stays."""
+        """Show a state; raises P2SFError if it has no picture, and then keeps the previous one."""
         found = live(state)
         self.state, self.live = state, found
         self._picture.value = png(found)
@@ -106,10 +106,10 @@ class LensWidget:
         self._said.value = escape(str(found.why))
 
     def _follow(self) -> None:
-        """Put sliders, numbers and link to where the state has them."""
+        """Set sliders, numbers and link from the state."""
         within = ranges(prescription(self.state))
         self._following = True
-        for quantity in OF_THE_SOURCE:
+        for quantity in SOURCE_QUANTITIES:
             value = quantity.shown(self.state, within)
             self.sliders[quantity.key].value = quantity.scale(within).travel(value)
             self._numbers[quantity.key].value = quantity.write(value)
@@ -126,7 +126,7 @@ class LensWidget:
             self._try(lambda: self.show(state_of_link(text)))
 
     def _try(self, change: Any) -> None:
-        """Make a change that a person asked for; where it cannot be, say why and leave everything as it was."""
+        """Apply a change by the user; if it is impossible, say why and leave everything unchanged."""
         try:
             change()
         except P2SFError as error:
@@ -138,7 +138,7 @@ class LensWidget:
 
 
 def png(found: Live) -> bytes:
-    """Return layout, pupil and PSF of an answer as a PNG."""
+    """Return layout, pupil and PSF of results as a PNG."""
     from matplotlib.figure import Figure
 
     figure: Figure = Figure(figsize=(9, 6), dpi=90, layout="constrained")
@@ -179,7 +179,7 @@ def draw_pupil(figure: "Figure", axes: "Axes", found: Live) -> None:
 
 
 def draw_psf(figure: "Figure", axes: "Axes", found: Live) -> None:
-    """Draw the PSF by the square root of its light, so that faint light shows, µm."""
+    """Draw the square root of the PSF, so that faint light shows; axes in µm."""
     picture = axes.imshow(
         np.sqrt(relative(found.psf.values)), extent=edges_um(found.psf), origin="lower", cmap="inferno"
     )

@@ -1,4 +1,4 @@
-"""What a person may set, each declared once: its name, unit and range, its flag and its control, and its words."""
+"""Parameters that a user may set, each declared once: name, unit and range, flag and control, and wording."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ LARGEST_OBSCURATION = 0.99
 MOST_VANES, WIDEST_VANE = 12, 0.5
 FEWEST_BLADES, MOST_BLADES = 3, 32
 NARROWEST_APODISATION, MOST_POWER = 0.1, 20
-LONGEST_PATH_UM = 1e6  # a metre: a steeper phase than any, and far from where slopes overflow
-FARTHER = "{parameter} is {value:g}{unit}, and beyond {most:g} mm rays cannot be told from parallel ones; give inf"
+LONGEST_PATH_UM = 1e6  # a metre: steeper than any real phase plate, and far below the overflow of slopes
+FARTHER = "{parameter} is {value:g}{unit}, but rays from beyond {most:g} mm are in effect parallel; give inf"
 
 
 def flag(name: str) -> str:
@@ -25,13 +25,13 @@ def flag(name: str) -> str:
 
 
 def control(name: str) -> str:
-    """Return the English name of the control that sets a parameter; of one without a control its own, in words."""
+    """Return the English label of a parameter's control; without a control, the parameter's name in words."""
     found = PARAMETERS.get(name)
     return found.control if found else name.replace("_", " ")
 
 
 def unit_behind(name: str) -> str:
-    """Return the unit of a parameter as it is written behind a number: "°", " mm", or nothing."""
+    """Return the unit of a parameter as written after a number: "°", " mm" or an empty string."""
     unit = PARAMETERS[name].unit if name in PARAMETERS else ""
     return f" {unit}" if unit not in ("", "°") else unit
 
@@ -76,12 +76,12 @@ def check_finite(name: str, value: float | None) -> None:
 
 
 def check_angle(name: str, value: float | None) -> None:
-    """Raise RequestError for an angle in degrees at which no ray enters a lens; None passes."""
+    """Raise RequestError unless an angle is between −90° and 90°; None passes."""
     check_finite(name, value)
     if value is not None and not abs(value) < 90:
         raise RequestError(
-            "{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; "
-            "give an angle between −90 and 90°, both ends left out",
+            "{parameter} is {value:g}°, but no ray at 90° or more from the axis enters a lens; give an angle above "
+            "−90° and below 90°",
             parameter=name,
             value=value,
         )
@@ -100,7 +100,7 @@ def check_between(name: str, value: float | None, low: float, high: float) -> No
 
 
 def check_count(name: str, value: int | None, low: int, most: int) -> None:
-    """Raise RequestError for a number of parts that is not 0 and not a whole number within a range; None passes."""
+    """Raise RequestError unless a count is 0 or an integer within a range; None passes."""
     if value is not None and not (_is_whole(value) and (value == 0 or low <= value <= most)):
         raise RequestError(
             "{parameter} is {value}; give 0 for none, or a whole number from {low} to {high}",
@@ -139,36 +139,42 @@ def _is_whole(value: object) -> bool:
 
 
 def check_stop(name: str, value: str | None) -> None:
-    """Raise RequestError for a choice of the stop that is not offered."""
+    """Raise RequestError for an unknown choice of the stop."""
     if value not in ("file", "auto"):
         raise RequestError('{parameter} is "{value}"; choose file or auto', parameter=name, value=value)
 
 
 def check_aim(name: str, value: str | None) -> None:
-    """Raise RequestError for a way to fill the pupil that is not offered; None passes."""
+    """Raise RequestError for an unknown aim; None passes."""
     if value not in (None, "stop", "paraxial", "real"):
         raise RequestError('{parameter} is "{value}"; choose stop or paraxial', parameter=name, value=value)
 
 
-def unchecked(name: str, value: object) -> None:
-    """Let every value pass: the lens decides, or the annotation has said all."""
+def accept_any(name: str, value: object) -> None:
+    """Accept every value: the lens checks it, or its annotation suffices."""
 
 
 @dataclass(frozen=True)
 class Parameter:
     """One quantity or choice.
 
-    ``name`` in Python, of which the ``flag`` of the command line is made; ``control``: the English label of its control
-    in a window; ``check``: raises RequestError for what no lens can have. Of those that a window has as a number,
-    ``typed`` is the range that may be typed there and ``words`` its name in a sentence.
+    ``name``: the Python name, from which the command-line ``flag`` is formed; ``control``: the English label of its
+    control in the window; ``check``: raises RequestError for impossible values. For numbers of the window, ``typed`` is
+    the range that may be typed and ``words`` the name in a sentence. For those of the mask, ``tip`` is the tooltip of
+    the slider, ``travel`` its range where that is less than ``typed``, ``labels`` the values named along it, the most
+    important first, and ``needs`` the number without which this one has no effect.
     """
 
     name: str
     control: str
     unit: str = ""
-    check: Callable[[str, Any], None] = unchecked
+    check: Callable[[str, Any], None] = accept_any
     typed: tuple[float, float] | None = None
     words: Message | None = None
+    tip: str = ""
+    travel: tuple[float, float] | None = None
+    labels: tuple[float, ...] = ()
+    needs: str = ""
 
     @property
     def flag(self) -> str:
@@ -185,7 +191,7 @@ def _count(low: int, most: int) -> Callable[[str, Any], None]:
 
 
 RING, ANGLE, TURN, AWAY = (-1e6, 1e6), (-89.0, 89.0), (-360.0, 360.0), (1e-3, inf)
-OF_THE_SOURCE = (
+SOURCE_PARAMETERS = (
     Parameter("depth_mm", "Depth", "mm", check_distance, AWAY, Message("source depth")),
     Parameter("field_deg", "Field", "°", check_angle, ANGLE, Message("field angle")),
     Parameter("field_x_deg", "Field in x", "°", check_angle, ANGLE, Message("field angle along x")),
@@ -193,10 +199,10 @@ OF_THE_SOURCE = (
     Parameter("image_height_mm", "the image height", "mm", check_finite),
     Parameter("wavelength_nm", "Wavelength", "nm", check_positive, (100.0, 20000.0), Message("wavelength")),
 )
-"""Where a point source is, as `p2sf.camera.PointSource` has it."""
-OF_THE_CAMERA = (
-    Parameter("zoom", "Zoom", "", unchecked, RING, Message("zoom")),
-    Parameter("focus_position", "Focus", "", unchecked, RING, Message("focus")),
+"""Parameters of a point source, the fields of `p2sf.camera.PointSource`."""
+CAMERA_PARAMETERS = (
+    Parameter("zoom", "Zoom", "", accept_any, RING, Message("zoom")),
+    Parameter("focus_position", "Focus", "", accept_any, RING, Message("focus")),
     Parameter("focus_mm", "Focus distance", "mm", check_distance, AWAY, Message("focus distance")),
     Parameter("sensor_shift_um", "Sensor shift", "µm", check_finite, (-1e6, 1e6), Message("sensor shift")),
     Parameter("f_number", "f-number", "", check_positive, (0.2, 1000.0), Message("f-number")),
@@ -204,31 +210,94 @@ OF_THE_CAMERA = (
     Parameter("aim", "Rays fill", "", check_aim),
     Parameter("absorption", "Absorption"),
 )
-"""How a camera is set beside what stands in its stop, as `p2sf.camera.Camera` has it."""
-OF_THE_MASK = (
+"""Parameters of a camera without those of the pupil mask, fields of `p2sf.camera.Camera`."""
+MASK_PARAMETERS = (
     Parameter(
         "obscuration",
         "Obscuration",
         check=_share(0, LARGEST_OBSCURATION),
         typed=(0.0, LARGEST_OBSCURATION),
         words=Message("obscuration"),
+        tip="Obscuration ε: radius of the dark disc in the middle of the stop, as a share of the rim's. It blocks ε² "
+        "of the light, narrows the core and brightens the rings.",
+        labels=(0, 0.5, 0.25, 0.75),
     ),
-    Parameter("obscuration_x", "Obscuration in x", "", check_finite),
-    Parameter("obscuration_y", "Obscuration in y", "", check_finite),
-    Parameter("vanes", "Vanes", "", _count(1, MOST_VANES), (0, MOST_VANES), Message("number of vanes")),
-    Parameter("vane_width", "Vane width", "", _share(0, WIDEST_VANE), (0.0, WIDEST_VANE), Message("vane width")),
-    Parameter("vane_angle_deg", "Vane angle", "°", check_finite, TURN, Message("vane angle")),
+    Parameter("obscuration_x", "Obscuration in x", check=check_finite, needs="obscuration"),
+    Parameter("obscuration_y", "Obscuration in y", check=check_finite, needs="obscuration"),
     Parameter(
-        "blades", "Blades", "", _count(FEWEST_BLADES, MOST_BLADES), (0, MOST_BLADES), Message("number of blades")
+        "vanes",
+        "Vanes",
+        check=_count(1, MOST_VANES),
+        typed=(0, MOST_VANES),
+        words=Message("number of vanes"),
+        tip="Vanes of the spider that holds the obscuration, from the middle to the rim, evenly spaced; 0: none. Each "
+        "makes a spike at right angles to itself.",
+        labels=(0, 3, 6, 12),
     ),
-    Parameter("roundness", "Roundness", "", _share(0, 1), (0.0, 1.0), Message("roundness")),
-    Parameter("blade_angle_deg", "Blade angle", "°", check_finite, TURN, Message("blade angle")),
+    Parameter(
+        "vane_width",
+        "Vane width",
+        check=_share(0, WIDEST_VANE),
+        typed=(0.0, WIDEST_VANE),
+        words=Message("vane width"),
+        tip="Vane width, as a share of the rim's diameter.",
+        travel=(0.0, 0.2),
+        labels=(0, 0.1, 0.2),
+        needs="vanes",
+    ),
+    Parameter(
+        "vane_angle_deg",
+        "Vane angle",
+        "°",
+        check_finite,
+        TURN,
+        Message("vane angle"),
+        tip="Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.",
+        travel=(-180.0, 180.0),
+        labels=(0, -180, 180, -90, 90),
+        needs="vanes",
+    ),
+    Parameter(
+        "blades",
+        "Blades",
+        check=_count(FEWEST_BLADES, MOST_BLADES),
+        typed=(0, MOST_BLADES),
+        words=Message("number of blades"),
+        tip="Blades of the iris, their corners on the rim's circle; 0: round. An even number of blades gives as many "
+        "spikes in the PSF, an odd number twice as many.",
+        travel=(0, 16),
+        labels=(0, 5, 10, 16),
+    ),
+    Parameter(
+        "roundness",
+        "Roundness",
+        check=_share(0, 1),
+        typed=(0.0, 1.0),
+        words=Message("roundness"),
+        tip="Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.",
+        labels=(0, 1, 0.5),
+        needs="blades",
+    ),
+    Parameter(
+        "blade_angle_deg",
+        "Blade angle",
+        "°",
+        check_finite,
+        TURN,
+        Message("blade angle"),
+        tip="Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.",
+        travel=(-60.0, 60.0),
+        labels=(0, -60, 60, -30, 30),
+        needs="blades",
+    ),
     Parameter(
         "apodisation",
         "Apodisation",
         check=check_apodisation,
         typed=(NARROWEST_APODISATION, inf),
         words=Message("apodisation"),
+        tip="Apodisation: the radius, as a share of the rim's, where the amplitude has fallen to 1/e and the intensity "
+        "to 1/e²; ∞: uniform light. It dims the rings and widens the core.",
     ),
     Parameter(
         "apodisation_power",
@@ -236,6 +305,10 @@ OF_THE_MASK = (
         check=check_power,
         typed=(2, MOST_POWER),
         words=Message("apodisation power"),
+        tip="Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 is a Gaussian, a larger even number a "
+        "super-Gaussian.",
+        labels=(2, 20, 10),
+        needs="apodisation",
     ),
     Parameter(
         "cubic_um",
@@ -244,12 +317,17 @@ OF_THE_MASK = (
         _share(-LONGEST_PATH_UM, LONGEST_PATH_UM),
         (-1000.0, 1000.0),
         Message("cubic phase"),
+        tip="Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, so "
+        "one deconvolution can remove the blur.",
+        travel=(-10.0, 10.0),
+        labels=(0, -10, 10),
     ),
 )
-"""What stands in the stop, by the fields of `p2sf.pupil.mask.PupilMask`, as `p2sf.camera.Camera` has it too."""
+"""Parameters of the pupil mask, fields of both `p2sf.pupil.mask.PupilMask` and `p2sf.camera.Camera`."""
 ELSEWHERE = (
     Parameter("depths_mm", "Depths", "mm"),
     Parameter("fields_deg", "Fields", "°"),
+    Parameter("fields_x_deg", "Fields in x", "°"),
     Parameter("wavelengths_nm", "Wavelengths", "nm"),
     Parameter("field_slope", "Field"),
     Parameter("azimuth_deg", "Azimuth", "°"),
@@ -258,11 +336,11 @@ ELSEWHERE = (
     Parameter("tolerance", "the tolerance"),
     Parameter("clip", "Clip at rims"),
 )
-PARAMETERS = {each.name: each for each in (*OF_THE_SOURCE, *OF_THE_CAMERA, *OF_THE_MASK, *ELSEWHERE)}
+PARAMETERS = {each.name: each for each in (*SOURCE_PARAMETERS, *CAMERA_PARAMETERS, *MASK_PARAMETERS, *ELSEWHERE)}
 
 
 def check_values(instance: Any, parameters: tuple[Parameter, ...]) -> None:
-    """Raise RequestError for a field of these names that no lens can have."""
+    """Check the fields of an instance; raises RequestError for an impossible value."""
     for parameter in parameters:
         value = getattr(instance, parameter.name)
         if value is not None:

@@ -1,4 +1,4 @@
-"""The former place of `p2sf.camera`, for one version more."""
+"""Deprecated alias of `p2sf.camera`, kept for one more version."""
 
 import warnings
 

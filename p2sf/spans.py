@@ -1,4 +1,4 @@
-"""Axes as a person types them: numbers and ranges LOW:HIGH:COUNT, such as 500:inf:20 or 0,7,10:14:3."""
+"""Axes typed by a user: numbers and ranges LOW:HIGH:COUNT, such as 500:inf:20 or 0,7,10:14:3."""
 
 from collections.abc import Callable
 from math import inf, isfinite, isnan
@@ -26,32 +26,32 @@ def depth_nodes(near_mm: float, far_mm: float = inf, count: int = 20) -> np.ndar
 
 
 def numbers(text: str, name: str, separator: str = ",", read: Reader | None = None) -> np.ndarray:
-    """Return the numbers of a list, as written; those of a range are evenly spaced between its finite ends.
+    """Return the numbers of a list in their order; those of a range are evenly spaced between its finite ends.
 
-    ``read`` turns the text of one number into it, `float` when not given. Raises RequestError, naming ``name``, for
-    what is no list.
+    ``read`` converts the text of one number, by default `float`. Raises RequestError, naming ``name``, for a text that
+    is not a list.
     """
     ranges = _ranges(text, name, separator, read)
     if any(not isfinite(high) and count > 1 for _, high, count in ranges):
         raise RequestError(
-            "{parameter} is {value}, and only a depth may reach to inf; give a finite end", parameter=name, value=text
+            "{parameter} is {value}, but only depths may extend to inf; give a finite end", parameter=name, value=text
         )
     found = [np.linspace(low, high, count) if count > 1 else np.array([low]) for low, high, count in ranges]
     return np.concatenate(found)
 
 
 def depths(text: str, name: str, separator: str = ",", read: Reader | None = None) -> np.ndarray:
-    """Return distances in front of the lens as `numbers` does, mm; those of a range are evenly spaced in 1/distance."""
+    """Return distances in front of the lens, mm, as `numbers` does; a range is evenly spaced in 1/distance."""
     ranges = _ranges(text, name, separator, read)
     if not all(low > 0 for low, _, _ in ranges):
         raise RequestError(
-            "{parameter} is {value}; give distances in front of the lens, above 0", parameter=name, value=text
+            "{parameter} is {value}; give positive distances in front of the lens", parameter=name, value=text
         )
     return np.concatenate([depth_nodes(*each) for each in ranges])
 
 
 def check_ascending(values: np.ndarray, text: str, name: str) -> None:
-    """Raise RequestError unless each number of a list is greater than the one before."""
+    """Raise RequestError unless the numbers of a list are strictly ascending."""
     if (values[1:] <= values[:-1]).any():
         raise RequestError(
             "{parameter} is {value}, which does not ascend; put the numbers in ascending order",
@@ -61,7 +61,7 @@ def check_ascending(values: np.ndarray, text: str, name: str) -> None:
 
 
 def _ranges(text: str, name: str, separator: str, read: Reader | None) -> list[Range]:
-    """Return the ends and the count of each range, a single number being both of its ends."""
+    """Return the ends and the count of each range; a single number is both ends."""
     form = RequestError(
         "{parameter} is {value}; write LOW:HIGH:COUNT, one number, or numbers with {separators}",
         parameter=name,
@@ -75,7 +75,7 @@ def _ranges(text: str, name: str, separator: str, read: Reader | None) -> list[R
         except P2SFError as error:
             if separator == ";" and "," in part:
                 raise RequestError(
-                    "{parameter} is {value}; put semicolons between the numbers, since a comma may belong to one",
+                    "{parameter} is {value}; separate the numbers by semicolons, since a comma may belong to a number",
                     parameter=name,
                     value=text,
                 ) from error
@@ -102,7 +102,7 @@ def _ranges(text: str, name: str, separator: str, read: Reader | None) -> list[R
 
 
 def _check_range(found: Range, text: str, name: str) -> None:
-    """Raise RequestError for a range that does not ascend, or has too few or too many numbers."""
+    """Raise RequestError for a range that does not ascend or has too few or too many numbers."""
     low, high, count = found
     if not (isfinite(low) and low < high):
         raise RequestError(

@@ -1,12 +1,12 @@
-"""Threads for work that falls into parts, and BLAS held to one thread meanwhile.
+"""Threads for work that can be split into parts, with BLAS limited to one thread meanwhile.
 
-The parts are the caller's and do not depend on the number of threads, and results come in the order of the parts, so
-that sums of them are the same to the last bit on any number of threads. NumPy leaves the interpreter's lock within its
-loops over large arrays, products and FFTs only: a part that two threads are to share should take some milliseconds.
+The caller chooses the parts, independently of the number of threads, and results come in the order of the parts, so
+that sums of them are identical to the last bit for any number of threads. NumPy releases the interpreter's lock only in
+loops over large arrays, products and FFTs: a part should take some milliseconds for threads to pay off.
 
-BLAS splits a product among threads of its own once it has some 2¹⁸ multiplications. The products of a PSF are hardly
-larger: two threads then wait for each other at the end of each one, and a sum of many takes several times as long.
-Hence all work of this library runs within `one_blas_thread`, and threads work on different parts instead.
+BLAS distributes a product over its own threads from some 2¹⁸ multiplications on. The products of a PSF are hardly
+larger: two threads then wait for each other at the end of each product, and a sum of many products takes several times
+as long. Hence all work of this library runs within `one_blas_thread`, and threads work on different parts.
 """
 
 import os
@@ -25,7 +25,7 @@ from typing import Any, TypeVar
 from p2sf.errors import RequestError
 
 VARIABLE = "P2SF_THREADS"
-AHEAD = 2  # parts per thread, so that none idles while the caller takes one, and little is kept
+AHEAD = 2  # parts per thread: no thread idles while the caller takes a result, and few results are kept
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -34,9 +34,10 @@ _asked: ContextVar[int | None] = ContextVar("threads", default=None)
 
 
 def threads_or_default(threads: int | None = None) -> int:
-    """Return how many threads to use: as asked, by the caller or `using_threads` around it, else as P2SF_THREADS says.
+    """Return the number of threads: the argument, else that of `using_threads`, else the variable P2SF_THREADS.
 
-    Without any of these it is the cores that this process may use. Raises RequestError for what is no number from 1 on.
+    Without any of these it is the number of cores available to the process. Raises RequestError unless it is an integer
+    of at least 1.
     """
     threads = _asked.get() if threads is None else threads
     if threads is not None:
@@ -57,7 +58,7 @@ def threads_or_default(threads: int | None = None) -> int:
 
 @contextmanager
 def using_threads(threads: int | None) -> Iterator[None]:
-    """Use so many threads within wherever no number is given; None changes nothing. RequestError as above."""
+    """Set the number of threads within the context for calls that state none; None changes nothing."""
     if threads is None:
         yield
         return
@@ -69,15 +70,15 @@ def using_threads(threads: int | None) -> Iterator[None]:
 
 
 def _usable_cores() -> int:
-    if sys.platform == "linux":  # a batch system or a container may have left this process a part of the machine
+    if sys.platform == "linux":  # a batch system or container may restrict the process to a part of the machine
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def map_threads(function: Callable[[Item], Result], items: Iterable[Item], threads: int | None = None) -> list[Result]:
-    """Return ``function(item)`` of every item, in order, computed by so many threads (`threads_or_default`).
+    """Return ``function(item)`` of every item, in order, computed by ``threads`` threads (`threads_or_default`).
 
-    Raises what ``function`` raises for the first item that fails, once the items under way are done.
+    Raises what ``function`` raises for the first item that fails, after the running items have ended.
     """
     results: list[Result] = []
     for_each(function, items, results.append, threads, ahead=None)
@@ -93,10 +94,9 @@ def for_each(
 ) -> None:
     """Call ``take(function(item))`` for every item in order: ``function`` in threads, ``take`` in the caller's own.
 
-    No more than ``ahead`` results per thread, if that is a number, are under way or wait for ``take``, whose errors end
-    the work.
-    ``function`` sees the context of the caller, `numpy.errstate` for one. What it shares among threads in turn is done
-    by its own thread, so that pools do not multiply.
+    At most ``ahead`` results per thread, if given, are being computed or wait for ``take``; an error in ``take`` ends
+    the work. ``function`` runs in the context of the caller, such as `numpy.errstate`. Nested calls from within
+    ``function`` run in its own thread, so that pools do not multiply.
     """
     remaining = iter(items)
     first = list(islice(remaining, 2))
@@ -117,7 +117,7 @@ def _by_pool(
     count: int,
     most: float,
 ) -> None:
-    """Do the work of `for_each` by so many threads, with ``most`` results under way or waiting."""
+    """Do the work of `for_each` in ``count`` threads, with at most ``most`` results running or waiting."""
     waiting: deque[Future[Result]] = deque()
     with ThreadPoolExecutor(count, initializer=_become_worker) as pool:
         try:
@@ -133,17 +133,17 @@ def _by_pool(
 
 
 def _become_worker() -> None:
-    """Mark the thread as one of a pool; it stays within `one_blas_thread`, which ends with it."""
+    """Mark the thread as one of a pool; it stays within `one_blas_thread` until it ends."""
     _here.worker = True
     _of_this_thread().enter(_blas("scipy.linalg" in sys.modules)[1])
 
 
 class _OneBlasThread(ContextDecorator):
-    """Holds BLAS to one thread while anyone is within; the number of before returns with the last one's leaving.
+    """Limits BLAS to one thread while any context is active; the last exit restores the previous number.
 
-    Most BLAS libraries have one number for the whole process: threads within share it, and a count tells who is the
-    last. Those built on OpenMP have a number for each thread. Entering costs some microseconds for the first, one for
-    the others.
+    Most BLAS libraries have one number for the whole process: active contexts share it, and a counter tells the last
+    exit. Libraries built on OpenMP have a number for each thread. The first entry costs some microseconds, later ones
+    one.
     """
 
     def __init__(self) -> None:
@@ -163,7 +163,7 @@ class _OneBlasThread(ContextDecorator):
 
 
 class _Held:
-    """How many are within, and the libraries that they hold to one thread with their numbers of before."""
+    """Number of active contexts, and the libraries limited to one thread with their previous numbers."""
 
     def __init__(self) -> None:
         self.within = 0
@@ -171,7 +171,7 @@ class _Held:
         self.before: list[tuple[Any, int]] = []
 
     def enter(self, libraries: list[Any]) -> None:
-        """Set the number of each library to 1, unless those within have done it already."""
+        """Set the number of each library to 1, unless an active context has done so already."""
         self.within += 1
         if libraries is not self.seen:
             self.seen = libraries
@@ -182,7 +182,7 @@ class _Held:
                     _set(library, 1)
 
     def leave(self) -> None:
-        """Restore the numbers of before, if this is the last one within."""
+        """Restore the previous numbers if this is the last active context."""
         self.within -= 1
         if self.within == 0:
             for library, number in self.before:
@@ -200,14 +200,14 @@ def _of_this_thread() -> _Held:
 def _set(library: Any, number: int) -> None:
     library.set_num_threads(number)
     if hasattr(library, "clear_controlling_thread"):
-        library.clear_controlling_thread()  # or threadpoolctl 3.8 would ignore every thread but this one from now on
+        library.clear_controlling_thread()  # otherwise threadpoolctl 3.8 ignores all other threads from now on
 
 
 @lru_cache(maxsize=2)
 def _blas(with_scipy: bool) -> tuple[list[Any], list[Any]]:
-    """Return the BLAS libraries that have one number for all threads, and those that have one for each.
+    """Return the BLAS libraries with one number for all threads, and those with one number per thread.
 
-    They are NumPy's, and SciPy's own once ``scipy.linalg`` is loaded.
+    They are those of NumPy and, once ``scipy.linalg`` is loaded, of SciPy.
     """
     from threadpoolctl import ThreadpoolController
 

@@ -1,11 +1,11 @@
-"""The version of this package, the commit it was built from, and the versions of what it stands on."""
+"""The version of this package, the commit it was built from, and the versions of its dependencies."""
 
 import platform
 from importlib import import_module
 
 
 def _version_as_built() -> str:
-    """Return the version as the build wrote it, from the tag; unknown in a checkout that was never built from."""
+    """Return the version that the build took from the tag; unknown in a checkout that was never built."""
     try:
         return str(import_module("p2sf._version").__version__)
     except ImportError:
@@ -17,8 +17,8 @@ STANDS_ON = ("numpy", "scipy", "PySide6_Essentials", "pyqtgraph", "pyvista", "vt
 
 
 def versions() -> dict[str, str]:
-    """Return the versions a report needs, by name; what is not installed is left out."""
-    from importlib.metadata import PackageNotFoundError, version  # takes longer to load than all of this package
+    """Return the versions for a report by package name; packages that are not installed are omitted."""
+    from importlib.metadata import PackageNotFoundError, version  # loading it takes longer than loading this package
 
     found = {"p2sf": __version__, "commit": commit_of(__version__)}
     found |= {"python": platform.python_version(), "system": f"{platform.system()} {platform.release()}"}
@@ -32,7 +32,7 @@ def versions() -> dict[str, str]:
 
 
 def commit_of(version: str) -> str:
-    """Return the commit a version was built from: between tags it is behind the plus, as in 0.3.dev4+g0a1b2c3."""
+    """Return the commit a version was built from: between tags it follows the plus, as in 0.3.dev4+g0a1b2c3."""
     number, _, local = version.partition("+")
     node = next((part[1:] for part in local.split(".") if part.startswith("g")), "")
     return node or ("unknown" if local or "dev" in number else f"that of tag v{number}")

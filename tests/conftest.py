@@ -12,9 +12,13 @@ from p2sf.glass.media import catalogue_glass
 from p2sf.glass.pages import Page, page
 from p2sf_explorer.compute import setup
 
-# A busy machine takes longer than hypothesis allows, and every run tries the same examples.
-settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("steady")
+# A busy machine takes longer than hypothesis allows, and every run tries the same examples: 25 of each law with every
+# commit, 100 with a release (`--hypothesis-profile release`).
+settings.register_profile(
+    "release", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow], max_examples=100
+)
+settings.register_profile("commit", settings.get_profile("release"), max_examples=25)
+settings.load_profile("commit")
 
 
 class FailureNames:

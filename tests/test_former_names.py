@@ -21,10 +21,12 @@ def test_former_modules(module, name, place, monkeypatch):
     assert getattr(former, name) is getattr(import_module(place), name)
 
 
-def test_former_functions():
+def test_former_functions(monkeypatch):
     from p2sf.measure import measurement
 
+    monkeypatch.setattr(measurement, "measure_frame", lambda *given: given)
     with pytest.warns(DeprecationWarning, match="measure_frame"):
-        assert measurement.measured is measurement.measure_frame
+        frames, optics, asked, *_ = measurement.measured("frames", "optics", lens=None, singly=False)
+    assert (frames, optics, asked.singly, asked.lens) == ("frames", "optics", False, None)
     with pytest.raises(AttributeError):
         _ = measurement.measurred

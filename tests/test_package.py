@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[1]
 # A folder imports from those on the lines above its own and from itself; those of the first line from each other too.
 LAYERS = (
     "p2sf.conventions p2sf.messages p2sf.errors p2sf.arguments p2sf.parameters p2sf.spans p2sf.threads p2sf.version "
-    "p2sf.html",
+    "p2sf.html p2sf.named_arrays",
     "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
     "p2sf.lens",
     "p2sf.paraxial",
@@ -20,6 +20,7 @@ LAYERS = (
     "p2sf.tolerance p2sf.database p2sf.image",
     "p2sf.export p2sf.measure p2sf.studies",
     "p2sf.api p2sf_explorer.i18n p2sf_explorer.state",
+    "p2sf.sweep",
     "p2sf_explorer.compute",
     "p2sf_explorer.charts p2sf_explorer.store p2sf.notebook_widget",
     "p2sf_explorer.files p2sf_explorer.handbook",

@@ -30,7 +30,7 @@ def test_every_command_shown_exists(line):
     assert shlex.split(line, comments=True)[1] in COMMANDS
 
 
-LONG = {"tradeoff", "paper"}  # seconds each, and run by tests/studies
+LONG = {"tradeoff", "paper"}  # seconds each, and run by tests/cli/test_tradeoff.py and tests/studies
 
 
 @pytest.mark.slow

@@ -6,10 +6,9 @@ import numpy as np
 
 from p2sf.camera import Setup
 from p2sf.cli.screen import text, warn
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, message_if_misaligned
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
-from p2sf.paraxial.lens_checks import unless_symmetric
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.raytrace.aiming import pupil_rays
@@ -38,7 +37,7 @@ def caution(setup: Setup, seidel: bool) -> None:
 
 def set_straight(lens: Lens) -> Message | None:
     """Return a warning that paraxial quantities leave out what of a lens is not symmetric, None where all is."""
-    return unless_symmetric(lens, STRAIGHT)
+    return message_if_misaligned(lens, STRAIGHT)
 
 
 def crossed_surfaces(setup: Setup) -> Message | None:

@@ -13,6 +13,7 @@ from p2sf.errors import RequestError
 from p2sf.io.colour_files import COLOUR_ENDINGS, write_colour_psf
 from p2sf.io.record import describe
 from p2sf.messages import ParameterName
+from p2sf.psf.methods import PsfOptions
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
 from p2sf.psf.result import IN_WINDOW
@@ -42,7 +43,7 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
         wanted,
         window,
         lambda lens, source, pixels, pixel_um: render_integrated(
-            lens, source, method, pixels, pixel_um, picture.tolerance, clip=picture.clip
+            lens, source, method, pixels, pixel_um, PsfOptions(tolerance=picture.tolerance, clip=picture.clip)
         ),
     )
     if output:

@@ -9,9 +9,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import App, Parameter
 
-from p2sf.camera import AS_IN_FILE, Request, set_up
+from p2sf.camera import Request, set_up
 from p2sf.cli.lookups import accuracy_rows
-from p2sf.cli.options import CameraFlags, Json, LensName, Threads, Whole, check_samples
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, Whole, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space
@@ -101,7 +101,7 @@ def build(
         str, Parameter(["--output", "-o"], negative="", help="File to write: .npz, a stack .zarr, which may be a URL.")
     ],
     nodes: Annotated[Nodes, Parameter(name="*")] = Nodes(),
-    camera: CameraFlags = AS_IN_FILE,
+    camera: CameraFlags = AS_IN_ITS_FILE,
     kind: Annotated[DatabaseKind, Parameter(name="*")] = DatabaseKind(),
     threads: Threads = None,
     as_json: Json = False,
@@ -151,7 +151,7 @@ def space_of(nodes: Nodes, lens: Lens, method: str) -> Space:
     """
     distances = depths(nodes.depths_mm, "depths_mm")
     check_ascending(distances, nodes.depths_mm, "depths_mm")
-    widest = max((1.0, *lens.fields_deg))
+    widest = max(1.0, lens.widest_field_deg)
     usual, usual_x = f"0:{widest!r}:21", nodes.fields_x_deg
     if usual_x or (lens.misaligned and not by_six(method) and nodes.fields_deg is None):
         half = float(degrees_from_slope(slope_from_degrees(widest) / np.sqrt(2)))

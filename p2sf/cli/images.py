@@ -22,7 +22,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
-from p2sf.psf.methods import AUTO, by_six
+from p2sf.psf.methods import AUTO, PsfOptions, by_six
 from p2sf.psf.prediction import CAUTION, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf
 from p2sf.threads import using_threads
@@ -232,19 +232,18 @@ def render(setup: Setup, picture: Picture) -> Psf:
     Where pixels are wider than λ/(4 NA) it is the light that each receives.
     """
     method = picture.method or AUTO
-    if picture.seidel:
+    if picture.seidel and (picture.sampling == "fft" or not picture.clip):
         return _from_coefficients(setup, picture)
+    method = "seidel" if picture.seidel else method
     from p2sf.psf.pixel_integrals import render_integrated
 
-    made = render_integrated(
-        setup.lens, setup.source, method, picture.side, picture.pixel_um, picture.tolerance, clip=picture.clip
-    )
+    options = PsfOptions(tolerance=picture.tolerance, clip=picture.clip)
+    made = render_integrated(setup.lens, setup.source, method, picture.side, picture.pixel_um, options)
     return made.with_fields(azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     from p2sf.paraxial.seidel import check_seidel, coefficients
-    from p2sf.psf.methods import check_unclipped
     from p2sf.psf.pixel_integrals import critical_pixel_um, integrate
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
     from p2sf.raytrace.seen_mask import mask_seen
@@ -252,7 +251,9 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     source = setup.source
     check_seidel(setup.lens)
     if picture.clip:
-        check_unclipped(setup.lens, source, "seidel")
+        raise SamplingError(
+            "an FFT of square samples shows no edges of rims; use mdft, or leave {parameter} off", parameter="clip"
+        )
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.side))
     finest = float(critical_pixel_um(six.wavelength_um, six.na))

@@ -29,7 +29,7 @@ def record(lens: Lens) -> dict[str, Any]:
         "character": lens.character,
         "effective_focal_length": float(cardinal_points(lens, wavelength).effective_focal_length),
         "f_number": float(f_number(lens, wavelength)),
-        "field_deg": float(max(lens.fields_deg)),
+        "field_deg": float(lens.widest_field_deg),
         "wavelengths_nm": list(lens.wavelengths_nm),
         "source": lens.source,
     }

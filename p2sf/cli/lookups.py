@@ -5,7 +5,7 @@ from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from p2sf.camera import Request, stated
+from p2sf.camera import Request, explicit_values
 from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database import ExactDatabase
@@ -52,7 +52,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
     from p2sf.export import open_database
 
     stored = open_database(name)
-    for parameter in stated(request):
+    for parameter in explicit_values(request):
         if parameter not in LOOKED_UP:
             raise RequestError(
                 "{parameter} needs the lens, which {path} does not trace; give p2sf psf the lens itself",

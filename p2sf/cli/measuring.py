@@ -23,6 +23,7 @@ from p2sf.measure.fitting.point_fit import PointFit
 from p2sf.measure.fitting.point_model import PictureOptics
 from p2sf.measure.frame import Frame, Noise
 from p2sf.measure.measurement import (
+    FrameRequest,
     Measurement,
     MeasurementComparison,
     compare_measurements,
@@ -150,14 +151,16 @@ def measure(
         found = measure_frame(
             frames,
             optics,
-            focus_um=focus_um or [0.0] * len(frames),
-            model=model,
-            lens=design,
-            depth_mm=request.depth_mm,
-            unknowns=unknowns or (*FOCUS, *FIELD),
-            clip=clip,
-            target=known,
-            f_number_error=f_number_error,
+            FrameRequest(
+                focus_um=focus_um or [0.0] * len(frames),
+                model=model,
+                lens=design,
+                depth_mm=request.depth_mm,
+                unknowns=unknowns or (*FOCUS, *FIELD),
+                clip=clip,
+                target=known,
+                f_number_error=f_number_error,
+            ),
             progress=tell,
         )
     if output:

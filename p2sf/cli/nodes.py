@@ -33,7 +33,7 @@ def nodes(
     check_whole("fields", fields, 3, MOST_FIELDS)
     setup = set_up(find_lens(lens), request)
     place = setup.source.depth_mm, setup.source.wavelength_um
-    widest = abs(setup.field_deg) or max(map(abs, setup.lens.fields_deg)) or 1.0
+    widest = abs(setup.field_deg) or setup.lens.widest_field_deg or 1.0
     axis = np.linspace(-widest, widest, fields)
     found = field_aberrations(setup.lens, *place, axis, axis)
     count = len(setup.lens.surfaces)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter, Token
 
-from p2sf.camera import Camera, Request
+from p2sf.camera import Request, Settings
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import check_place
 
@@ -24,7 +24,7 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
 Whole = Annotated[int, Parameter(converter=_whole)]
 LensName = Annotated[str, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Asked = Annotated[Request, Parameter(name="*")]
-CameraFlags = Annotated[Camera, Parameter(name="*")]
+CameraFlags = Annotated[Settings, Parameter(name="*")]
 Json = Annotated[bool, Parameter("--json", negative="", help="Print one JSON object, mm unless a name says otherwise.")]
 Output = Annotated[Path | None, Parameter(["--output", "-o"], negative="", help="File to write, by its ending.")]
 Threads = Annotated[
@@ -33,6 +33,7 @@ Threads = Annotated[
 ]
 
 AS_IN_THE_FILE = Request()
+AS_IN_ITS_FILE = Settings()
 
 
 def check_output(output: Path | None, endings: Iterable[str]) -> None:

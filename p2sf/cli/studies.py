@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from p2sf.camera import AS_IN_FILE
-from p2sf.cli.options import CameraFlags, Json, Output, Whole, check_output, check_whole
+from p2sf.camera import Camera
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import write_beside, write_json
@@ -46,7 +46,7 @@ def tradeoff(
     fields_deg: Fields = None,
     depths_mm: Depths = None,
     wavelengths_nm: Waves = None,
-    camera: CameraFlags = AS_IN_FILE,
+    camera: CameraFlags = AS_IN_ITS_FILE,
     pixels: Pixels = 64,
     complete: Complete = False,
     quick: Quick = False,
@@ -71,7 +71,7 @@ def tradeoff(
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
     found = find_lens(lens)
-    rows = tradeoff.tradeoff(found, fields_deg, depths, wavelengths_nm, pixels=pixels, camera=camera)
+    rows = tradeoff.tradeoff(found, fields_deg, depths, wavelengths_nm, pixels=pixels, camera=Camera(**vars(camera)))
     head, *lines = tradeoff.table(rows)
     title = f"{found.title or found.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
     if output:

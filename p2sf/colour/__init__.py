@@ -1,1 +1,1 @@
-"""Spectra of light sources, and their colours as an observer sees them and a screen shows them."""
+"""Spectra of light sources, and their colours for the standard observer and on a screen."""

@@ -35,19 +35,19 @@ def _lobe(nm: np.ndarray, height: float, centre: float, below: float, above: flo
 
 
 def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIBLE_UM) -> tuple[np.ndarray, np.ndarray]:
-    """Return ``count`` wavelengths (µm) and the X, Y, Z each stands for, (count,) and (count, 3), ΣY = 1.
+    """Return ``count`` wavelengths (µm) and the X, Y, Z that each represents, (count,) and (count, 3), ΣY = 1.
 
-    Each is the centre of gravity of its band and carries all the band's light, summed every nm, so that the colour of
-    the whole does not depend on the count. Lines are returned unchanged. Raises RequestError for a spectrum without
-    visible light.
+    Each is the centroid of its band and carries all light of the band, summed every nm, so that the total colour does
+    not depend on the count. Lines are returned unchanged. Raises RequestError for a spectrum without visible light.
     """
     if spectrum.kind == "lines":
         wavelength = np.array(spectrum.numbers) / NM_PER_UM
-        return wavelength, _normalise(matching(wavelength), spectrum)
+        weights = np.array(spectrum.weights or (1.0,) * len(wavelength))
+        return wavelength, _normalise(weights[:, None] * matching(wavelength), spectrum)
     low, high = max(limits_um[0], VISIBLE_UM[0]), min(limits_um[1], VISIBLE_UM[1])
     fine = low + (np.arange(max(1, round((high - low) / STEP_UM))) + 0.5) * STEP_UM
     light = relative_power(spectrum, fine)[:, None] * matching(fine)
-    # Bands of equal Y + (X + Z)/2 put most wavelengths where the eye is most sensitive, and some in violet and red.
+    # Bands of equal Y + (X + Z)/2: most wavelengths lie where the eye is most sensitive, and some in violet and red.
     weight = np.cumsum(light @ (0.5, 1.0, 0.5))
     edges = np.searchsorted(weight, weight[-1] * np.arange(1, count) / count)
     parts = [part for part in np.split(np.arange(fine.size), edges) if part.size]
@@ -59,9 +59,7 @@ def bands(spectrum: Spectrum, count: int, limits_um: tuple[float, float] = VISIB
 def _normalise(light: np.ndarray, spectrum: Spectrum) -> np.ndarray:
     total = light[:, 1].sum()
     if not total > 1e-6:
-        raise RequestError(
-            "the spectrum {name} has no light that the eye sees; choose one with some", name=spectrum.name
-        )
+        raise RequestError("the spectrum {name} has no visible light; choose another", name=spectrum.name)
     shares: np.ndarray = light / total
     return shares
 

@@ -10,7 +10,7 @@ from p2sf.errors import RequestError
 from p2sf.messages import Alternatives, Message
 
 SECOND_RADIATION_MM_K = 14.387768775  # c₂ = hc/k (CODATA 2018, exact since the SI of 2019)
-KELVIN = (300.0, 1e6)  # a colder body has no visible light
+KELVIN = (300.0, 1e6)  # a colder body emits no visible light
 NM = (100.0, 20000.0)
 EXAMPLES = Alternatives(("d65", "equal", "planck:5600 (kelvin)", "lines:486,588,656 (nm)"))
 WORDS = str(Message("{examples}", examples=EXAMPLES))
@@ -26,32 +26,47 @@ D65 = np.array([
 
 @dataclass(frozen=True)
 class Spectrum:
-    """One of `KINDS`: ``numbers`` are the kelvin of "planck", the nm of "lines" (equally bright), else none."""
+    """One of `KINDS`: ``numbers`` are the kelvin of "planck", the nm of "lines", else none.
+
+    ``weights`` are how bright the lines are to one another; without them all are equally bright.
+    """
 
     kind: str
     numbers: tuple[float, ...] = ()
+    weights: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise RequestError('the spectrum "{kind}" is unknown; choose {examples}', kind=self.kind, examples=EXAMPLES)
         _check(self.kind, self.numbers)
+        if self.weights and not (len(self.weights) == len(self.numbers) and min(self.weights) >= 0 < max(self.weights)):
+            raise RequestError(
+                "the spectral lines are as bright as {weights:g}; give numbers that are not negative, as in "
+                "lines:486@0.5,588",
+                weights=self.weights,
+            )
 
     @property
     def name(self) -> str:
         """Return the spectrum as `spectrum_of` reads it."""
-        return ":".join([self.kind, ",".join(f"{number:g}" for number in self.numbers)]).rstrip(":")
+        weights = [f"@{weight:g}" for weight in self.weights] or [""] * len(self.numbers)
+        listed = ",".join(f"{number:g}{weight}" for number, weight in zip(self.numbers, weights, strict=True))
+        return f"{self.kind}:{listed}".rstrip(":")
 
 
 def spectrum_of(text: str) -> Spectrum:
     """Return the spectrum of a name such as "d65", "planck:5600" or "lines:486,588,656"; RequestError."""
     kind, _, rest = str(text).strip().lower().partition(":")
     try:
-        return Spectrum(kind, tuple(float(part) for part in rest.split(",")) if rest else ())
+        parts = [part.partition("@") for part in rest.split(",")] if rest else []
+        numbers = tuple(float(number) for number, _, _ in parts)
+        weighted = tuple(float(weight) if at else 1.0 for _, at, weight in parts)
+        return Spectrum(kind, numbers, weighted if "@" in rest else ())
     except RequestError:
         raise
     except ValueError:
         raise RequestError(
-            'the spectrum "{text}" holds "{rest}", which is not a list of numbers; write {examples}',
+            'the spectrum "{text}" contains "{rest}", which is not a list of numbers; write {examples}',
             text=str(text),
             rest=rest,
             examples=EXAMPLES,
@@ -100,14 +115,14 @@ def black_body(wavelength_um: ArrayLike, kelvin: float) -> np.ndarray:
     """Return Planck's law per wavelength, λ⁻⁵/(exp(c₂/λT) − 1), over its value at 560 nm (Planck 1901)."""
     exponent = SECOND_RADIATION_MM_K * UM_PER_MM / (np.asarray(wavelength_um, dtype=float) * kelvin)
     known = SECOND_RADIATION_MM_K * UM_PER_MM / (0.56 * kelvin)
-    # exp(known − exponent) instead of a quotient of two exponentials, which overflow for a cold body.
+    # exp(known − exponent), since a quotient of two exponentials overflows for a cold body.
     ratio = np.exp(known - exponent) * np.expm1(-known) / np.expm1(-exponent)
     power: np.ndarray = (0.56 / np.asarray(wavelength_um)) ** 5 * ratio
     return power
 
 
 def daylight(wavelength_um: ArrayLike) -> np.ndarray:
-    """Return D65 per wavelength, 1 at 560 nm, straight lines between the table's values and 0 beyond them."""
+    """Return D65 per wavelength, 1 at 560 nm, interpolated linearly between the table's values and 0 beyond them."""
     return np.interp(np.asarray(wavelength_um) * NM_PER_UM, D65_NM, D65 / 100, left=0.0, right=0.0)
 
 

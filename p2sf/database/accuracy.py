@@ -1,7 +1,7 @@
-"""How far the PSFs of a database are from those of exact rays: the predicted 1 − R² over its space.
+"""Accuracy of the PSFs of a database against exact rays: the predicted 1 − R² over its space.
 
-The errors that a build measures are those of its interpolation alone; six coefficients may be looked up to the last
-digit and describe little.
+The errors measured by a build are only those of interpolation; exactly interpolated coefficients may still be a poor
+description.
 """
 
 from collections.abc import Iterator
@@ -25,24 +25,25 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.paraxial.pupils import Stop
-from p2sf.paraxial.seidel import without_coefficients
+from p2sf.paraxial.seidel import reason_against_coefficients
 from p2sf.psf.methods import AUTO, FITTED, SEIDEL, by_six, seidel_error
 from p2sf.psf.prediction import CAUTION, USELESS, predicted_error
-from p2sf.raytrace.fit import behind_mask, judging_rays
+from p2sf.raytrace.fit import behind_mask, trace_check_rays
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
 METHODS = (AUTO, SEIDEL.name, FITTED.name)
 TOLERANCE = 0.99  # least R² at which "auto" keeps six coefficients, as of `psf.methods.render`
 POINTS = 32  # between the corners of a space
-EXACT = "exact"  # the interpolant that a database has unless another is asked for
+EXACT = "exact"  # the default interpolant
 
 
 @dataclass(frozen=True)
 class DatabaseAccuracy:
-    """The predicted 1 − R² of a database's PSFs: the median over its space, the worst, and where that is.
+    """The predicted 1 − R² of a database's PSFs: the median over its space, the largest, and its position.
 
-    An infinite one says that rays are lost, which no database knows. ``field_x_deg`` is 0 but over a rectangle.
+    An infinite value means that rays are lost, which no database represents. ``field_x_deg`` is 0 except over a
+    rectangle.
     """
 
     median: float
@@ -55,14 +56,14 @@ class DatabaseAccuracy:
 
     @property
     def record(self) -> dict[str, float]:
-        """Return what a file says: the figures and where the worst one is."""
+        """Return the entry for a file: the figures and the position of the worst one."""
         across = {"field_x_deg": self.field_x_deg} if self.field_x_deg else {}
         place = {"depth_mm": self.depth_mm, "field_deg": self.field_deg, **across, "wavelength_nm": self.wavelength_nm}
         return {"median": self.median, "worst": self.worst, **place}
 
     @property
     def where(self) -> Message:
-        """Return where the worst one is."""
+        """Return the position of the worst one."""
         return where(self.depth_mm, self.field_deg, self.wavelength_nm)
 
     @property
@@ -74,7 +75,7 @@ class DatabaseAccuracy:
 
     @property
     def summary(self) -> Message:
-        """Return what is predicted of the PSFs, in a line."""
+        """Return the prediction for the PSFs as one line."""
         if self.worst < USELESS:
             return Message(
                 "predicted 1 − R² against exact rays: median {median:.1e}, up to {worst:.1e} {where}",
@@ -92,7 +93,7 @@ class DatabaseAccuracy:
 
     @property
     def caution(self) -> Message | None:
-        """Return a warning where 1 − R² may exceed CAUTION, None where it does not."""
+        """Return a warning if 1 − R² may exceed CAUTION, else None."""
         if self.worst <= CAUTION:
             return None
         narrower = remedy = Message("narrow the depths, the fields or the wavelengths")
@@ -124,7 +125,7 @@ class DatabaseAccuracy:
 
 
 def where(depth_mm: float, field_deg: float, wavelength_nm: float) -> Message:
-    """Return where a source is, for a sentence."""
+    """Return the position of a source for a sentence."""
     values = {"field": field_deg, "wave": wavelength_nm}
     if isinf(depth_mm):
         return Message("at infinity, {field:.4g}°, {wave:.4g} nm", **values)
@@ -145,33 +146,33 @@ def accuracy(database: Database, lens: Lens) -> DatabaseAccuracy:
 
 
 def accuracy_from(record: dict[str, Any], method: str) -> DatabaseAccuracy:
-    """Return the accuracy that a file states, where infinite values are null; KeyError and TypeError for another."""
+    """Return the accuracy stated in a file, in which null means infinite; KeyError and TypeError for other entries."""
     values = {name: inf if value is None else float(value) for name, value in record.items()}
     return DatabaseAccuracy(**{"field_x_deg": 0.0, **values}, method=method)
 
 
 def _points(space: Space, last_depth_mm: float) -> Iterator[tuple[float, ...]]:
-    """Yield the corners of a space up to the last depth that is interpolated, and points spread evenly between."""
+    """Yield the corners of a space up to the last interpolated depth, and points distributed evenly between them."""
     depths = space.depths_mm[[0, -1]].clip(max=last_depth_mm)
     yield from product(*(dict.fromkeys(nodes[[0, -1]].tolist()) for nodes in (depths, *space.nodes[1:])))
     yield from zip(*(axis.tolist() for axis in scatter(space, POINTS, last_depth_mm)), strict=True)
 
 
 def _error(database: Database, lens: Lens, source: Source) -> float:
-    """Return the predicted 1 − R² of one PSF, infinite where rays are lost."""
+    """Return the predicted 1 − R² of one PSF, infinite if rays are lost."""
     if isinstance(database, FittedDatabase):
         try:
-            judges = judging_rays(lens, source, mask_seen(lens, source))
+            checks = trace_check_rays(lens, source, mask_seen(lens, source))
         except GeometryError:
             return inf
         found = replace(database.fit_at(source), residual_waves=0.0, map_residual=0.0, amplitude_residual=0.0)
-        return predicted_error(behind_mask(found, judges).error_waves, "fitted")
+        return predicted_error(behind_mask(found, checks).error_waves, "fitted")
     six = database.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
     return seidel_error(lens, source, six)
 
 
 def check_kind(method: str, interpolant: str, rectangle: bool) -> None:
-    """Raise RequestError for a method that makes no database of this interpolant, or over a rectangle of fields."""
+    """Raise RequestError for a method without databases of this interpolant, or over a rectangle of fields."""
     if method not in METHODS:
         raise RequestError(
             '{parameter} is "{value}"; choose {choices}',
@@ -197,21 +198,21 @@ def build_by(
 ) -> Database:
     """Return the database of a lens by a method: six coefficients, fits, or what ``auto`` chooses.
 
-    That is the six coefficients where all of the space keeps R² ≥ TOLERANCE and where another interpolant is asked
-    for, which only they have; otherwise fits, unless these cannot be built or are no better. Raises RequestError for
-    another method, and P2SFError as the builds do.
+    ``auto`` chooses the six coefficients if R² ≥ TOLERANCE over the whole space, or if another interpolant is
+    requested, which only they support; otherwise fits, unless these cannot be built or are no better. Raises
+    RequestError for another method, and P2SFError as the builds do.
     """
     check_kind(method, interpolant, space.field_x_slopes is not None)
     if method != AUTO:
         return build_database(lens, space, interpolant, stop) if by_six(method) else build_fitted(lens, space, stop)
     refused = lens.misaligned or space.field_x_slopes is not None
-    if refused or (interpolant == EXACT and without_coefficients(lens)):
+    if refused or (interpolant == EXACT and reason_against_coefficients(lens)):
         return build_fitted(lens, space, stop)
     six = build_database(lens, space, interpolant, stop)
     if interpolant != EXACT or accuracy(six, lens).worst <= 1 - TOLERANCE:
         return six
     try:
         fits = build_fitted(lens, space, stop)
-    except (DatabaseError, GeometryError):  # rays are lost, or too wide a space for fits
+    except (DatabaseError, GeometryError):  # rays are lost, or the space is too wide for fits
         return six
     return fits if accuracy(fits, lens).worst < accuracy(six, lens).worst else six

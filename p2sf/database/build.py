@@ -24,7 +24,7 @@ TERMS = (24, 48, 96, 192)
 TOLERANCE = 1e-12
 ROUND_OFF = 1e-13
 HELD_OUT = 64
-STALLED = 10  # times the tolerance, up to which errors that twice the terms do not halve are taken for rounding
+STALLED = 10  # times the tolerance: smaller errors that do not halve with twice the terms count as rounding
 
 
 @one_blas_thread
@@ -33,10 +33,9 @@ def build_database(
 ) -> ExactDatabase | GridDatabase:
     """Return the coefficient database of a lens over ``space``, at one stop for all depths.
 
-    ``interpolant``: "exact" (polynomials, exact to round-off), "table1" (the rule of Pieroni et al. 2015,
-    table 1) or "linear". Its ``errors`` against direct evaluation are in waves. A mask in the stop changes none of the
-    coefficients; the database keeps it, and renders through it.
-    Raises DatabaseError, GeometryError and GlassError.
+    ``interpolant``: "exact" (polynomials, exact to round-off), "table1" (the rule of Pieroni et al. 2015, table 1) or
+    "linear". Its ``errors`` against direct evaluation are in waves. A pupil mask does not change the coefficients; the
+    database stores it and applies it in rendering. Raises DatabaseError, GeometryError and GlassError.
     """
     if interpolant not in INTERPOLANTS:
         raise DatabaseError(
@@ -63,7 +62,7 @@ def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
         series = exact_series(lens, space, stop, terms)
         database = ExactDatabase(space, *series, lens.sensor_mm, {}, mask=mask_of(lens, space))
         errors = departures(database.coefficients(*points), direct)
-        # Where the pupil lies far away, rounding of the direct coefficients themselves is more than usual.
+        # With a distant pupil, rounding errors of the direct coefficients themselves are larger than usual.
         rounded = {kind: STALLED * top if errors[kind] > before[kind] / 2 > 0 else top for kind, top in allowed.items()}
         if all(errors[kind] <= rounded[kind] for kind in allowed):
             return replace(database, errors=errors)
@@ -79,7 +78,7 @@ def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
 
 
 def mask_of(lens: Lens, space: Space) -> PupilMask:
-    """Return the mask in the stop as a source sees it whose chief ray lands at +y."""
+    """Return the pupil mask in the coordinates of a source whose chief ray lands at +y."""
     return mask_seen(lens, Source(wavelength_um=float(space.wavelengths_um[len(space.wavelengths_um) // 2])))
 
 

@@ -1,4 +1,4 @@
-"""What a PSF costs to sum, before it is summed (handbook 7.4)."""
+"""Estimated cost of the sum of a PSF (handbook 7.4)."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from p2sf.paraxial.wavefront import steepest_chords
 
 
 def products(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.ndarray:
-    """Return about how many products the settled sum of each PSF takes, over broadcast coefficients.
+    """Return the estimated number of products of the settled sum of each PSF, over broadcast coefficients.
 
     R rows × C columns of the pupil, folded to a quarter, are summed at h = pixels/2 + 1 places each way, the real and
     the imaginary parts even and odd in y (`psf._seidel_sum`): R·C·h products along the rows, then 2R·h² across them.
@@ -21,7 +21,7 @@ def products(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.nda
 
 
 def _nodes(slope: np.ndarray) -> np.ndarray:
-    """Return how many nodes across the pupil carry a slope in waves: those of `chords_for`, not rounded up."""
+    """Return the nodes across the pupil that resolve a slope in waves: the number of `chords_for`, not rounded up."""
     z = 2 * np.pi * slope
     nodes: np.ndarray = (z + 7 * np.cbrt(z)) / 2 + 4
     return nodes

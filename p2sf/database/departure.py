@@ -1,4 +1,4 @@
-"""How far the coefficients of a database are from those evaluated directly."""
+"""Differences of the coefficients of a database from those evaluated directly."""
 
 import numpy as np
 
@@ -10,8 +10,8 @@ from p2sf.paraxial.seidel import Coefficients
 Points = tuple[np.ndarray, ...]
 """Depth (mm), field slope or slopes and wavelength (µm) of points, as arrays that broadcast; see `Space.nodes`."""
 
-# Of the additive recurrence that fills a cube of n dimensions most evenly (Roberts 2018): steps are powers of 1/g,
-# where gⁿ⁺¹ = g + 1.
+# Additive recurrence that fills a cube of n dimensions most evenly (Roberts 2018): steps are powers of 1/g, gⁿ⁺¹ = g +
+# 1.
 EVEN_ROOTS = {3: 1.2207440846057596, 4: 1.1673039782614187}
 
 
@@ -27,9 +27,9 @@ def scatter(space: Space, count: int, last_depth_mm: float = np.inf) -> Points:
 
 
 def cell_middles(space: Space, last_depth_mm: float = np.inf) -> Points:
-    """Return points in the middle of cells, where interpolation loses most, as axes that broadcast.
+    """Return the centres of cells, where interpolation errors are largest, as axes that broadcast.
 
-    All depths (middles in 1/depth), the outermost field, and half a dozen wavelengths from end to end.
+    All depths (centres in 1/depth), the outermost field, and half a dozen wavelengths over the whole range.
     """
     near = 1 / space.depths_mm[space.depths_mm <= last_depth_mm]
     colours = _middles(space.wavelengths_um)
@@ -54,7 +54,7 @@ def largest(direct: Coefficients) -> dict[str, float]:
 
 
 def path_scale(direct: Coefficients) -> float:
-    """Return the largest optical path, waves, of which coefficients are small differences: n'u'·(distance·u')/2.
+    """Return the largest optical path, waves, whose small differences are the coefficients: n'u'·(distance·u')/2.
 
     The rounding error is a fraction of this path, however small the coefficient itself is.
     """

@@ -48,10 +48,10 @@ T_NODES = np.cos(np.pi * (np.arange(5) + 0.5) / 5)
 class ExactDatabase:
     """Twenty-three numbers per wavelength, as Chebyshev series in wavelength over ``space``.
 
-    ``series``: (terms, 23), mm and mm of path, polynomial coefficients in t = (s − ``middle``)/``half``.
-    ``sensor_mm``: position of the sensor; at any other one the coefficients are as exact. ``errors``: the largest
-    departure of each coefficient from direct evaluation at points between the nodes, in waves. ``mask``: what stands in
-    the pupil, as a source whose chief ray lands at +y sees it; the coefficients do not depend on it.
+    ``series``: (terms, 23), mm and mm of path, polynomial coefficients in t = (s − ``middle``)/``half``. ``sensor_mm``:
+    position of the sensor; at any other position the coefficients are equally exact. ``errors``: the largest departure
+    of each coefficient from direct evaluation at points between the nodes, in waves. ``mask``: the pupil mask in the
+    coordinates of a source whose chief ray lands at +y; the coefficients do not depend on it.
     """
 
     space: Space
@@ -82,7 +82,7 @@ class ExactDatabase:
         return self._evaluate(numbers, vergence(depth_mm), np.asarray(field_slope, dtype=float), wavelength)
 
     def pupil_mm(self, wavelength_um: float) -> float:
-        """Return where the entrance pupil stands, mm from the first vertex."""
+        """Return the position of the entrance pupil, mm from the first vertex."""
         terms = chebyshev_terms(np.asarray(self._reduce(wavelength_um)), len(self.series))
         return float(terms @ self.series[:, PUPIL])
 
@@ -145,9 +145,9 @@ def exact_series(lens: Lens, space: Space, stop: Stop, terms: int) -> tuple[np.n
 
 
 def _range_of_s(pupil: np.ndarray, space: Space) -> tuple[float, float]:
-    """Return middle and half-width of s over the depths asked; DatabaseError when the pupil lies among them.
+    """Return middle and half-width of s over the requested depths; DatabaseError if the pupil lies among them.
 
-    A range from 0 on would lose digits for a lens whose pupil is far away.
+    A range starting at 0 would lose digits for a lens with a distant pupil.
     """
     near = vergence(space.depths_mm[[0, -1], None])
     reach = 1 + pupil * near

@@ -4,9 +4,9 @@ The coefficients of a fit vary smoothly with s = 1/(object to entrance pupil), w
 being the field slope: under h → −h, η → −η nothing changes, so each coefficient is even or odd in h and an odd one
 is h times a function of h². They are stored as optical path (times λ), which is smoother than waves.
 
-Of a lens without symmetry they are functions of the field along x and along y. There a fit stands in the axes of the
-sensor, the same ones for all fields: in those of each field, which turn with its azimuth, nothing would be smooth about
-the axis. A source's own fit follows by turning the polynomials (`turned_fit`).
+For a lens without symmetry they are functions of the field along x and along y. There a fit is in the axes of the
+sensor, the same for all fields: in the axes of each field, which rotate with its azimuth, the coefficients would not be
+smooth about the axis. The fit of a source follows by rotating the polynomials (`turned_fit`).
 """
 
 from dataclasses import dataclass, replace
@@ -25,7 +25,8 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import psf_of_fit, sum_fit
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
-from p2sf.pupil.basis import HALF, WHOLE, Gradient, PupilDomain, PupilValues
+from p2sf.pupil.basis import Gradient, PupilValues
+from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
 from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
@@ -37,10 +38,10 @@ from p2sf.threads import map_threads, one_blas_thread
 class FittedDatabase:
     """Chebyshev series (s, h², wavelength, number) of a fit's coefficients, and the Seidel database of the same lens.
 
-    Over a rectangle of fields (s, h_y, h_x, wavelength, number), and the Seidel database of the lens set straight.
+    Over a rectangle of fields (s, h_y, h_x, wavelength, number), and the Seidel database of the aligned lens.
     ``series``: path in µm for the phase, pure numbers for fx and fy, the chief ray's height (mm) last; over a rectangle
     its x and y on the sensor.
-    ``errors``: the largest RMS phase error in waves where the rays land, at points between the nodes;
+    ``errors``: the largest RMS phase error in waves at the landing points, between the nodes;
     ``residual_waves``: that of the fits themselves.
     """
 
@@ -93,7 +94,7 @@ class FittedDatabase:
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
         """Return the PSF of one source, from looked-up numbers.
 
-        Raises DatabaseError outside the space, SamplingError for a window no nodes can carry.
+        Raises DatabaseError outside the space, SamplingError for a window that needs too many nodes.
         """
         started = perf_counter()
         found = self.fit_at(source)
@@ -127,7 +128,7 @@ class FittedDatabase:
 
 @dataclass(frozen=True)
 class FieldLine:
-    """Fields along one line, which stand for all azimuths: one axis, of h²; fits stand in the axes of the field."""
+    """Fields along one line, which represent all azimuths: one axis, of h²; fits are in the axes of the field."""
 
     domain: PupilDomain = HALF
     chief_numbers: int = 1  # of the chief ray's place on the sensor: y
@@ -149,13 +150,13 @@ class FieldLine:
         return source.field_slope
 
     def turn_deg(self, source: Source) -> float:
-        """Return how far the axes of a source are turned from those of its fit: not at all."""
+        """Return the rotation of the axes of a source from those of its fit: none."""
         return 0.0
 
 
 @dataclass(frozen=True)
 class FieldRectangle:
-    """Fields over a rectangle, in axes of h_y and h_x; fits stand in the axes of the sensor."""
+    """Fields over a rectangle, in axes of h_y and h_x; fits are in the axes of the sensor."""
 
     domain: PupilDomain = WHOLE
     chief_numbers: int = 2  # x and y
@@ -188,7 +189,7 @@ FieldAxes = FieldLine | FieldRectangle
 class Axes:
     """Middle and half-width of s (per mm), fields and wavelength (µm), and the place of the pupil, where s starts.
 
-    ``spread``: which of them vary at all.
+    ``spread``: which of them vary.
     """
 
     fields: FieldAxes
@@ -217,7 +218,7 @@ def fields_of(space: Space) -> FieldAxes:
 
 
 def axes_of(space: Space, seidel: ExactDatabase) -> Axes:
-    """Return the Chebyshev axes of a space; ``seidel`` knows where the entrance pupil is."""
+    """Return the Chebyshev axes of a space; ``seidel`` gives the position of the entrance pupil."""
     fields, colours = fields_of(space), space.wavelengths_um
     pupil = seidel.pupil_mm(float(colours[0] + colours[-1]) / 2)
     near = vergence(space.depths_mm[[0, -1]])
@@ -259,7 +260,7 @@ def turned_fit(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return phase, fx, fy and amplitude of a fit in the sensor's axes in those of an azimuth.
 
-    Seen from there an angle about the pupil is θ − α, and (fx, fy) turns as a vector does.
+    In those axes an angle in the pupil is θ − α, and (fx, fy) rotates as a vector.
     """
     basis, turn = level.basis, np.deg2rad(azimuth_deg)
     sine, cosine = np.sin(turn), np.cos(turn)
@@ -271,7 +272,7 @@ def turned_fit(
 
 
 def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -> Steepness:
-    """Return how steep looked-up polynomials are, at the points of the level's rays, as `ray_field.steepness` does."""
+    """Return the steepness of looked-up polynomials at the points of the level's rays, as `ray_field.steepness`."""
     xi, eta, _ = level_rays(level)
     rho, sine = np.hypot(xi, eta), np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
     slopes, values = _terms_at_rays(level)

@@ -23,7 +23,7 @@ from p2sf.threads import one_blas_thread
 
 START = {3: (4, 4, 4), 4: (4, 5, 5, 4)}  # nodes along s, h² and wavelength, or s, h_y, h_x and wavelength
 MOST_NODES = 24
-TOLERANCE_WAVES = 1e-3  # RMS phase where the rays land; the fit itself is allowed three times that
+TOLERANCE_WAVES = 1e-3  # RMS phase at the landing points; the fit itself is allowed three times that
 HELD_OUT = {3: 12, 4: 24}  # points between the nodes, by the number of axes
 
 
@@ -40,9 +40,9 @@ def build_fitted(
 ) -> FittedDatabase:
     """Return the fitted database of a lens; nodes are added until points between them agree to the tolerance.
 
-    ``numbers`` of each fit, those of a level; by default as many as the residuals at the corners ask for. A lens
-    that is not of rotational symmetry needs a space whose fields fill a rectangle, and any other may have one.
-    Raises DatabaseError where MOST_NODES are not enough, GeometryError where rays do not reach the sensor.
+    ``numbers`` of each fit, those of a level; by default as many as the residuals at the corners require. A lens
+    without rotational symmetry requires a space whose fields fill a rectangle; any other lens may have one. Raises
+    DatabaseError if MOST_NODES are not enough, GeometryError if rays do not reach the sensor.
     """
     if space.field_x_slopes is None:
         check_aligned(lens, Message("a database of fields along one line"), ACROSS)
@@ -50,7 +50,7 @@ def build_fitted(
     seidel = replace(build_exact(average_azimuths(lens), space.line, stop), space=space)
     axes = axes_of(space, seidel)
     level, left = _level_for(lens, axes, stop, numbers)
-    lens = with_mask(lens, CLEAR)  # the fits are those of the whole disc; their residuals are those of its open part
+    lens = with_mask(lens, CLEAR)  # fits are over the whole disc, their residuals over its open part
     held = list(held_out(lens, space, level, stop))
     counts = [count if spread else 1 for count, spread in zip(START[len(axes.spread)], axes.spread, strict=True)]
     while max(counts) <= MOST_NODES:
@@ -71,7 +71,7 @@ def build_fitted(
 
 
 def _level_for(lens: Lens, axes: Axes, stop: Stop, numbers: int | None) -> tuple[Level, float]:
-    """Return the highest level that a corner of the space needs, and the largest residual at that level."""
+    """Return the highest level required at a corner of the space, and the largest residual at that level."""
     corners = [axes.source(place) for place in product(*([-1.0, 1.0] if spread else [0.0] for spread in axes.spread))]
     level = max((fit(lens, corner, numbers, stop=stop).level for corner in corners), key=lambda level: level.numbers)
     left = max(fit(lens, corner, level.numbers, stop=stop).residual_waves for corner in corners)
@@ -92,7 +92,7 @@ def traced_series(lens: Lens, axes: Axes, level: Level, counts: Sequence[int], s
 def _rows_at(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray], stop: Stop) -> np.ndarray:
     """Return the numbers of all sources at the nodes, divided by `powers`: (depths, fields, waves, numbers).
 
-    The depths and wavelengths of one field are traced together, since they see the lens from the same side.
+    The depths and wavelengths of one field are traced together, since they share an azimuth.
     """
     depths, *fields, waves = nodes
     found = []
@@ -113,7 +113,7 @@ def _rows_at(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray], 
 def rays_on_sensor(
     lens: Lens, sources: Sequence[Source], level: Level, stop: Stop | None = None
 ) -> tuple[Rays, np.ndarray]:
-    """Return the rays of a level, (source, ray), in the sensor's axes, and where chief rays land, (source, 2) mm.
+    """Return the rays of a level, (source, ray), in the sensor's axes, and chief rays' landing points, (source, 2) mm.
 
     The sources share one azimuth. The pupil's axes are those of the sensor as well. Raises GeometryError where a ray
     does not reach the sensor.
@@ -136,7 +136,7 @@ def held_out(
 def ray_error(
     database: FittedDatabase, source: Source, direct: FittedPencil, x_um: np.ndarray, y_um: np.ndarray
 ) -> float:
-    """Return the RMS phase error in waves of looked-up numbers against the fit itself, where the rays land."""
+    """Return the RMS phase error in waves of looked-up numbers against the fit itself, at the landing points."""
     level = database.level
     phase, fx, fy, _, _ = split(level, database.numbers_at(source))
     difference = replace(direct, phase=phase - direct.phase, fx=fx - direct.fx, fy=fy - direct.fy)

@@ -1,9 +1,9 @@
 """Databases on nodes: the rule of the paper, and linear interpolation (handbook 7.2).
 
-The paper (Pieroni et al. 2015, table 1) names for each coefficient how it varies with depth and with field.
-"Inverse" is taken as a + b/d through the two nodes on either side of the point, "linear", "quadratic" and "cubic" as
-the polynomial through the nearest two, three and four, "constant" as the nearest node. On wavelength the
-paper says nothing: optical path is interpolated linearly between the two nodes on either side.
+The paper (Pieroni et al. 2015, table 1) states how each coefficient varies with depth and field. "Inverse" is taken as
+a + b/d through the two nodes on either side of the point, "linear", "quadratic" and "cubic" as the polynomial through
+the nearest two, three and four, "constant" as the nearest node. The paper does not mention wavelength: optical path is
+interpolated linearly between the two nodes on either side.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ from p2sf.pupil.mask import CLEAR, PupilMask
 
 
 class Depth(NamedTuple):
-    """How parts are interpolated over depth: in 1/depth or in depth, from how many nodes, and which parts."""
+    """Interpolation of parts over depth: in 1/depth or in depth, the number of nodes, and the parts."""
 
     inverse: bool
     nodes: int
@@ -34,7 +34,7 @@ class Depth(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """An interpolation rule: groups of parts over depth, and how many nodes each coefficient takes over field."""
+    """An interpolation rule: groups of parts over depth, and the number of nodes of each coefficient over field."""
 
     depth: tuple[Depth, ...]
     field: dict[str, int]
@@ -42,7 +42,7 @@ class Rule(NamedTuple):
 
 
 SCALES = ("nu", "y")  # the marginal ray, which scales the PSF: almost linear in 1/depth
-PER_WAVELENGTH = ("chief", "image_index")  # parts that depend on wavelength alone
+PER_WAVELENGTH = ("chief", "image_index")  # parts that depend only on wavelength
 RULES = {
     "table1": Rule(
         (
@@ -90,7 +90,7 @@ class GridDatabase:
 
     @cached_property
     def last_depth_mm(self) -> float:
-        """Return the farthest depth up to which the rule has no gap, mm."""
+        """Return the largest depth up to which the rule has no gap, mm."""
         depths = self.space.depths_mm
         finite = depths[np.isfinite(depths)]
         return float(finite[-1] if self.rule.finite_only and finite.size else depths[-1])
@@ -144,7 +144,7 @@ class GridDatabase:
 
     @cached_property
     def _places(self) -> list[int]:
-        """Return the place of each part among all columns of the tables."""
+        """Return the index of each part among all columns of the tables."""
         given = [name for group in self.rule.depth for name in group.parts]
         return [given.index(name) for name in PARTS]
 
@@ -157,7 +157,7 @@ class GridDatabase:
         return self._at_infinity(depth, first, weights)
 
     def _at_infinity(self, depth: Numbers, first: Numbers, weights: list[Numbers]) -> Stencil:
-        """Return the stencil with infinity as a node by itself, from which nothing is interpolated."""
+        """Return the stencil with infinity as a separate node, from which nothing is interpolated."""
         last = len(self.space.depths_mm) - 1
         if isinstance(depth, float):
             return (last, [1.0]) if depth == np.inf else (first, weights)
@@ -202,7 +202,7 @@ class GridDatabase:
 
     @cached_property
     def _one(self) -> list[list[list[float]]]:
-        """Return the same tables as plain rows, one per node: ten times faster where one point is looked up."""
+        """Return the same tables as plain rows, one per node: ten times faster for a single point."""
         return [table.T.tolist() for table in self._many]
 
 

@@ -1,4 +1,4 @@
-"""What every database stores per (depth, wavelength), and how the six coefficients follow from it.
+"""The quantities that every database stores per (depth, wavelength), and the six coefficients computed from them.
 
 Everything is stored as mm of optical path at unit field slope, so that neither the 1/λ of waves nor the powers of
 the field have to be interpolated.
@@ -22,7 +22,7 @@ Numbers = Any
 
 
 class Parts(NamedTuple):
-    """Coefficients at unit field slope, mm of path, and what scales the PSF.
+    """Coefficients at unit field slope, mm of path, and the quantities that scale the PSF.
 
     ``nu`` is the reduced marginal slope n'u', ``y`` the marginal height at the last vertex (mm),
     ``chief`` the paraxial chief ray's height on the sensor at unit field slope (mm).
@@ -44,7 +44,7 @@ PARTS = Parts._fields
 
 
 def parts_of(lens: Lens, rays: ParaxialRays) -> Parts:
-    """Return what a database stores for these paraxial rays (Welford 1986, eq. 8.40)."""
+    """Return the stored quantities for these paraxial rays (Welford 1986, eq. 8.40)."""
     total = seidel_sums(lens, rays).total()
     index = rays.index[-1]
     return Parts(
@@ -67,7 +67,7 @@ def traced_parts(lens: Lens, depth_mm: float | np.ndarray, wavelength_um: float 
 
 
 def assemble(parts: Parts, powers: Sequence[Numbers], wavelength_um: Numbers) -> Coefficients:
-    """Return coefficients in waves from parts and the powers 1, 2, 3 of the field, numbers or arrays alike."""
+    """Return coefficients in waves from parts and the powers 1, 2, 3 of the field, for numbers or arrays."""
     waves = UM_PER_MM / wavelength_um
     first, second, third = powers
     return Coefficients(

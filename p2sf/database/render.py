@@ -23,11 +23,11 @@ Points = Iterable[ArrayLike]
 
 
 class Database(Protocol):
-    """A coefficient database of any kind; one whose PSFs are more than six coefficients renders them itself."""
+    """A coefficient database of any kind; one with more than six coefficients per PSF renders them itself."""
 
     @property
     def space(self) -> Space:
-        """Return the space that is covered."""
+        """Return the space covered."""
 
     @property
     def method(self) -> str:
@@ -35,7 +35,7 @@ class Database(Protocol):
 
     @property
     def interpolant(self) -> str:
-        """Return how points between the nodes are found."""
+        """Return the method of interpolation between the nodes."""
 
     @property
     def errors(self) -> dict[str, float]:
@@ -43,7 +43,7 @@ class Database(Protocol):
 
     @property
     def mask(self) -> PupilMask:
-        """Return what stands in the pupil, as a source whose chief ray lands at +y sees it."""
+        """Return the pupil mask in the coordinates of a source whose chief ray lands at +y."""
 
     def __hash__(self) -> int:
         """Return the hash of its identity."""
@@ -74,10 +74,10 @@ def render_source(
 ) -> np.ndarray:
     """Return unit-sum PSFs, (*points' broadcast shape, pixels, pixels), at (depth mm, slope, wavelength µm).
 
-    Their chief rays land at +y (azimuth 0): behind a mask that is not round, `database_psf` gives those of another.
-    They are summed in batches (`seidel_stack`), so that little more memory than the result is used, and by ``threads``
-    (`p2sf.threads`), whose number does not change a bit of them. Raises
-    DatabaseError outside the database's space, GeometryError and SamplingError where there is no PSF to sample.
+    Their chief rays land at +y (azimuth 0); for other azimuths behind a mask that is not round use `database_psf`. They
+    are summed in batches (`seidel_stack`), so that little more memory than the result is used, and by ``threads``
+    (`p2sf.threads`), whose number does not change the result. Raises DatabaseError outside the database's space,
+    GeometryError and SamplingError if there is no PSF to sample.
     """
     if hasattr(database, "rendered"):
         values: np.ndarray = database.rendered(points, sampling, dtype, threads)
@@ -97,7 +97,7 @@ def rendered_light(
     dtype: DTypeLike = np.float32,
     threads: int | None = None,
 ) -> np.ndarray:
-    """Return what `render_source` does, as light per pixel where the pitch exceeds that of `critical_pixel_um`."""
+    """Return PSFs as `render_source`, as light per pixel if the pitch exceeds that of `critical_pixel_um`."""
     return light_of(database, points, sampling, samples_per_pixel(database, sampling), dtype, threads)
 
 
@@ -110,7 +110,7 @@ def light_of(
     dtype: DTypeLike = np.float32,
     threads: int | None = None,
 ) -> np.ndarray:
-    """Return `rendered_light` where ``across``, from `samples_per_pixel`, is known; that asks every depth and colour.
+    """Return `rendered_light` for a known ``across`` from `samples_per_pixel`, which evaluates every depth and colour.
 
     Each thread takes one PSF after the other: the finer samples may be a hundred times as many.
     """
@@ -131,12 +131,12 @@ def light_of(
 
 
 def fine_sampling(sampling: Sampling, pixel_um: float, across: int) -> Sampling:
-    """Return the samples that are added up over pixels of this pitch, ``across`` of them along each."""
+    """Return the samples to be summed over pixels of this pitch, ``across`` of them along each."""
     return replace(sampling, pixels=pixel_integrals.fine_side(sampling.pixels, across), pixel_um=pixel_um / across)
 
 
 def samples_per_pixel(database: Database, sampling: Sampling) -> int:
-    """Return how many samples across a pixel its light takes; 1 where samples stay at points."""
+    """Return the number of samples across a pixel for its light; 1 for point samples."""
     critical = critical_pixel_um(database)
     return pixel_integrals.samples_across(sampling.pixels, sampling.pixel_um or critical, critical)
 
@@ -161,7 +161,7 @@ def pixels_psf(
 def database_psf(database: Database, source: Source, pixels: int = 64, pixel_um: float | None = None) -> Psf:
     """Return the settled PSF of one source, float64, looked up instead of traced; errors as `render_source`.
 
-    The mask is turned against the source's azimuth, as `raytrace.seen_mask` has it.
+    The mask is rotated against the source's azimuth, as in `raytrace.seen_mask`.
     """
     if hasattr(database, "psf"):
         own: Psf = database.psf(source, pixels, pixel_um)

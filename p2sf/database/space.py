@@ -24,7 +24,7 @@ FIELD_X, FIELD_Y = Message("field x"), Message("field y")
 
 @dataclass(frozen=True, eq=False)
 class Space:
-    """Nodes along each axis, ascending; a database covers all between the outermost ones.
+    """Nodes along each axis, ascending; a database covers everything between the outermost ones.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Space:
         Wavelengths, shape (wavelengths,), µm.
     field_x_slopes
         Chief-ray slopes along x, shape (fields x,), of a space whose fields fill a rectangle, as a lens without
-        symmetry needs them. None: fields along one line, which stand for all azimuths.
+        symmetry needs them. None: fields along one line, which represent all azimuths.
     """
 
     depths_mm: np.ndarray
@@ -70,7 +70,7 @@ class Space:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Return how many nodes there are along each axis."""
+        """Return the number of nodes along each axis."""
         return tuple(len(nodes) for nodes in self.nodes)
 
     @property
@@ -135,7 +135,7 @@ def _in_nm(wavelength_um: float) -> float:
     return wavelength_um * NM_PER_UM
 
 
-# How errors show each axis: its name, its unit and the conversion to that unit.
+# Each axis in error messages: its name, its unit and the conversion to that unit.
 SHOWN_AXES = (
     (DEPTH, Message("mm"), _same),
     (FIELD, Message("degrees"), _in_degrees),
@@ -144,7 +144,7 @@ SHOWN_AXES = (
 
 
 def _widen(nodes: np.ndarray) -> Limits:
-    """Return the outermost nodes, moved out by ROUNDING."""
+    """Return the outermost nodes, extended by ROUNDING."""
     low, high = float(nodes[0]), float(nodes[-1])
     return (low - ROUNDING * abs(low) if isfinite(low) else low), high + ROUNDING * abs(high)
 

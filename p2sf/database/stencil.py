@@ -18,7 +18,7 @@ Table = list[list[float]] | np.ndarray
 
 
 class NodeAxis:
-    """Ascending nodes that are searched for one number or for an array."""
+    """Ascending nodes, searched for one number or an array."""
 
     def __init__(self, nodes: np.ndarray) -> None:
         self.nodes = nodes
@@ -28,8 +28,8 @@ class NodeAxis:
     def stencil(self, at: Numbers, count: int) -> Stencil:
         """Return the ``count`` consecutive nodes nearest to a point: the first of them, and the list of their weights.
 
-        The weights are Lagrange's: they give the value of the polynomial of degree count − 1 through the nodes. Where
-        the axis has fewer nodes, all are taken.
+        The weights are Lagrange's: they give the value of the polynomial of degree count − 1 through the nodes. If the
+        axis has fewer nodes, all are used.
         """
         if count not in self.rules:
             self.rules[count] = self._rule(min(count, len(self.numbers)))
@@ -52,7 +52,7 @@ class NodeAxis:
 
 
 class StencilRule(NamedTuple):
-    """Stencils of so many ``nodes``: they change at ``breaks`` and begin ``before`` nodes earlier, at ``last`` at most.
+    """Stencils of ``nodes`` nodes: they change at ``breaks`` and start ``before`` nodes earlier, at ``last`` at most.
 
     ``scales``: for every stencil 1/Π(node − other node), the constant factors of Lagrange's weights.
     """
@@ -68,7 +68,7 @@ def lagrange(nodes: Sequence[Numbers], scales: Sequence[Numbers] | np.ndarray, a
     """Return Lagrange's weights of the polynomial through ``nodes`` at a point; ``scales`` as `NodeAxis` keeps them."""
     if len(nodes) == 1:
         return [1.0]
-    if len(nodes) == 2:  # by far the most frequent case
+    if len(nodes) == 2:  # by far the most common case
         share = (at - nodes[0]) * scales[1]
         return [1.0 - share, share]
     steps = [at - node for node in nodes]

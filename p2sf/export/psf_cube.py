@@ -7,12 +7,10 @@ from typing import Protocol
 import numpy as np
 
 from p2sf.arguments import check_arguments
-from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.files import Stored, load_database
 from p2sf.database.files.place import is_stack
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
-from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 
 MOST_BYTES = 1 << 31
@@ -58,22 +56,17 @@ class Cube:
     @property
     def depths_mm(self) -> np.ndarray:
         """Return the depth of each PSF along the first axis, mm."""
-        return self._space.depths_mm
+        return self.stored.depths_mm
 
     @property
     def fields_deg(self) -> np.ndarray:
         """Return the field angle along the second axis, degrees."""
-        return degrees_from_slope(self._space.field_slopes)
+        return self.stored.fields_deg
 
     @property
     def wavelengths_nm(self) -> np.ndarray:
         """Return the wavelength along the third axis, nm."""
-        return self._space.wavelengths_um * NM_PER_UM
-
-    @property
-    def _space(self) -> Space:
-        space: Space = self.stored.database.space
-        return space
+        return self.stored.wavelengths_nm
 
 
 @check_arguments

@@ -1,6 +1,6 @@
-"""Files written whole or not at all, and archives of arrays read safely.
+"""Files written atomically, and archives of arrays read safely.
 
-`raster_size` limits the size that a picture file may claim, before it is unpacked; it loads with the readers of photos.
+`raster_size` limits the size that an image file may declare, before it is unpacked; the readers of photos use it.
 """
 
 from p2sf.files.atomic import DAMAGED, read_arrays, write_whole

@@ -1,4 +1,4 @@
-"""Files written whole or not at all, even when an error, a full disk or a kill ends the writing; reading archives."""
+"""Files written atomically, even if an error, a full disk or a kill interrupts the writing; reading archives."""
 
 import os
 import secrets
@@ -13,7 +13,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-# What a damaged archive raises: numpy parses its headers as Python, and zip and its packers have their own errors.
+# Errors for a damaged archive: numpy parses headers as Python, and zip and its compressors raise their own.
 DAMAGED = (
     BadZipFile,
     zlib.error,
@@ -31,7 +31,7 @@ DAMAGED = (
 
 
 def read_arrays(file: str | os.PathLike | BinaryIO) -> dict[str, np.ndarray]:
-    """Return the arrays of an .npz file or stream; ValueError for a damaged or another file, OSError as `open`."""
+    """Return the arrays of an .npz file or stream; ValueError for a damaged or other file, OSError as `open`."""
     try:
         with np.load(file, allow_pickle=False) as archive:
             return dict(archive)
@@ -42,8 +42,8 @@ def read_arrays(file: str | os.PathLike | BinaryIO) -> dict[str, np.ndarray]:
 def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) -> None:
     """Call ``write`` with a new file in the folder of ``path``, then rename it to ``path``; raises OSError.
 
-    Whatever fails, a file already at ``path`` keeps its contents and no partial file is left. A kill leaves none
-    either where the system has files without a name.
+    On failure an existing file at ``path`` keeps its contents and no partial file is left; after a kill as well where
+    the system supports files without a name.
     """
     target = Path(path).resolve()
     part = target.with_name(f".{secrets.token_hex(6)}.part")
@@ -62,13 +62,13 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
 
 
 def _nameless_file(folder: Path) -> BinaryIO | None:
-    """Return a new file without a name, which ends with its process; None where the system has no such files."""
+    """Return a new file without a name, which vanishes with its process; None where the system has no such files."""
     try:
         number = os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)
     except (AttributeError, OSError):
         return None
     try:
-        # Opened by its path, because some writers ask a handle for its name, which a descriptor does not have.
+        # Opened by its path, because some writers ask for the name of a handle, which a descriptor lacks.
         return open(f"/proc/self/fd/{number}", "r+b")
     except OSError:
         return None
@@ -79,6 +79,6 @@ def _nameless_file(folder: Path) -> BinaryIO | None:
 def _name(handle: BinaryIO, path: Path) -> None:
     """Give an unnamed file a name, as in open(2), O_TMPFILE.
 
-    A folder's descriptor makes Python follow the link of /proc; an absolute path ignores which one it is.
+    With a folder's descriptor Python follows the link in /proc; the absolute path makes the folder irrelevant.
     """
     os.link(f"/proc/self/fd/{handle.fileno()}", path, src_dir_fd=handle.fileno(), follow_symlinks=True)

@@ -1,4 +1,4 @@
-"""Limits to the size that a picture file claims, checked before memory is taken for it."""
+"""Limits to the size that an image file declares, checked before memory is allocated for it."""
 
 from logging import NullHandler
 from math import prod
@@ -7,18 +7,18 @@ from typing import BinaryIO
 
 import numpy as np
 
-SAMPLES = 50_000_000  # that any file may hold
-PER_BYTE = 20  # that a large file may hold for each of its bytes: photos come to 2, charts to 10
+SAMPLES = 50_000_000  # samples in any file
+PER_BYTE = 20  # samples per byte of a large file: photos have 2, charts 10
 LONGEST = 65_535  # pixels on a side, as in JPEG
-SILENT = NullHandler()  # tifffile logs every fault of a file, which is one exception here
+SILENT = NullHandler()  # tifffile logs every defect of a file; here it is one exception
 
 
 class OversizedError(ValueError):
-    """A picture of more samples than are unpacked; the file itself may be sound."""
+    """An image with too many samples to unpack; the file itself may be valid."""
 
 
 def check_samples(shape: tuple[int, ...], size: int) -> None:
-    """Raise OversizedError for more samples than ``size`` bytes can reasonably hold, ValueError for no samples."""
+    """Raise OversizedError for more samples than ``size`` bytes can plausibly hold, ValueError for none."""
     claim = " × ".join(map(str, shape))
     reason = f"{claim} samples in {size} bytes, at most {LONGEST} on a side and {SAMPLES:,} in all"
     if not prod(shape):
@@ -28,11 +28,10 @@ def check_samples(shape: tuple[int, ...], size: int) -> None:
 
 
 def first_page(source: str | PathLike | BinaryIO) -> tuple[np.ndarray, str]:
-    """Return the samples of a TIFF's first page and its description.
+    """Return the samples of the first page of a TIFF and its description.
 
-    ``source`` is a path or a stream. Raises ValueError for a file that is not a TIFF and for a page of more strips and
-    tiles, each of which takes bytes, than the file has bytes; OSError as `open`, and tifffile's own errors for a
-    damaged file.
+    ``source`` is a path or a stream. Raises ValueError for a file that is not a TIFF and for a page with more strips
+    and tiles than the file has bytes; OSError as `open`, and tifffile's own errors for a damaged file.
     """
     import tifffile
 

@@ -1,4 +1,4 @@
-"""Result files and JSON, written beside their place and then renamed; failures are `ExportError`."""
+"""Result files and JSON, written to a temporary file beside the target and renamed; failures are `ExportError`."""
 
 import errno
 import json
@@ -32,7 +32,7 @@ REMEDIES = {
 
 
 def write_json(path: str | PathLike, value: dict[str, Any]) -> Path:
-    """Write a JSON object, whole or not at all; values that are not finite become null. Raises ExportError."""
+    """Write a JSON object atomically; values that are not finite become null. Raises ExportError."""
     text = json.dumps(plain(value), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     return write_beside(path, lambda handle: handle.write(text.encode()))
 
@@ -40,7 +40,7 @@ def write_json(path: str | PathLike, value: dict[str, Any]) -> Path:
 def write_beside(path: str | PathLike, write: Callable[[BinaryIO], object]) -> Path:
     """Call ``write`` with a new file next to ``path``, then rename it to ``path``; raises ExportError.
 
-    Whatever fails, a file already at ``path`` keeps its contents and no partial file is left.
+    On failure an existing file at ``path`` keeps its contents and no partial file is left.
     """
     try:
         write_whole(path, write)
@@ -50,7 +50,7 @@ def write_beside(path: str | PathLike, write: Callable[[BinaryIO], object]) -> P
 
 
 def check_place(path: str | PathLike) -> None:
-    """Raise ExportError where `write_beside` is bound to fail: the folder is missing, or ``path`` is a folder."""
+    """Raise ExportError if `write_beside` cannot succeed: the folder is missing, or ``path`` is a folder."""
     target = Path(path).resolve()
     wrong = errno.EISDIR if target.is_dir() else 0 if target.parent.is_dir() else errno.ENOENT
     if wrong:
@@ -58,7 +58,7 @@ def check_place(path: str | PathLike) -> None:
 
 
 def check_ending(name: str, path: str | PathLike[str], ending: str, wanted: Message) -> None:
-    """Raise ExportError for a file whose name does not end as its kind, ``wanted``, does."""
+    """Raise ExportError unless the name of a file of the kind ``wanted`` has its ending."""
     if Path(path).suffix.lower() != ending:
         raise ExportError(
             "{parameter} is {path}; {wanted}, choose a name that ends in {ending}",
@@ -76,7 +76,7 @@ def _unwritable(path: str | PathLike, error: OSError) -> ExportError:
 
 
 def plain(value: object) -> Any:
-    """Return numbers, texts, lists and dicts that JSON can carry; a float that is not finite becomes None."""
+    """Return a value as JSON types: numbers, strings, lists and dicts; a float that is not finite becomes None."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):

@@ -12,7 +12,7 @@ from p2sf.glass.dispersion import LINES_UM, refractive_index
 from p2sf.glass.pages import SUPPLIERS, Kind, Page, page, page_names
 from p2sf.messages import Alternatives, Message
 
-# Two makers' glasses of one name are the same glass where their indices agree to the last digit of a data sheet.
+# Glasses of two makers with one name are the same glass if their indices agree to the last digit of a data sheet.
 SAME_INDEX = 1e-5
 PROBES_UM = (LINES_UM["F"], LINES_UM["d"], LINES_UM["C"])
 
@@ -33,8 +33,8 @@ class CatalogueEntry:
 def find_entry(text: str) -> CatalogueEntry:
     """Return the glass named "MAKER NAME", "NAME", or "shelf/book/page" of refractiveindex.info.
 
-    Case does not matter. Raises GlassError, naming candidates, for a name that is in no catalogue or that
-    several makers sell with different indices.
+    Case does not matter. Raises GlassError, naming candidates, for a name in no catalogue or one that several makers
+    use for glasses of different indices.
     """
     words = text.split()
     if text.count("/") == 2:
@@ -75,7 +75,7 @@ def _unambiguous(text: str, entries: list[CatalogueEntry]) -> CatalogueEntry:
 
 
 def _fingerprint(entry: CatalogueEntry) -> str | tuple[int, ...]:
-    """Return rounded indices at F, d, C, or the label itself where the data do not reach them."""
+    """Return rounded indices at F, d, C, or the label itself if the data do not include these lines."""
     low, high = entry.range_um
     if low > PROBES_UM[0] or high < PROBES_UM[-1]:
         return entry.label
@@ -83,7 +83,7 @@ def _fingerprint(entry: CatalogueEntry) -> str | tuple[int, ...]:
 
 
 def _label_with_index(entry: CatalogueEntry) -> Message:
-    """Return a glass's label in quotation marks, with its nd where the data reach the d line."""
+    """Return a glass's label in quotation marks, with its nd if the data include the d line."""
     low, high = entry.range_um
     if not low <= LINES_UM["d"] <= high:
         return Message('"{glass}"', glass=entry.label)
@@ -92,7 +92,7 @@ def _label_with_index(entry: CatalogueEntry) -> Message:
 
 
 def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> Message:
-    """Return "did you mean …?" with the labels whose name without the maker is near ``name``, in capitals."""
+    """Return "did you mean …?" with the labels whose name without the maker is similar to ``name``, in capitals."""
     by_name: dict[str, list[str]] = {}
     for label, key in labels.items():
         by_name.setdefault(key[1], []).append(label)
@@ -126,7 +126,7 @@ def _makers() -> frozenset[str]:
 
 @cache
 def _labels() -> dict[str, tuple[str, str]]:
-    """Return "MAKER Name" as a lens file writes it → (MAKER, NAME)."""
+    """Return "MAKER Name" as written in a lens file → (MAKER, NAME)."""
     return {_label(key): key for key in _shelf()}
 
 
@@ -147,7 +147,7 @@ def _from_shelf(key: tuple[str, str]) -> CatalogueEntry:
 
 
 def _entry(label: str, name: str) -> CatalogueEntry:
-    """Return the page "shelf/book/page" under a label; GlassError where it has no index."""
+    """Return the page "shelf/book/page" under a label; GlassError if it has no index."""
     try:
         found = page(name)
     except KeyError:

@@ -1,4 +1,4 @@
-"""Make the file of dispersion data from a copy of the refractiveindex.info database.
+"""Create the file of dispersion data from a copy of the refractiveindex.info database.
 
 ``python -m p2sf.glass.collect DATABASE RELEASE``, where DATABASE is the folder with ``catalog-nk.yml`` and ``data``
 (of the database's repository, or of the package ``refractiveindex``) and RELEASE its name, such as v2026-05-24. The
@@ -13,22 +13,22 @@ from typing import Any
 
 from p2sf.glass.pages import DATA, LONGEST_TABLE, SUPPLIERS, Kind
 
-PAIRED = "1", "2", "3", "4", "5", "6"  # the formulas of a constant and pairs of coefficients
+PAIRED = "1", "2", "3", "4", "5", "6"  # formulas with a constant and pairs of coefficients
 
 
 def lines(database: Path) -> Iterator[str]:
-    """Yield the line of every whole page: name, kind, wavelengths in µm and numbers, as `pages.Page` has them."""
+    """Yield the line of every complete page: name, kind, wavelengths in µm and numbers, as in `pages.Page`."""
     for name, path in sorted(catalogue(database).items()):
         indices = [part for part in _yaml(database / "data" / path)["DATA"] if part["type"] != "tabulated k"]
         fields = _fields(name, indices[0]) if indices else (Kind.ABSORPTION,)
         if fields[0] in PAIRED and len(fields[2].split()) % 2 == 0:
-            print(f"{name} is passed over: a resonance or a power lacks its second coefficient", file=sys.stderr)
+            print(f"{name} is skipped: a resonance or a power lacks its second coefficient", file=sys.stderr)
         else:
             yield "\t".join((name, *fields))
 
 
 def catalogue(database: Path) -> dict[str, str]:
-    """Return shelf/book/page → the path of its data; dividers, which have no such keys, are passed over."""
+    """Return shelf/book/page → the path of its data; dividers, which have no such keys, are skipped."""
     return {
         f"{shelf['SHELF']}/{book['BOOK']}/{page['PAGE']}": page["data"]
         for shelf in _yaml(database / "catalog-nk.yml")
@@ -57,7 +57,7 @@ def _yaml(path: Path) -> Any:
     import yaml  # type: ignore[import-untyped]  # PyYAML has no annotations
 
     with open(path, encoding="utf-8") as handle:
-        return yaml.load(handle, Loader=yaml.CBaseLoader)  # every value as the text it is written in
+        return yaml.load(handle, Loader=yaml.CBaseLoader)  # keeps every value as text
 
 
 def main(database: str, release: str) -> None:

@@ -28,7 +28,7 @@ def refractive_index(page: Page, wavelength_um: Values) -> np.ndarray:
 def _poles(c: Coefficients, square: Values) -> Values:
     """Return Σ B λ²/(λ² − C) over the pairs (B, C), C in µm²."""
     total: Values = 0.0
-    for b, pole in zip(c[::2], c[1::2], strict=True):  # half the time of a generator, on a slider's path
+    for b, pole in zip(c[::2], c[1::2], strict=True):  # takes half the time of a generator, which matters for sliders
         total = total + b * square / (square - pole)
     return total
 
@@ -42,7 +42,7 @@ def _powers(c: Coefficients, wavelength: Values) -> Values:
 
 
 def sellmeier(c: Coefficients, wavelength: Values) -> Values:
-    """Evaluate formula 1, resonances as wavelengths: n² − 1 = c₁ + Σ Bλ²/(λ² − C²) (Sellmeier, 1871)."""
+    """Evaluate formula 1, with resonance wavelengths: n² − 1 = c₁ + Σ Bλ²/(λ² − C²) (Sellmeier, 1871)."""
     square = wavelength * wavelength
     poles: Values = sum(b * square / (square - w * w) for b, w in zip(c[1::2], c[2::2], strict=True))
     return np.sqrt(1 + c[0] + poles)
@@ -97,17 +97,17 @@ def exotic(c: Coefficients, wavelength: Values) -> Values:
 
 
 def interpolate_index(wavelengths_um: Sequence[float], values: Sequence[float], wavelength: Values) -> Values:
-    """Return a table's n through the four nearest points in λ⁻², where a glass is nearly a straight line.
+    """Return n of a table, interpolated through the four nearest points in λ⁻², in which a glass is nearly linear.
 
-    ``wavelengths_um`` ascending. Straight lines in λ between makers' usual wavelengths err by up to 8e-4, this by
-    less than 1e-5.
+    ``wavelengths_um`` ascending. Linear interpolation in λ between the makers' usual wavelengths errs by up to 8e-4,
+    this by less than 1e-5.
     """
     x = np.array(wavelengths_um[::-1]) ** -2.0
     return through_neighbours(x, np.array(values[::-1]), wavelength**-2.0)
 
 
 def through_neighbours(x: np.ndarray, y: np.ndarray, at: Values) -> Values:
-    """Return the polynomial through the (up to) four samples around each ``at``; ``x`` (samples,) ascending.
+    """Return the polynomial through up to four samples around each ``at``; ``x`` (samples,) ascending.
 
     Lagrange's formula; shape of ``at``.
     """

@@ -26,7 +26,7 @@ class Medium(Protocol):
 
     @property
     def label(self) -> str:
-        """Return the name of this medium, as a lens file writes it where it can."""
+        """Return the name of this medium, as written in a lens file if possible."""
 
     @property
     def range_um(self) -> Range:
@@ -37,20 +37,20 @@ class Medium(Protocol):
 
 
 def transmittance_of(medium: Medium) -> InternalTransmittance | None:
-    """Return the ``transmittance`` of a medium; None where it has none, and so nothing is known of its absorption."""
+    """Return the ``transmittance`` of a medium; None if its absorption is unknown."""
     found: InternalTransmittance | None = getattr(medium, "transmittance", None)
     return found
 
 
 @dataclass(frozen=True)
 class ConstantIndex:
-    """A medium of one index at every wavelength."""
+    """A medium with the same index at every wavelength."""
 
     value: float
 
     @property
     def label(self) -> str:
-        """Return the index as a lens file writes it."""
+        """Return the index as written in a lens file."""
         return repr(self.value)
 
     @property
@@ -59,13 +59,13 @@ class ConstantIndex:
         return None
 
     def index(self, wavelength_um: ArrayLike) -> np.ndarray:
-        """Return the one index, in the shape of ``wavelength_um``."""
+        """Return the index in the shape of ``wavelength_um``."""
         return np.full(np.shape(wavelength_um), self.value)
 
 
 @dataclass(frozen=True)
 class TabulatedIndex:
-    """An index known at a few wavelengths in ascending order, with straight lines between them."""
+    """An index known at a few wavelengths in ascending order, interpolated linearly."""
 
     wavelengths_um: tuple[float, ...]
     values: tuple[float, ...]
@@ -89,7 +89,7 @@ class CatalogueGlass:
 
     @property
     def label(self) -> str:
-        """Return maker and name, as a lens file writes them."""
+        """Return maker and name, as written in a lens file."""
         return self.entry.label
 
     @property
@@ -98,7 +98,7 @@ class CatalogueGlass:
         return self.entry.range_um
 
     def __hash__(self) -> int:
-        return hash(self.entry.label)  # hashed per surface and slider step, and coefficients are slow to hash
+        return hash(self.entry.label)  # hashed for each surface and slider step, and coefficients are slow to hash
 
     def index(self, wavelength_um: ArrayLike) -> np.ndarray:
         """Return the maker's formula at ``wavelength_um``; GlassError outside its range."""
@@ -135,7 +135,7 @@ class ModelGlass:
 
 @dataclass(frozen=True)
 class ShiftedIndex:
-    """A medium whose index is off by the same amount at every wavelength, as that of a melt is."""
+    """A medium whose index differs by the same amount at every wavelength, as that of a melt does."""
 
     medium: Medium
     shift: float
@@ -180,7 +180,7 @@ def checked_wavelength(medium: Medium, wavelength_um: ArrayLike) -> Values:
     low, high = medium.range_um or (0.0, inf)
     array = np.asarray(wavelength_um, dtype=float)
     wavelength: Values = array
-    if array.ndim == 0:  # plain floats are several times faster, and a slider asks for one wavelength
+    if array.ndim == 0:  # plain floats are several times faster, and a slider needs one wavelength
         wavelength = shortest = longest = float(array)
     elif array.size == 0:
         return wavelength
@@ -190,8 +190,8 @@ def checked_wavelength(medium: Medium, wavelength_um: ArrayLike) -> Values:
         return wavelength
     worst = longest if low <= shortest else shortest
     raise GlassError(
-        "{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; "
-        "ask for a wavelength inside, or change the glass",
+        "{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; choose a "
+        "wavelength inside, or change the glass",
         quantity=Message("wavelength"),
         wavelength=NM_PER_UM * worst,
         glass=medium.label,
@@ -202,7 +202,7 @@ def checked_wavelength(medium: Medium, wavelength_um: ArrayLike) -> Values:
 
 @dataclass(frozen=True)
 class Mirror:
-    """What stands in the place of a medium behind a mirror: light goes back in the medium that it came from."""
+    """Placeholder for the medium behind a mirror: light returns into the medium it came from."""
 
     label: str = "mirror"
 
@@ -212,7 +212,7 @@ class Mirror:
         return None
 
     def index(self, wavelength_um: ArrayLike) -> np.ndarray:
-        """Raise GlassError: `Lens.media` has the medium in front of the mirror in its place."""
+        """Raise GlassError: `Lens.media` replaces it by the medium in front of the mirror."""
         raise GlassError("a mirror has no refractive index; ask for that of the medium in front of it")
 
 
@@ -226,7 +226,7 @@ def catalogue_glass(name: str) -> CatalogueGlass:
 
 
 def model_glass(nd: float, vd: float) -> ModelGlass:
-    """Return the glass of index ``nd`` and Abbe number ``vd``; GlassError for numbers no glass has."""
+    """Return the glass of index ``nd`` and Abbe number ``vd``; GlassError for numbers outside the range of glasses."""
     if not 1 < nd < 4:
         raise GlassError("nd is {value}; give an index between 1 and 4", value=nd)
     if not 10 <= vd <= 120:
@@ -235,18 +235,17 @@ def model_glass(nd: float, vd: float) -> ModelGlass:
 
 
 def constant_index(value: float) -> ConstantIndex:
-    """Return a medium of one index; GlassError for a number that is no index."""
+    """Return a medium of one index; GlassError for a number that cannot be an index."""
     if not (isfinite(value) and 0.5 <= value <= 6):
         raise GlassError("refractive index is {value}; give a number between 0.5 and 6", value=value)
     return ConstantIndex(float(value))
 
 
 def parse_medium(medium: object) -> Medium:
-    """Return the medium that a user wrote: a glass name, "air", "mirror", an index, or a table of nd and vd.
+    """Return the medium for a user's text or table: a glass name, "air", "mirror", an index, or a table of nd and vd.
 
     A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices, and ``{glass = …,
-    shift = …}`` a medium whose index is off by so much.
-    Raises GlassError.
+    shift = …}`` a medium with a shifted index. Raises GlassError.
     """
     if isinstance(medium, str):
         return _from_text(medium.strip())
@@ -286,7 +285,7 @@ def _from_table(table: dict[str, Any]) -> Medium:
 
 
 def measured_index(wavelengths_um: Sequence[float], values: Sequence[float], label: str = "table") -> TabulatedIndex:
-    """Return a medium measured at ascending wavelengths in µm; GlassError for lists that do not fit."""
+    """Return a medium measured at ascending wavelengths in µm; GlassError for lists that do not match."""
     lists = isinstance(wavelengths_um, list | tuple) and isinstance(values, list | tuple)
     if not (lists and len(wavelengths_um) == len(values) > 0 and all(map(_is_number, [*wavelengths_um, *values]))):
         raise GlassError("glass table needs two equally long lists of numbers; give wavelengths_um and n")

@@ -1,7 +1,7 @@
 """The pages of refractiveindex.info that the package ships: a formula with its coefficients, or a table, per material.
 
-One compressed text file holds them as the database writes them, in decimal, so that coefficients have double
-precision. It is read on the first look-up; one page is parsed when it is asked for. `collect` makes the file.
+One compressed text file contains them in decimal, as the database does, so that coefficients have double precision. It
+is read on the first look-up; a page is parsed when it is requested. `collect` creates the file.
 """
 
 import gzip
@@ -11,12 +11,12 @@ from functools import cache
 from pathlib import Path
 
 DATA = Path(__file__).with_name("refractiveindex_info.tsv.gz")
-LONGEST_TABLE = 200  # points; a longer table of a supplier is thinned evenly, one of research left out
+LONGEST_TABLE = 200  # points; a longer table of a supplier is thinned evenly, one from research omitted
 SUPPLIERS = "specs"  # the shelf of the makers' data sheets
 
 
 class Kind(StrEnum):
-    """What a page holds beside the formulas "1" to "9" of refractiveindex.info."""
+    """Kinds of pages besides the formulas "1" to "9" of refractiveindex.info."""
 
     TABLE = "table"
     ABSORPTION = "absorption"
@@ -27,12 +27,12 @@ class Kind(StrEnum):
 class Page:
     """The index of one material: ``kind`` is a formula's number or a `Kind`.
 
-    Of a formula ``numbers`` are the coefficients in the order of refractiveindex.info; of a table the indices at
-    ``wavelengths_um``, ascending. A table that is left out has its number of points in ``numbers``.
+    ``numbers`` are the coefficients of a formula in the order of refractiveindex.info, or the indices of a table at
+    ``wavelengths_um``, ascending; for an omitted table, its number of points.
     """
 
     kind: str
-    wavelengths_um: tuple[float, ...] = ()  # of a formula: the ends of its range
+    wavelengths_um: tuple[float, ...] = ()  # for a formula: the ends of its range
     numbers: tuple[float, ...] = ()
 
     @property
@@ -60,5 +60,5 @@ def page(name: str) -> Page:
 
 
 def data_version() -> str:
-    """Return which release of the database the file was made from, and its licence."""
+    """Return the release of the database from which the file was created, and its licence."""
     return _lines()[0]

@@ -1,4 +1,4 @@
-"""What a medium absorbs: the internal transmittances of its catalogue, between wavelengths and for any length."""
+"""Absorption of a medium from the internal transmittances of its catalogue, for any wavelength and length."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,23 +8,23 @@ from numpy.typing import ArrayLike
 
 from p2sf.errors import GlassError
 
-DARK = 1e-30  # stands for a transmittance listed as 0, of which no logarithm can be taken
+DARK = 1e-30  # replaces a transmittance listed as 0, whose logarithm does not exist
 
 
 @dataclass(frozen=True)
 class InternalTransmittance:
-    """What passes a piece of a medium, but for the reflections at its ends, at some wavelengths.
+    """Internal transmittance of a medium, without the reflections at its ends, at some wavelengths.
 
     Parameters
     ----------
     records : tuple of (float, float, float)
-        Wavelength, µm, the share of light that passes, and the thickness that it passes, mm, as in the IT lines of a
-        catalogue in the AGF format. Of several for one wavelength the first counts.
+        Wavelength, µm, transmitted share, and thickness, mm, as in the IT lines of a catalogue in the AGF format. If a
+        wavelength occurs several times, the first record counts.
 
     Raises
     ------
     GlassError
-        Where there is none, for a wavelength or a thickness that is not positive, and a share beyond 0 to 1.
+        Without records, for a wavelength or thickness that is not positive, and for a share outside 0 to 1.
     """
 
     records: tuple[tuple[float, float, float], ...]
@@ -45,11 +45,11 @@ class InternalTransmittance:
 
     @cached_property
     def _hash(self) -> int:
-        return hash(self.records)  # of a hundred numbers, asked for per surface and slider step
+        return hash(self.records)  # of a hundred numbers, needed for each surface and slider step
 
     @cached_property
     def _table(self) -> tuple[float, np.ndarray, np.ndarray]:
-        """Return the thickness of the first record, mm, ascending wavelengths, µm, and what that thickness passes."""
+        """Return the thickness of the first record, mm, and its transmittance at ascending wavelengths, µm."""
         first: dict[float, float] = {}
         _, _, common = self.records[0]
         for wavelength, share, thickness in self.records:
@@ -58,11 +58,11 @@ class InternalTransmittance:
         return common, waves, np.array([first[wave] for wave in waves])
 
     def absorption(self, wavelength_um: ArrayLike) -> np.ndarray:
-        """Return α, per mm, of the share exp(−α·length) that passes, in the shape of ``wavelength_um``.
+        """Return α, per mm, of the transmitted share exp(−α·length), in the shape of ``wavelength_um``.
 
-        Source: Schott, technical information TIE-35, eq. 1.1. Between the wavelengths of a catalogue the share that
-        passes is interpolated by straight lines, and beyond them is that of the nearest, as in OpticSim.jl (Microsoft,
-        GlassCat, ``absorption``): a share of 0, where a glass ends to be clear, has no logarithm to interpolate.
+        Source: Schott, technical information TIE-35, eq. 1.1. Between the wavelengths of a catalogue the transmitted
+        share is interpolated linearly, and beyond them it is that of the nearest, as in OpticSim.jl (Microsoft,
+        GlassCat, ``absorption``): a share of 0, at the edge of the transparent range, has no logarithm to interpolate.
         """
         thickness, waves, shares = self._table
         share = np.interp(np.asarray(wavelength_um, dtype=float), waves, shares)

@@ -17,7 +17,10 @@ from p2sf.image.lattice import Lattice
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each, map_threads, one_blas_thread
 
-SHORTEST, LONGEST = 16, 256  # pixels along a block, but for kernels over half as large; longer ones leave the cache
+SHORTEST, LONGEST = (
+    16,
+    256,
+)  # pixels along a block, except for kernels over half as large; longer ones exceed the cache
 TOGETHER = 2**17  # pixels of the blocks that one thread transforms at a time: some milliseconds of work, some megabytes
 KEPT_BYTES = 2**28  # of the kernels' spectra; larger ones are computed at each use, which takes about twice as long
 
@@ -40,7 +43,7 @@ class Blocks:
 class BlurOperator:
     """The blur H of a lattice on pictures (rows, columns, channels) of one shape, black beyond their edge.
 
-    ``threads`` (`p2sf.threads`) share the blocks; the result is the same to the last bit on any number.
+    ``threads`` (`p2sf.threads`) share the blocks; the result is identical to the last bit for any number.
     """
 
     lattice: Lattice
@@ -190,7 +193,7 @@ def best_blocks(nodes: tuple[np.ndarray, np.ndarray], shape: tuple[int, int], mo
 
 
 def _cost(rows: Blocks, columns: Blocks) -> float:
-    """Return about how many operations a blur takes: transforms of n values take n·log₂(n)."""
+    """Return the estimated operations of a blur: transforms of n values take n·log₂(n)."""
     (count, a, length), (times, b, _) = rows.weights.shape, columns.weights.shape
     half_done = (b * length + rows.fast) * columns.fast * log2(columns.fast) / 2
     complete = (a * b + 1) * rows.fast * (columns.fast / 2 + 1) * log2(rows.fast)

@@ -1,4 +1,4 @@
-"""Charts that show what a lens does, and a landscape, drawn in linear light.
+"""Test charts and a landscape, drawn in linear light.
 
 Every chart is float32 (rows, columns, 3), 0…1, row 0 the top, edges averaged over the pixel they cross.
 """
@@ -11,7 +11,7 @@ import numpy as np
 from p2sf.errors import RequestError
 from p2sf.messages import Message
 
-FINER = 4  # samples across a pixel where an edge has no simple average
+FINER = 4  # samples across a pixel if an edge has no simple average
 EDGE_DEGREES = 5.0
 DARK, BRIGHT = 0.05, 0.95
 PRINTED = "P2SF  every point source has its own picture  "
@@ -69,7 +69,7 @@ def _edge_coverage(distance: np.ndarray, angle: float) -> np.ndarray:
 
 
 def siemens_star(rows: int, columns: int, spokes: int = 36) -> np.ndarray:
-    """Return a star of ``spokes`` sine-free bright spokes, grey where they are finer than a pixel can hold."""
+    """Return a star of ``spokes`` bright binary spokes, grey where they are finer than pixels resolve."""
     x, y = _axes(rows, columns, FINER)
     bright = np.cos(np.arctan2(y, x) * spokes) > 0
     inside = np.hypot(x, y) < 0.47 * min(rows, columns)

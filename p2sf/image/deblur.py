@@ -1,7 +1,7 @@
-"""Pictures sharpened by the same kernels that blurred them (handbook 10.4).
+"""Deconvolution of pictures by the kernels that blurred them (handbook 10.4).
 
-Both methods work on the lattice of a plan, so the kernel follows the field. Wiener's filter is linear and takes one
-step; Richardson and Lucy's iteration keeps the light positive.
+Both methods use the lattice of a plan, so that the kernel varies over the field. The Wiener filter is linear and takes
+one step; the Richardson–Lucy iteration keeps the light positive.
 """
 
 from itertools import product
@@ -16,28 +16,30 @@ from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each, one_blas_thread
 
-# Of the picture's contrast: what kernels that are interpolated between nodes leave wrong. With it the filter stays
+# Of the picture's contrast: the error of kernels interpolated between nodes. With it the filter stays
 # within 0.2 dB of its best for every noise from 0.001 to 0.02; without, it loses up to 3.3 dB, and with twice the noise
 # 2.3 dB (`python -m tests.benchmarks.deblurring`).
 KERNEL_ERROR = 0.01
-DARKEST = 1e-4  # of white: the floor that keeps Richardson–Lucy's ratio finite
+DARKEST = 1e-4  # of white: the floor that keeps the Richardson–Lucy ratio finite
 MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
 MASK_NORM = 6.0  # √ of the sum of squares of (1, −2, 1) × (1, −2, 1)
-BLOCK, FEWEST_BLOCKS = 16, 20  # pixels a side of the blocks in which noise is estimated; of so many a tenth is known
-QUIET, OF_WHITE_NOISE = 0.1, 0.870  # share of blocks that are quieter, and their limit in white noise over its median
-CORNER = 0.02  # cycles per pixel below which natural pictures' spectra are taken as flat
+BLOCK, FEWEST_BLOCKS = 16, 20  # pixels a side of the blocks in which noise is estimated, enough for 10 %
+QUIET, OF_WHITE_NOISE = (
+    0.1,
+    0.870,
+)  # share of quieter blocks, and in white noise the ratio of that quantile to the median
+CORNER = 0.02  # cycles per pixel below which spectra of natural pictures are assumed flat
 
 
 @one_blas_thread
 def wiener(
     values: np.ndarray, lattice: Lattice, noise: float, watch: Progress | None = None, threads: int | None = None
 ) -> np.ndarray:
-    """Return the picture sharpened by Wiener's filter patch by patch, float32, shape kept.
+    """Return the picture sharpened by a Wiener filter patch by patch, float32, shape kept.
 
     ``noise``: its standard deviation on white at 1. The prior is a spectrum falling with 1/f² and the picture's own
-    variance (Wiener 1949; Field 1987). Errors of the kernels count as noise too, independent of the picture's:
-    KERNEL_ERROR of its contrast. ``threads`` as in `richardson_lucy`. Raises RequestError for a noise that is not
-    positive.
+    variance (Wiener 1949; Field 1987). Errors of the kernels count as additional independent noise: KERNEL_ERROR of the
+    picture's contrast. ``threads`` as in `richardson_lucy`. Raises RequestError for a noise that is not positive.
     """
     if not noise > 0:
         raise RequestError(
@@ -81,7 +83,7 @@ def _wiener_filter(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.n
     prior = _prior(shape)
     ratio = (noise**2 + KERNEL_ERROR**2 * variance) / (variance * prior)
     padded = np.zeros((len(patch), *shape), np.float32)
-    # The edge fades into the mean: an abrupt one would ring through the whole patch.
+    # The edge fades into the mean: an abrupt edge would ring through the whole patch.
     padded[:, :rows, :columns] = (patch - mean) * _fade((rows, columns), 2 * (kernels.shape[-1] // 2))
     spectrum = scipy.fft.rfft2(padded) * np.conj(transfer) / (np.abs(transfer) ** 2 + ratio)
     sharp: np.ndarray = scipy.fft.irfft2(spectrum, shape)[:, : patch.shape[1], : patch.shape[2]] + mean
@@ -134,7 +136,7 @@ def richardson_lucy(
     watch.expect(rounds)
     for _ in range(rounds):
         blurred = np.maximum(blur.forward(estimate), DARKEST)
-        # A transform's rounding may leave a dark pixel a little below zero.
+        # Rounding in the transforms may leave a dark pixel slightly below zero.
         estimate = np.maximum(estimate * blur.transposed(measured / blurred) / gain, 0)
         watch.advance()
     return estimate

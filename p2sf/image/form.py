@@ -25,18 +25,18 @@ from p2sf.threads import map_threads, one_blas_thread
 
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
-LIGHT_HEIGHTS = 4, 9  # at so many heights illumination is computed, for a preview and for the final picture
-SAME_DEPTH = 1e-6  # a relative difference that float32 makes
-RANK_TOLERANCE = 0.1  # of the scene's tolerance: what a low rank may leave out
+LIGHT_HEIGHTS = 4, 9  # heights at which illumination is computed, for a preview and for the final picture
+SAME_DEPTH = 1e-6  # a relative difference due to float32
+RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
 
 
 @dataclass(frozen=True)
 class Forming:
-    """How a picture is formed.
+    """Options for the formation of a picture.
 
-    ``method``: "patches" (overlap-add) or "lowrank". ``surround``: what lies beyond the picture, nothing ("black") or
-    its outermost pixels ("edge"). ``geometry``: with distortion and illumination, or blur alone; ``spline``: order of
-    the distortion's interpolation. Raises RequestError for another method or surround.
+    ``method``: "patches" (overlap-add) or "lowrank". ``surround``: the light beyond the picture, none ("black") or that
+    of its outermost pixels ("edge"). ``geometry``: whether distortion and illumination are included; ``spline``: order
+    of the distortion's interpolation. Raises RequestError for another method or surround.
     """
 
     method: str = "patches"
@@ -71,10 +71,10 @@ def form_image(
     watch: Progress | None = None,
     lattice: Lattice | None = None,
 ) -> np.ndarray:
-    """Return what the sensor receives of a picture in linear light, (rows, columns, channels) float32.
+    """Return the image of a picture on the sensor in linear light, (rows, columns, channels) float32.
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
-    scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given when it is
+    scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given if it is
     known. Raises RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when
     ``watch`` is cancelled.
     """
@@ -99,7 +99,7 @@ def form_image(
 def _placed_and_lattice(
     planned: Plan, values: np.ndarray, how: Forming, watch: Progress, lattice: Lattice | None
 ) -> tuple[np.ndarray, Lattice]:
-    """Return the picture distorted and shaded, and the kernels of the scene's far end, computed beside it."""
+    """Return the picture with distortion and illumination, and in parallel the kernels of the scene's far end."""
     vergence = planned.vergences[0]
     if lattice is not None:
         return _distort_and_shade(planned, values, vergence, how), lattice
@@ -133,7 +133,7 @@ def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
 
 
 def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:
-    """Raise RequestError for a depth that the plan has no kernels for."""
+    """Raise RequestError for a depth without kernels in the plan."""
     near, far = scene.near_mm * (1 - SAME_DEPTH), scene.far_mm * (1 + SAME_DEPTH)
     if ((depth_mm > 0) & ((depth_mm < near) | (depth_mm > far))).any():
         raise RequestError(
@@ -147,7 +147,7 @@ def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:
 
 
 def _distort_and_shade(planned: Plan, values: np.ndarray, vergence: float, how: Forming) -> np.ndarray:
-    """Return the picture distorted and shaded."""
+    """Return the picture with distortion and illumination."""
     if not how.geometry:
         return values
     sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
@@ -165,8 +165,8 @@ def plan_lattice(
 ) -> Lattice:
     """Return the kernels of every channel on the plan's nodes at one depth.
 
-    None reaches farther than ``most_half`` pixels: what lands beyond is left out, and the rest has unit sum.
-    ``beside`` as in `build_lattice`.
+    No kernel extends beyond ``most_half`` pixels: light beyond is dropped, and the rest has unit sum. ``beside`` as in
+    `build_lattice`.
     """
     sensor = planned.scene.sensor
     channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
@@ -183,7 +183,7 @@ def plan_lattice(
 
 
 def _with_middle_again(lattice: Lattice) -> Lattice:
-    """Return a lattice with the middle channel once more at the end, for a layer's weight beside the picture."""
+    """Return a lattice with the middle channel repeated at the end, for a layer's weight alongside the picture."""
     middle = lattice.channels // 2
     lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
     return Lattice(lattice.row_nodes, lattice.column_nodes, lines)

@@ -7,13 +7,13 @@ from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.scene.sensor import Sensor
 from p2sf.threads import map_threads
 
-TRIED = 33  # places along each axis where distortion is sought
+TRIED = 33  # points along each axis at which distortion is evaluated
 MORE = 4  # heights, or places along each axis, where rims clip, whose vignetting begins and ends suddenly
-VISIBLE_PX = 0.05  # distortion that moves no pixel farther than this is ignored
+VISIBLE_PX = 0.05  # distortion is ignored if it moves no pixel farther than this
 
 
 def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
-    """Return how far distortion moves the farthest displaced point, pixels."""
+    """Return the largest displacement by distortion, pixels."""
     (top, left), (bottom, right) = (-0.5, -0.5), (sensor.rows - 0.5, sensor.columns - 0.5)
     x, y = np.meshgrid(sensor.x_mm(np.linspace(left, right, TRIED)), sensor.y_mm(np.linspace(top, bottom, TRIED)))
     across, up = seen.ideal_mm(x, y)
@@ -21,10 +21,10 @@ def distortion_px(seen: SensorMap, sensor: Sensor) -> float:
 
 
 def distort(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3) -> np.ndarray:
-    """Return the picture as real chief rays place it, (rows, columns, channels) float32.
+    """Return the picture distorted according to real chief rays, (rows, columns, channels) float32.
 
-    ``values`` is the undistorted (paraxial) image on the same pixels; each pixel takes what lands on it, by a spline of
-    this ``order``. Beyond the picture its outermost pixels are repeated.
+    ``values`` is the undistorted (paraxial) image on the same pixels; each pixel is interpolated by a spline of this
+    ``order``. Beyond the picture its outermost pixels are repeated.
     """
     from scipy.ndimage import map_coordinates
 
@@ -44,7 +44,7 @@ def distort(values: np.ndarray, seen: SensorMap, sensor: Sensor, order: int = 3)
 
 
 def illumination(seen: SensorMap, sensor: Sensor, count: int = 9) -> np.ndarray:
-    """Return the irradiance of an even object over that at the field's centre, (rows, columns) float32.
+    """Return the irradiance of a uniform object relative to that at the field's centre, (rows, columns) float32.
 
     From ``count``² places, between which it is interpolated by a cubic spline, or where rims clip, which makes it bend
     suddenly, from more and linearly. That of a round pupil about an axis of symmetry depends on the height alone.

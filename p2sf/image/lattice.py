@@ -10,7 +10,7 @@ from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.planning.pricing import computed_counts
 from p2sf.threads import for_each
 
-# Kernels of how many nodes are asked for at once: first, to see how large they are; then so many pixels, or nodes.
+# Numbers of nodes whose kernels are requested at once: first a few, to find their size; then by pixels, or nodes.
 FIRST, TOGETHER, MOST_NODES = 4, 2**16, 32
 
 
@@ -32,7 +32,7 @@ class Lattice:
 
     @property
     def channels(self) -> int:
-        """Return how many channels every kernel has."""
+        """Return the number of channels of every kernel."""
         return int(self.kernels[0][0].shape[0])
 
 
@@ -50,9 +50,9 @@ def build_lattice(
 ) -> Lattice:
     """Return the lattice of ``kernels_at(rows, columns)`` over a picture of this shape.
 
-    ``mirrored``: the picture is centred on the axis of a lens, so that one quarter of the kernels gives the others.
-    Threads (`p2sf.threads`) share the kernels; the first to start calls ``beside``. NumPy's calls on small kernels are
-    so short that two threads mostly wait for the interpreter's lock: large arrays of other work keep both busy.
+    ``mirrored``: the picture is centred on the axis of a lens, so that one quarter of the kernels determines the
+    others. Threads (`p2sf.threads`) share the kernels; the first one calls ``beside``. NumPy's calls on small kernels
+    are so short that two threads mostly wait for the interpreter's lock: other work on large arrays keeps both busy.
     """
     rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
     down, right = computed_counts((len(rows), len(columns)), mirrored)

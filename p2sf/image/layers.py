@@ -6,14 +6,14 @@ from p2sf.conventions import vergence
 from p2sf.errors import RequestError
 from p2sf.pixel_kernels.nodes import hats
 
-LEAST_COVERAGE = 1e-6  # keeps the quotient finite where no layer covers a pixel
+LEAST_COVERAGE = 1e-6  # keeps the quotient finite if no layer covers a pixel
 
 
 def layer_weights(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
     """Return every pixel's share of each layer, (rows, columns, layers) float32, summing to 1.
 
-    Between two nodes the share is linear in 1/depth, so a pixel's kernel is interpolated; beyond them it is the end's.
-    ``vergences`` increase: the farthest layer comes first. Raises RequestError for a map that does not fit.
+    Between two nodes the share is linear in 1/depth, so a pixel's kernel is interpolated; beyond them it is that of the
+    end. ``vergences`` increase: the farthest layer comes first. Raises RequestError for a map that does not fit.
     """
     if depth_mm.shape != tuple(shape):
         raise RequestError(
@@ -32,9 +32,9 @@ def layer_weights(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int,
 def merge(layers: list[np.ndarray], numbers: list[int]) -> np.ndarray:
     """Return one picture of blurred layers, far to near; each is (rows, columns, channels + 1), its coverage last.
 
-    ``numbers`` are the layers' places among all layers. A layer is hidden by the blurred coverage of nearer ones, but
-    not of its direct neighbour, with which it shares the pixels between the two. The light that remains is divided by
-    the coverage that remains, so that an even object stays even.
+    ``numbers`` are the indices of the layers among all layers. A layer is hidden by the blurred coverage of nearer ones
+    except its direct neighbour, with which it shares the pixels between the two. The remaining light is divided by the
+    remaining coverage, so that a uniform object stays uniform.
     """
     light: np.ndarray = np.zeros_like(layers[0][..., :-1])
     covered: np.ndarray = np.zeros_like(layers[0][..., -1:])

@@ -1,7 +1,7 @@
 """Space-variant blur by few kernels: the mean, and the strongest deviations from it with maps of their strength.
 
 The deviations of a set of unit-sum kernels from their mean have zero sum, and so have the singular vectors:
-whatever the rank, all light is kept (PCA of PSFs, Lauer 2002; singular values as in Eckart & Young 1936).
+light is conserved for any rank (PCA of PSFs, Lauer 2002; singular values as in Eckart & Young 1936).
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ Corner = tuple[int, int]
 class LowRank:
     """One channel: ``mean`` (size, size), ``kernels`` (rank, size, size), ``strengths`` (rank, *nodes).
 
-    ``left`` is the relative L2 norm of what the rank leaves out, over all nodes.
+    ``left`` is the relative L2 norm of the remainder over all nodes.
     """
 
     mean: np.ndarray
@@ -36,7 +36,7 @@ class LowRank:
 
 
 def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int | None = None) -> LowRank:
-    """Return the fewest kernels that keep the whole set to ``tolerance`` in relative L2, or ``rank`` of them."""
+    """Return the fewest kernels that approximate the whole set to ``tolerance`` in relative L2, or ``rank`` of them."""
     kernels = common_size(lattice, channel)
     nodes, size = kernels.shape[:2], kernels.shape[-1]
     flat = kernels.reshape(nodes[0] * nodes[1], -1).astype(float)

@@ -17,7 +17,7 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
 
     ``values``: (rows, columns, channels) float32, whose outer ``border`` pixels lie outside the lattice's picture and
     take the kernels of its edge. Threads (`p2sf.threads`) share the patches, which are added in order, so that the
-    result is the same on any number. Memory beyond it is a few patches for each thread.
+    result is the same for any number. Additional memory is a few patches for each thread.
     """
     values, half = np.asarray(values, np.float32), lattice.half
     planes = np.moveaxis(values, -1, 0)

@@ -27,10 +27,10 @@ def form_image(
     Parameters
     ----------
     planned : Plan
-        What `plan` found for the lens and the scene.
+        The result of `plan` for the lens and the scene.
     values : array_like
-        The scene in linear light, shape (rows, columns, channels) as the scene's sensor and colours say: floats, since
-        whole numbers are codes of sRGB in most pictures.
+        The scene in linear light, shape (rows, columns, channels) of the scene's sensor and colours: floats, since
+        integers are sRGB codes in most pictures.
     depth_mm : array_like, optional
         Depth of every pixel, mm, shape (rows, columns), between ``near_mm`` and ``far_mm`` of the scene; by default
         its far end.

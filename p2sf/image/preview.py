@@ -1,4 +1,4 @@
-"""A coarse picture at once, while the planned one is computed."""
+"""A coarse picture shown immediately, while the planned one is computed."""
 
 from dataclasses import replace
 from math import inf
@@ -26,8 +26,8 @@ from p2sf.threads import one_blas_thread
 
 LONGEST = 320  # pixels along the preview's longer side
 BY_RAYS = Recipe(RAYS)
-MOST_RESIDUAL = 0.5  # waves RMS: a fit that leaves more says less of the blur than rays do
-# Kernels at how many places, by samples along the side of a wave sum's transform, and by pixels along that of rays'.
+MOST_RESIDUAL = 0.5  # waves RMS: with a larger residual a fit describes the blur less well than rays do
+# Numbers of kernels by samples along the side of a wave sum's transform, and by pixels along that of rays.
 WAVE_COUNTS = ((800, (3, 3)), (1200, (2, 2)))
 RAY_COUNTS = ((300, (3, 3)), (450, (2, 2)), (LARGEST_WINDOW, (1, 1)))
 UNKNOWN = Cost(0.0, 0.0, 0.0)
@@ -37,7 +37,7 @@ UNKNOWN = Cost(0.0, 0.0, 0.0)
 def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None = None) -> np.ndarray:
     """Return a coarse picture of the scene's far end or one depth, (rows, columns, channels), at most 320 pixels long.
 
-    As `preview_plan` has it, pixels averaged in blocks. Unlike a plan's, its error is not bounded.
+    It uses `preview_plan` and averages pixels in blocks. Unlike for a plan, the error is not bounded.
     """
     camera = scene.camera(lens)
     check_colours(camera, scene)
@@ -51,7 +51,7 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
 
 
 def preview_plan(camera: Lens, scene: Scene) -> Plan:
-    """Return a plan without any measurement, whose error is unknown, of a lens already focused.
+    """Return a plan of a focused lens without any measurement, so that its error is unknown.
 
     One wavelength a channel, 3 × 3 places or fewer where kernels are wide, the smallest fit; rays in place of waves
     where the sum would take seconds, and where that fit does not describe the pencil.
@@ -65,7 +65,7 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     for most, fewer in WAVE_COUNTS:
         if side <= most:
             return replace(planned, counts=fewer)
-    if camera.mask.phased:  # which rays do not see
+    if camera.mask.phased:  # which rays do not show
         return replace(planned, counts=(1, 1))
     by_rays = replace(planned, recipe=BY_RAYS)
     size = 2 * _edge_half(by_rays)[1] + 1
@@ -84,7 +84,7 @@ def wave_side(planned: Plan) -> float:
 
 
 def preview_lattice(planned: Plan, watch: Progress | None = None) -> Lattice:
-    """Return the kernels of a preview's plan, none of which reaches farther than the picture."""
+    """Return the kernels of a preview's plan, none of which extends beyond the picture."""
     sensor = planned.scene.sensor
     return plan_lattice(planned, planned.vergences[0], watch, max(sensor.rows, sensor.columns))
 

@@ -1,4 +1,4 @@
-"""Progress of long work, and whether it is still wanted."""
+"""Progress and cancellation of long work."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,12 +7,12 @@ from threading import Lock
 
 from p2sf.errors import Cancelled
 
-LEAST_SHARE, LEAST_SECONDS = 0.05, 1.0  # done, before a pace is one
+LEAST_SHARE, LEAST_SECONDS = 0.05, 1.0  # done, before a rate is reliable
 
 
 @dataclass(eq=False)
 class Progress:
-    """Count of steps done among those expected; ``progress`` gets the fraction, ``cancelled`` is asked at each step."""
+    """Count of steps done and expected; ``progress`` receives the fraction, ``cancelled`` is polled at each step."""
 
     progress: Callable[[float], None] | None = None
     cancelled: Callable[[], bool] | None = None
@@ -23,12 +23,12 @@ class Progress:
         self._lock = Lock()
 
     def expect(self, steps: int) -> None:
-        """Note more work to come."""
+        """Add work to come."""
         with self._lock:
             self.expected += steps
 
     def advance(self, steps: int = 1) -> None:
-        """Note work done; raise Cancelled where it is no longer wanted."""
+        """Add work done; raise Cancelled if the caller has cancelled it."""
         if self.cancelled and self.cancelled():
             raise Cancelled("the picture was cancelled before it was done")
         with self._lock:
@@ -39,7 +39,7 @@ class Progress:
 
 
 def seconds_left(share: float, seconds: float) -> int | None:
-    """Return how long the rest takes at the pace so far, whole seconds; None as long as too little is done to tell."""
+    """Return the remaining whole seconds at the rate so far; None while too little is done for an estimate."""
     if share < LEAST_SHARE or seconds < LEAST_SECONDS:
         return None
     return ceil(seconds * (1 - share) / share)

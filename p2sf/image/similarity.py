@@ -1,4 +1,4 @@
-"""How alike two pictures are to the eye: the structural similarity of Wang et al. 2004."""
+"""Perceived similarity of two pictures: the structural similarity of Wang et al. 2004."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ def ssim(one: np.ndarray, two: np.ndarray, white: float = 1.0) -> float:
     (2μ₁μ₂ + C₁)(2σ₁₂ + C₂)/((μ₁² + μ₂² + C₁)(σ₁² + σ₂² + C₂)) with C = (K·white)², its means weighted by a Gaussian
     window, over all windows inside the picture and all channels (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli,
     "Image quality assessment: from error visibility to structural similarity", IEEE Trans. Image Process. 13, 2004,
-    eq. 13). It is meant for levels as they are displayed, not for linear light. RequestError for shapes that differ or
+    eq. 13). It applies to displayed levels, not to linear light. RequestError for shapes that differ or
     are smaller than the window.
     """
     one, two = (np.asarray(x, np.float32) for x in (one, two))

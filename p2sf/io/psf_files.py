@@ -19,10 +19,10 @@ UM_PER_CM = 1e4
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
 
 
-def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
+def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict | None = None) -> Path:
     """Write one PSF, shape (y, x), as .npz, .tiff, .csv or .png by the ending of ``path``; return the path.
 
-    ``meta`` (see `p2sf.io.record.describe`) is stored with it, the PSF's own facts under "psf". Raises ExportError
+    ``meta``, any facts as JSON has them, is stored with it, the PSF's own facts under "psf". Raises ExportError
     for an unknown ending, a stack of PSFs, or a file that cannot be written; an old file then stays untouched.
     """
     write = WRITERS.get(Path(path).suffix.lower())
@@ -39,7 +39,7 @@ def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
             path=str(path),
             shape=psf.values.shape,
         )
-    record = {**plain(meta), "psf": facts(psf)}
+    record = {**plain(meta or {}), "psf": facts(psf)}
     return write_beside(path, lambda handle: write(handle, psf, record))
 
 

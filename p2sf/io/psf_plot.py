@@ -17,28 +17,36 @@ if TYPE_CHECKING:
 BAR_SHARE = 0.25  # the scale bar takes at most this share of the width
 
 
-def draw_psf(handle: BinaryIO, psf: Psf, title: str = "", metadata: dict | None = None) -> None:
-    """Write one PSF as a PNG into an open binary file: µm axes, scale bar, colour bar in fractions of the peak.
+def draw_psf(handle: "BinaryIO | Axes", psf: Psf, title: str = "", metadata: dict | None = None) -> None:
+    """Draw one PSF: µm axes, scale bar, colour bar in fractions of the peak.
 
+    ``handle``: an open binary file, to which a PNG is written, or axes of matplotlib.
     Colours follow the square root of the intensity, so that faint light shows; the colour bar says so.
     ``metadata`` becomes the PNG's text entries, ASCII keys and values.
     """
-    from matplotlib.colors import PowerNorm
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     psf = argument("psf", psf, Psf)
+    if isinstance(handle, Axes):
+        return _draw(handle, psf, title)
     figure = Figure(figsize=(6.4, 5.4), dpi=150, layout="constrained")
-    axes = figure.add_subplot()
+    _draw(figure.add_subplot(), psf, title)
+    return _write_png(figure, handle, metadata)
+
+
+def _draw(axes: "Axes", psf: Psf, title: str) -> None:
+    from matplotlib.colors import PowerNorm
+
     root = PowerNorm(0.5, vmin=0, vmax=1)
     picture = axes.imshow(relative(psf.values), extent=edges_um(psf), origin="lower", cmap="magma", norm=root)
     x, y = ("across the field", "along the field") if psf.azimuth_deg else ("x on the sensor", "y on the sensor")
     axes.set(xlabel=f"{x}, µm", ylabel=f"{y}, µm")
     axes.set_title(title, fontsize=9, loc="left")
-    figure.colorbar(
+    axes.figure.colorbar(
         picture, ax=axes, ticks=[0, 0.01, 0.1, 0.25, 0.5, 1], label="intensity / peak (square-root colours)"
     )
     _draw_scale_bar(axes, psf)
-    _write_png(figure, handle, metadata)
 
 
 def draw_colour_psf(handle: BinaryIO, found: ColourPsf, title: str = "", metadata: dict | None = None) -> None:

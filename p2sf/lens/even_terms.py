@@ -1,4 +1,4 @@
-"""A surface of another shape as a conic with even terms: exactly where that is possible, else by a fit."""
+"""Conversion of other shapes into a conic with even terms, exactly where possible, otherwise by a fit."""
 
 from dataclasses import dataclass, replace
 from math import isfinite
@@ -9,12 +9,12 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Surface
 from p2sf.lens.shapes import Qcon, RadialPart
 
-SAMPLES = 400  # along the radius: far more than a polynomial of 30 terms has bends
+SAMPLES = 400  # samples along the radius: far more than extremes of a polynomial of 30 terms
 
 
 @dataclass(frozen=True)
 class EvenAsphere:
-    """A conic with even terms, and by how much its sag departs from that of the surface it stands for, mm."""
+    """A conic with even terms, and the largest difference of its sag from the original surface, mm."""
 
     surface: Surface
     residual_mm: float
@@ -23,18 +23,18 @@ class EvenAsphere:
 def even_asphere(surface: Surface, terms: int = 12) -> EvenAsphere:
     """Return a surface as a conic with even terms from r⁴ on.
 
-    Qcon and even polynomials without r² are converted exactly, but for rounding. Qbfs, and polynomials with a term in
-    r², get the radius of their vertex, and ``terms`` even terms by least squares over the clear radius or, without one,
-    the normalisation radius. Raises GeometryError for odd terms.
+    Qcon and even polynomials without r² are converted exactly up to rounding. Qbfs and polynomials with a term in r²
+    get their radius of curvature at the vertex and ``terms`` even terms, fitted by least squares over the clear radius
+    or, without one, the normalisation radius. Raises GeometryError for odd terms.
     """
     shape = surface.shape
     if shape is None:
         return EvenAsphere(surface, 0.0)
     powers = shape.powers
     if not isinstance(shape, RadialPart):
-        raise GeometryError("the surface is not of revolution, which no even terms describe; keep its shape")
+        raise GeometryError("the surface is not of revolution, so even terms cannot describe it; keep its shape")
     if powers is not None and any(a for power, a in powers.items() if power % 2):
-        raise GeometryError("the surface has odd powers of the radius, which no even terms describe; keep its shape")
+        raise GeometryError("even terms cannot describe the odd powers of the radius in the surface; keep its shape")
     if powers is None or powers.get(2):
         return _fit_powers(surface, terms)
     top = max(powers, default=2)
@@ -63,7 +63,7 @@ def _fit_powers(surface: Surface, terms: int) -> EvenAsphere:
 
 
 def power_terms(surface: Surface) -> tuple[float, dict[int, float]]:
-    """Return a normalisation radius, and coefficients by the powers of r over it, mm; other shapes are left out."""
+    """Return a normalisation radius and the coefficients of the powers of r over it, mm; other shapes are ignored."""
     more = (surface.shape.powers if surface.shape else None) or {}
     radius = surface.shape.normalisation_mm if surface.shape and more else 1.0
     terms = {power: a * radius**power for power, a in zip(range(4, 99, 2), surface.aspheric, strict=False)}

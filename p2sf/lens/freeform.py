@@ -1,4 +1,4 @@
-"""Parts of a surface that are not of revolution: polynomials in x and y, and Zernike's.
+"""Parts of a surface that are not of revolution: polynomials in x and y, and Zernike polynomials.
 
 Terms and normalisation are those of OpticStudio (Ansys Zemax 2024, "Extended Polynomial", "Zernike Standard Sag",
 "Zernike Fringe Sag"): heights over a normalisation radius, so that coefficients are lengths, and angles from +x
@@ -30,19 +30,18 @@ class Freeform(Shape):
 
     coefficients: tuple[float, ...]
     normalisation_mm: float
-    endings = frozenset((".toml", ".zmx", ".seq"))
 
     def __getstate__(self) -> dict:
         return {"coefficients": self.coefficients, "normalisation_mm": self.normalisation_mm}
 
     @property
     def addends_mm(self) -> float:
-        """Return the sum of all coefficients without their signs, mm."""
+        """Return the sum of the absolute values of all coefficients, mm."""
         return sum(map(abs, self.coefficients))
 
     @cached_property
     def mean(self) -> RadialShape | None:
-        """Return the mean of the shape over all azimuths but for its piston, as a polynomial in r; None for a plane."""
+        """Return the azimuthal mean of the shape without its piston, as a polynomial in r; None for a plane."""
         terms = self.mean_powers
         top = max((power for power, a in terms.items() if a and power), default=0)
         numbers = tuple(terms.get(power, 0.0) for power in range(1, top + 1))
@@ -51,10 +50,10 @@ class Freeform(Shape):
     @property
     @abstractmethod
     def mean_powers(self) -> dict[int, float]:
-        """Return the mean over all azimuths by powers of r over the normalisation radius, mm."""
+        """Return the coefficients of the azimuthal mean in powers of r over the normalisation radius, mm."""
 
     def series(self, curvature: float) -> Series:
-        """Return the coefficients of r … r⁴ of the mean over all azimuths."""
+        """Return the coefficients of r … r⁴ of the azimuthal mean."""
         return self.mean.series(curvature) if self.mean else (0.0, 0.0, 0.0, 0.0)
 
 
@@ -72,13 +71,14 @@ class XYPolynomial(Freeform):
     normalisation_mm: float = 1.0
     most: ClassVar[int] = 230
     """Terms up to degree 20."""
+    endings = frozenset((".toml", ".zmx", ".seq"))
     kind = "XY polynomial"
     name = Message("XY polynomial")
 
     def sag_and_gradient(
         self, x: FloatOrArray, y: FloatOrArray, curvature: float = 0.0, conic: float = 0.0
     ) -> tuple[FloatOrArray, np.ndarray]:
-        """Return the sag, mm, and ∂z/∂x and ∂z/∂y, (2, …), by Horner's rule in y of Horner's in x."""
+        """Return the sag, mm, and ∂z/∂x and ∂z/∂y, (2, …), by nested Horner schemes in x and y."""
         u, v = x / self.normalisation_mm, y / self.normalisation_mm
         sag = across = up = 0.0 * (u + v)
         for row in reversed(self._rows):
@@ -103,7 +103,7 @@ class XYPolynomial(Freeform):
 
     @property
     def mean_powers(self) -> dict[int, float]:
-        """Return the mean by powers of r: that of x²ᵃy²ᵇ is (2a)!(2b)!/(4ᵃ⁺ᵇa!b!(a + b)!)·r²ᵃ⁺²ᵇ."""
+        """Return the mean in powers of r: that of x²ᵃy²ᵇ is (2a)!(2b)!/(4ᵃ⁺ᵇa!b!(a + b)!)·r²ᵃ⁺²ᵇ."""
         found: dict[int, float] = {}
         for (a, b), value in self._monomials.items():
             if a % 2 == b % 2 == 0:
@@ -121,7 +121,7 @@ class XYPolynomial(Freeform):
             for power, share in enumerate((x**a * y**b).coeffs[::-1]):
                 key = power, a + b - power
                 found[key] = found.get(key, 0.0) + value * float(share)
-        order = xy_exponents(_whole_degrees(len(self.coefficients)))
+        order = xy_exponents(_complete_term_count(len(self.coefficients)))
         return type(self)(tuple(found.get(key, 0.0) for key in order), self.normalisation_mm)
 
     def scaled(self, factor: float) -> Self:
@@ -129,14 +129,14 @@ class XYPolynomial(Freeform):
         return type(self)(tuple(a * factor for a in self.coefficients), self.normalisation_mm * factor)
 
 
-def _whole_degrees(count: int) -> int:
-    """Return how many terms there are up to the degree of the last of ``count``."""
+def _complete_term_count(count: int) -> int:
+    """Return the number of terms up to and including the degree of term ``count``."""
     degree = next(n for n in range(1, count + 2) if n * (n + 3) // 2 >= count)
     return degree * (degree + 3) // 2
 
 
 class ZernikeSag(Freeform):
-    """Zernike's polynomials of x and y over the normalisation radius; coefficients from the first, piston."""
+    """Zernike polynomials of x and y over the normalisation radius; the first coefficient is piston."""
 
     order: ClassVar[ZernikeOrder]
     most: ClassVar[int]
@@ -144,7 +144,7 @@ class ZernikeSag(Freeform):
 
     @classmethod
     def _norm(cls, term: ZernikeTerm) -> float:
-        """Return the factor before R(ρ)·cos mθ or sin |m|θ, where R(1) is 1: of unit mean square in Noll's order."""
+        """Return the factor of R(ρ)·cos mθ or sin |m|θ, with R(1) = 1: of unit mean square in Noll's order."""
         return term.norm if cls.order == "noll" else 1.0
 
     def sag_and_gradient(
@@ -152,8 +152,8 @@ class ZernikeSag(Freeform):
     ) -> tuple[FloatOrArray, np.ndarray]:
         """Return the sag, mm, and ∂z/∂x and ∂z/∂y, (2, …).
 
-        The sum over m of the real part of Fₘ(ρ²)·zᵐ with z = x + iy: polynomials without an angle, smooth at the
-        centre. Fₘ is a sum of Jacobi's P⁽⁰ᵐ⁾(2ρ² − 1) (Born & Wolf 1999, §9.2.1).
+        Sums the real part of Fₘ(ρ²)·zᵐ, z = x + iy, over m: polynomials without an angle, smooth at the centre. Fₘ is a
+        sum of Jacobi polynomials P⁽⁰ᵐ⁾(2ρ² − 1) (Born & Wolf 1999, §9.2.1).
         """
         u, v = x / self.normalisation_mm, y / self.normalisation_mm
         z, square = u + 1j * v, u * u + v * v
@@ -187,7 +187,7 @@ class ZernikeSag(Freeform):
 
     @property
     def mean_powers(self) -> dict[int, float]:
-        """Return the terms of m = 0 by powers of ρ."""
+        """Return the terms of m = 0 in powers of ρ."""
         found: dict[int, float] = {}
         for (n, m), value in self.terms.items():
             if value and not m:
@@ -210,7 +210,7 @@ class ZernikeSag(Freeform):
 
     @classmethod
     def of_terms(cls, terms: dict[tuple[int, int], float], normalisation_mm: float) -> Self:
-        """Return the shape with these factors of R(ρ)·cos mθ and sin |m|θ; KeyError for one that its order lacks."""
+        """Return the shape with these factors of R(ρ)·cos mθ and sin |m|θ; KeyError for a term outside its order."""
         listed = {(each.n, each.m): each for each in zernike_terms(cls.order, cls.most)}
         numbers = {listed[key].number: value / cls._norm(listed[key]) for key, value in terms.items() if value}
         count = max(numbers, default=1)
@@ -224,19 +224,21 @@ class ZernikeSag(Freeform):
 
 @dataclass(frozen=True)
 class ZernikeStandardSag(ZernikeSag):
-    """Zernike's polynomials in Noll's order, each of unit mean square over the disc (Noll 1976)."""
+    """Zernike polynomials in Noll's order, each of unit mean square over the disc (Noll 1976)."""
 
     order = "noll"
     most = 231
+    endings = frozenset((".toml", ".zmx", ".seq"))
     kind = "Zernike standard sag"
     name = Message("Zernike standard sag")
 
 
 @dataclass(frozen=True)
 class ZernikeFringeSag(ZernikeSag):
-    """Zernike's polynomials in the Fringe order, each 1 at most, on the edge."""
+    """Zernike polynomials in the Fringe order, each with a maximum of 1 on the edge."""
 
     order = "fringe"
     most = 37
+    endings = frozenset((".toml", ".zmx", ".seq"))
     kind = "Zernike fringe sag"
     name = Message("Zernike fringe sag")

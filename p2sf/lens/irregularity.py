@@ -1,4 +1,4 @@
-"""A surface that was ground as a cylinder by mistake: Zernike's astigmatism, added to its sag."""
+"""Astigmatic figure error of a surface: Zernike astigmatism added to its sag."""
 
 from dataclasses import dataclass, replace
 from math import cos, hypot, radians, sin
@@ -16,15 +16,15 @@ FRINGE_MM = 0.54607 / 2 / UM_PER_MM
 
 @dataclass(frozen=True)
 class Irregularity(Part):
-    """How far a surface is from one of revolution: Zernike's Z(2, ±2), astigmatism, on top of its sag.
+    """Departure of a surface from rotational symmetry: Zernike's Z(2, ±2), astigmatism, added to its sag.
 
-    z = (F/2)·(N·(y² − x²) + N₄₅·2xy)/R² with fringes F of 273 nm: over the disc of radius R, √(N² + N₄₅²) fringes from
-    its highest to its lowest points.
+    z = (F/2)·(N·(y² − x²) + N₄₅·2xy)/R² with fringes F of 273 nm: peak to valley over the disc of radius R it is √(N² +
+    N₄₅²) fringes.
 
     Parameters
     ----------
     fringes : float
-        N: along +y and −y the surface is raised towards +z, along x lowered; where negative the other way round.
+        N: the surface is raised towards +z along +y and −y and lowered along x; the reverse if negative.
     fringes_45 : float
         N₄₅: the same along x = y and x = −y.
     normalisation_mm : float
@@ -37,12 +37,12 @@ class Irregularity(Part):
 
     @property
     def numbers(self) -> tuple[float, float, float]:
-        """Return every number of it."""
+        """Return all its numbers."""
         return self.fringes, self.fringes_45, self.normalisation_mm
 
     @property
     def words(self) -> Message:
-        """Return it in numbers."""
+        """Return its description with numbers."""
         return Message(
             "irregular: {fringes:g} fringes, at 45° {turned:g}, over a radius of {radius:g} mm",
             fringes=self.fringes,
@@ -52,18 +52,18 @@ class Irregularity(Part):
 
     @property
     def idle(self) -> bool:
-        """Return whether there is none."""
+        """Return whether it has no effect."""
         return not (self.fringes or self.fringes_45)
 
     @property
     def peak_to_valley(self) -> float:
-        """Return how many fringes the highest point is above the lowest."""
+        """Return the peak-to-valley value in fringes."""
         return hypot(self.fringes, self.fringes_45)
 
     def sag_and_gradient(
         self, x: FloatOrArray, y: FloatOrArray, curvature: float = 0.0, conic: float = 0.0
     ) -> tuple[FloatOrArray, np.ndarray]:
-        """Return what it adds to the sag, mm, and to ∂z/∂x and ∂z/∂y, (2, …), at places in mm."""
+        """Return the added sag, mm, and ∂z/∂x and ∂z/∂y, (2, …), at points in mm."""
         upright, turned = self.terms
         gradient = 2 * np.stack([turned * y - upright * x, upright * y + turned * x])
         return upright * (y * y - x * x) + 2 * turned * x * y, gradient
@@ -81,10 +81,10 @@ class Irregularity(Part):
         return replace(self, fringes=upright, fringes_45=cosine * self.fringes_45 - sine * self.fringes)
 
     def scaled(self, factor: float) -> "Irregularity":
-        """Return it with its radius in units ``factor`` mm long, in mm."""
+        """Return it scaled from lengths in units of ``factor`` mm to mm."""
         return replace(self, normalisation_mm=self.normalisation_mm * factor)
 
     def added(self, fringes: float, fringes_45: float, normalisation_mm: float) -> "Irregularity":
-        """Return this one and another over a disc of its own, as one."""
+        """Return the sum of this and another irregularity over a disc of its own."""
         share = (self.normalisation_mm / normalisation_mm) ** 2
         return replace(self, fringes=self.fringes + share * fringes, fringes_45=self.fringes_45 + share * fringes_45)

@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, check_fields
-from p2sf.conventions import NM_PER_UM, FloatOrArray
+from p2sf.conventions import NM_PER_UM, FloatOrArray, angle_from_axis
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium, transmittance_of
 from p2sf.html import html_table
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
-from p2sf.lens.properties import BY_NAME, PROPERTIES, turned_breaks
+from p2sf.lens.properties import PROPERTIES, turned_breaks
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
-from p2sf.pupil.basis import HALF, WHOLE, PupilDomain
+from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 if TYPE_CHECKING:
@@ -30,7 +30,9 @@ if TYPE_CHECKING:
 
 # Far below any atom, and far above where the cube of a curvature overflows.
 SMALLEST_RADIUS_MM = 1e-30
-NORMALISATIONS_MM = 1e-6, 1e6  # radii whose powers, up to the 50th, are still numbers
+NORMALISATIONS_MM = 1e-6, 1e6  # radii whose powers up to the 50th neither overflow nor underflow
+
+D_NM = 587.5618
 
 ApertureKind = Literal["stop_semi_diameter", "entrance_pupil_diameter", "f_number"]
 Aim = Literal["stop", "paraxial"]
@@ -40,16 +42,16 @@ USUAL_AIM: Aim = "stop"
 
 @dataclass(frozen=True)
 class Surface:
-    """One refracting or reflecting surface, or a bare plane such as a stop, and what follows it.
+    """One refracting or reflecting surface, or a dummy plane such as a stop, with the thickness and medium behind it.
 
     Parameters
     ----------
     radius : float
         Radius of curvature, mm, positive where the centre lies to the right; inf for a plane.
     thickness : float
-        Distance to the next vertex, or of the last surface to the sensor, mm; negative where light runs back.
+        Distance to the next vertex, or from the last surface to the sensor, mm; negative where light travels to −z.
     medium : Medium
-        What the light enters behind the surface; MIRROR for a surface that reflects it.
+        The medium behind the surface; MIRROR for a reflecting surface.
     conic : float
         Conic constant K; 0 is a sphere, −1 a paraboloid.
     aspheric : tuple of float
@@ -57,22 +59,22 @@ class Surface:
     semi_diameter : float
         Radius of the clear aperture, mm.
     shape : RadialPolynomial, Qcon or Qbfs, optional
-        What is added to the sag of the conic and its aspheric terms.
+        A shape added to the sag of the conic and its aspheric terms.
     diffraction : Diffraction, optional
         The phase that a diffractive surface adds.
     before, after : tuple of Placement
-        How the axes of the surface stand in those before it, and how those behind it, along whose z the thickness
-        runs, stand in the surface's own: one break of the coordinates after the other.
+        Coordinate breaks, applied in order, from the axes before the surface to its own, and from its own to those
+        behind it, along whose z the thickness is measured.
     inner_radius : float
-        Radius, mm, within which rays are lost where rims clip: a mirror's hole, or the shadow of what stands there.
+        Radius, mm, within which rays are lost where rims clip: the hole of a mirror, or an obscuration.
     ideal_focal_length : float
-        The focal length, mm, of an ideal lens in this plane, whose power is its inverse; inf for a real surface.
+        The focal length, mm, of an ideal lens in this plane; inf for a real surface.
     rim : Rim, optional
-        Where the clear aperture stands, if it is decentred or a rectangle.
+        The clear aperture, if it is decentred or a rectangle.
     irregularity : Irregularity, optional
-        What was ground into the surface by mistake, and is added to its sag.
+        An astigmatic figure error added to the sag.
     transmission : Transmission, optional
-        The share of energy that it passes, or a mirror reflects; all of it if not given.
+        The share of energy that the surface transmits, or a mirror reflects; by default all.
     """
 
     radius: float = inf
@@ -104,18 +106,18 @@ class Surface:
 
     @cached_property
     def base(self) -> Conic:
-        """Return the sphere or the other conic that all other parts stand on."""
+        """Return the conic to which all other parts are added."""
         return Conic(self.curvature, self.conic)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """Return what adds up to the sag: the conic first, then even terms, a shape and an irregularity."""
+        """Return the parts whose sum is the sag: the conic first, then even terms, a shape and an irregularity."""
         terms = EvenTerms(self.aspheric) if any(self.aspheric) else None
         return self.base, *(part for part in (terms, self.shape, self.irregularity) if part is not None)
 
     @cached_property
     def radial_parts(self) -> tuple[RadialPart, ...]:
-        """Return the parts of revolution beside the conic."""
+        """Return the parts of revolution except the conic."""
         return tuple(part for part in self.parts[1:] if isinstance(part, RadialPart))
 
     @cached_property
@@ -125,11 +127,11 @@ class Surface:
 
     @cached_property
     def addends_mm(self) -> float:
-        """Return how large the numbers are whose sum is the sag, mm, beyond the sag itself."""
+        """Return the magnitude of the addends of the sag, mm, as far as it exceeds the sag itself."""
         return sum(part.addends_mm for part in self.parts)
 
     def sag(self, x: FloatOrArray, y: FloatOrArray) -> FloatOrArray:
-        """Return the sag at a place, mm; NaN beyond the edge of the conic."""
+        """Return the sag at a point, mm; NaN beyond the edge of the conic."""
         with np.errstate(invalid="ignore"):
             depth, _ = self.sag_and_slope(x * x + y * y)
             for part in self.uneven_parts:
@@ -157,14 +159,19 @@ class Surface:
         """Return whether the surface is a plane."""
         return not self.curvature and len(self.parts) == 1
 
-    @property
+    @cached_property
     def bare(self) -> bool:
-        """Return whether the surface is a plane that does nothing to light between equal media."""
-        return self.flat and self.diffraction is None and not self.ideal and self.transmission is None
+        """Return whether the surface is a plane without effect on light between equal media."""
+        return not any(each.acts(getattr(self, each.name)) for each in PROPERTIES)
+
+    @cached_property
+    def symmetric(self) -> bool:
+        """Return whether the surface is neither tilted nor decentred, and is of revolution, as its rim is."""
+        return all(each.symmetric(getattr(self, each.name)) for each in PROPERTIES)
 
     @property
     def ideal(self) -> bool:
-        """Return whether this is an ideal lens, which images every point sharply where first order has it."""
+        """Return whether this is an ideal lens, which images every point sharply onto its paraxial image point."""
         return isfinite(self.ideal_focal_length)
 
     @property
@@ -175,7 +182,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class Aperture:
-    """How wide the lens is open: the stop's radius or the pupil's diameter in mm, or the f-number.
+    """The aperture: the radius of the stop or the diameter of the entrance pupil in mm, or the f-number.
 
     The pupil's diameter and the f-number (focal length/pupil diameter) hold at the lens's reference wavelength, and for
     the lens as it is: if `dataclasses.replace` changes a surface, the stop's radius follows from the new surfaces.
@@ -193,36 +200,43 @@ class Aperture:
 class Lens:
     """A system of lenses and mirrors and its sensor; `p2sf.load_lens` reads one.
 
-    It is rotationally symmetric unless surfaces are irregular, or these or the sensor tilted or decentred.
+    It is rotationally symmetric unless surfaces are irregular, or surfaces or the sensor are tilted or decentred.
 
     Parameters
     ----------
     surfaces : tuple of Surface
-        In the order light meets them; the thickness of the last is the distance to the sensor, mm.
+        In the order in which light meets them; the thickness of the last is the distance to the sensor, mm.
     aperture : Aperture
-        How wide the lens is open.
+        The aperture.
     stop_surface : int, optional
         Number of the aperture stop, from 1; by default the narrowest rim for an object at infinity.
     name, title, source, comment : str
-        A short name, a title, where the numbers come from, and anything else.
+        A short name, a title, the source of the data, and a comment.
     character : str
         One line about the lens, for lists of lenses.
-    fields_deg, wavelengths_nm : tuple of float
-        Field angles, degrees, and wavelengths, nm, for which the lens is meant; the middle wavelength is its reference.
+    fields_deg, fields_x_deg : tuple of float
+        Field angles of the design along y and along x, degrees, as those of a camera; without angles along x they are
+        0.
+    wavelengths_nm : tuple of float
+        Wavelengths of the design, nm.
+    wavelength_weights : tuple of float
+        Their shares of the light, in any unit; none means that all have the same.
+    reference_nm : float, optional
+        That of the wavelengths at which pupil diameter and f-number hold; the middle one where none is given.
     object_medium : Medium
         The medium of object space.
     aim : str
         How exact rays fill the pupil: "stop", evenly up to the rim of the real stop; "paraxial", evenly over the
         paraxial entrance pupil.
     mask : PupilMask
-        What stands in the stop: obscuration, vanes, blades, apodisation, phase; by default nothing.
+        The pupil mask in the stop: obscuration, vanes, blades, apodisation, phase; by default none.
     positions : Positions, optional
-        For a lens that zooms or focuses inside: all of its columns, and the present position between them
-        (see `p2sf.lens_at`).
+        For a lens that zooms or focuses internally: all its columns, and the current position between them (see
+        `p2sf.lens_at`).
     sensor_before : tuple of Placement
-        Tilt and decentre of the sensor, relative to its place behind the last surface.
+        Tilt and decentre of the sensor, relative to its nominal position behind the last surface.
     absorption : bool
-        Whether rays lose the light that media absorb behind the first surface, as far as their catalogues say.
+        Whether rays lose the light that the media behind the first surface absorb, if their catalogues state it.
 
     Raises
     ------
@@ -239,13 +253,16 @@ class Lens:
     comment: str = ""
     character: str = ""
     fields_deg: tuple[float, ...] = (0.0,)
-    wavelengths_nm: tuple[float, ...] = (587.5618,)
+    wavelengths_nm: tuple[float, ...] = (D_NM,)
     object_medium: Medium = AIR
     aim: Aim = USUAL_AIM
     mask: PupilMask = CLEAR
     positions: "Positions | None" = None
     sensor_before: tuple[Placement, ...] = ()
     absorption: bool = False
+    fields_x_deg: tuple[float, ...] = ()
+    wavelength_weights: tuple[float, ...] = ()
+    reference_nm: float | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -257,12 +274,19 @@ class Lens:
             raise GeometryError(
                 "aperture {kind} is {value}; give a positive number", kind=self.aperture.kind, value=self.aperture.value
             )
+        if len(self.fields_x_deg) not in (0, len(self.fields_deg)):
+            raise GeometryError(
+                "the lens has {across} field angles along x for {count} along y; give as many, or none",
+                across=len(self.fields_x_deg),
+                count=len(self.fields_deg),
+            )
         if not self.wavelengths_nm:
             raise GeometryError("the lens has no wavelengths; give at least one")
         if min(self.wavelengths_nm) <= 0:
             raise GeometryError(
                 "wavelengths are {wavelengths} nm; give positive numbers", wavelengths=self.wavelengths_nm
             )
+        _check_weights(self)
         if self.aim not in AIMS:
             raise GeometryError('aim "{aim}" is unknown; choose "stop" or "paraxial"', aim=self.aim)
 
@@ -283,18 +307,41 @@ class Lens:
         return html_table(self.title or self.name, columns, rows)
 
     def __getstate__(self) -> dict:
-        # The hash of a str differs from process to process, so the hash kept here must not be pickled.
+        # The hash of a str differs between processes, so the cached hash must not be pickled.
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
     def _hash(self) -> int:
-        # A slider step looks up the lens in a dozen caches, and hashing its hundred numbers takes a while.
+        # A slider step looks up the lens in a dozen caches, and hashing its hundred numbers is slow.
         return hash(tuple(getattr(self, field.name) for field in fields(self)))
 
     @property
     def reference_wavelength_um(self) -> float:
-        """Return the middle wavelength of the file: the default, and where pupil diameter and f-number hold."""
-        return sorted(self.wavelengths_nm)[len(self.wavelengths_nm) // 2] / NM_PER_UM
+        """Return the reference wavelength: the default, and where pupil diameter and f-number hold."""
+        return self.reference_wavelength_nm / NM_PER_UM
+
+    @property
+    def reference_wavelength_nm(self) -> float:
+        """Return the reference wavelength, nm."""
+        return self.reference_nm or sorted(self.wavelengths_nm)[len(self.wavelengths_nm) // 2]
+
+    @property
+    def spectrum(self) -> str:
+        """Return the wavelengths with their weights as `p2sf.colour.spectrum.spectrum_of` reads them."""
+        weights = self.wavelength_weights or (1.0,) * len(self.wavelengths_nm)
+        return "lines:" + ",".join(f"{wave:g}@{w:g}" for wave, w in zip(self.wavelengths_nm, weights, strict=True))
+
+    @cached_property
+    def field_places_deg(self) -> tuple[tuple[float, float], ...]:
+        """Return the distinct fields as angles (x, y) in degrees, the nearest to the axis first."""
+        across = self.fields_x_deg or (0.0,) * len(self.fields_deg)
+        places = (self.pupil_domain.field(x, y) for x, y in zip(across, self.fields_deg, strict=True))
+        return tuple(sorted(dict.fromkeys(places), key=lambda place: angle_from_axis(*place)))
+
+    @property
+    def widest_field_deg(self) -> float:
+        """Return the largest angle of the fields from the axis, degrees."""
+        return angle_from_axis(*self.field_places_deg[-1]) if self.fields_deg else 0.0
 
     @property
     def sensor_mm(self) -> float:
@@ -308,7 +355,7 @@ class Lens:
 
     @cached_property
     def media(self) -> tuple[Medium, ...]:
-        """Return the media in the order light meets them, one more than there are surfaces."""
+        """Return the media in the order in which light meets them, one more than there are surfaces."""
         media = [self.object_medium]
         for surface in self.surfaces:
             media.append(media[-1] if surface.reflects else surface.medium)
@@ -316,34 +363,42 @@ class Lens:
 
     @cached_property
     def directions(self) -> tuple[int, ...]:
-        """Return for every medium 1 if light runs to the right in it, −1 after an odd number of mirrors."""
+        """Return 1 for every medium in which light travels to the right, −1 after an odd number of mirrors."""
         return tuple(accumulate((-1 if surface.reflects else 1 for surface in self.surfaces), mul, initial=1))
 
     @cached_property
     def misaligned(self) -> bool:
-        """Return whether anything is tilted, decentred or not of revolution, mirrors and clear rims included."""
-        if any(surface.rim or surface.uneven_parts for surface in self.surfaces):
-            return True
-        placements = *(p for s in self.surfaces for p in (*s.before, *s.after)), *self.sensor_before
-        return not all(placement.idle for placement in placements)
+        """Return whether anything is tilted, decentred or not of revolution, including mirrors and clear rims."""
+        return self.first_misaligned is not None
+
+    @cached_property
+    def first_misaligned(self) -> int | None:
+        """Return the first surface, from 1, that is not symmetric or has a coordinate break beside it, or None.
+
+        The sensor counts as the surface behind the last.
+        """
+        on_axis = all(placement.idle for placement in self.sensor_before)
+        found = (number for number, surface in enumerate(self.surfaces, 1) if not surface.symmetric)
+        return next(found, None if on_axis else len(self.surfaces) + 1)
 
     @cached_property
     def pupil_domain(self) -> PupilDomain:
-        """Return which part of the pupil tells everything: half of it, or all where the lens is misaligned."""
+        """Return the part of the pupil that determines the rest: half of it, or all if the lens is misaligned."""
         return WHOLE if self.misaligned else HALF
 
     @cached_property
     def absorbs(self) -> tuple[bool, ...]:
-        """Return for every medium whether light is lost in it; that of the object does not belong to the lens."""
+        """Return for every medium whether it absorbs light; that of object space does not count."""
         known = (self.absorption and transmittance_of(medium) is not None for medium in self.media[1:])
         return False, *known
 
     @cached_property
     def shading(self) -> Message | None:
-        """Return what takes more light from some parts of the pupil than from others; None where nothing does."""
+        """Return the cause of non-uniform transmission over the pupil; None if there is none."""
         for number, surface in enumerate(self.surfaces, 1):
-            if reason := BY_NAME["transmission"].unseen(surface.transmission):
-                return Message("surface {surface} {reason}", surface=number, reason=reason)
+            for each in PROPERTIES:
+                if reason := each.shades(getattr(surface, each.name)):
+                    return Message("surface {surface} {reason}", surface=number, reason=reason)
         if any(self.absorbs):
             return Message(
                 "the medium behind surface {surface} absorbs light along paths of different lengths",
@@ -353,7 +408,7 @@ class Lens:
 
     @cached_property
     def motions(self) -> tuple[Motion, ...]:
-        """Return the axes of each surface, and of the sensor, relative to those before; the first to the lens's."""
+        """Return the axes of each surface and of the sensor relative to the previous axes, first those of the lens."""
         found = []
         onward = along_z(0.0)
         for surface in self.surfaces:
@@ -363,7 +418,7 @@ class Lens:
 
     @cached_property
     def steps(self) -> tuple[float | None, ...]:
-        """Return for each of the ``motions`` the distance along z, mm, or None if it is more than a shift along z."""
+        """Return the distance along z, mm, of each of the ``motions``, None for those other than a shift along z."""
         if not self.sensor_before and not any(surface.before or surface.after for surface in self.surfaces):
             return 0.0, *(surface.thickness for surface in self.surfaces)
         plain = (not motion.turns and not motion.origin[:2].any() for motion in self.motions)
@@ -375,6 +430,22 @@ class Lens:
         return tuple(accumulate(self.motions, Motion.then))
 
 
+def _check_weights(lens: Lens) -> None:
+    weights = lens.wavelength_weights
+    if len(weights) not in (0, len(lens.wavelengths_nm)) or (weights and not (min(weights) >= 0 < max(weights) < inf)):
+        raise GeometryError(
+            "the weights of {count} wavelengths are {weights}; give one that is not negative for each, or none",
+            count=len(lens.wavelengths_nm),
+            weights=weights,
+        )
+    if lens.reference_nm not in (None, *lens.wavelengths_nm):
+        raise GeometryError(
+            "the reference wavelength {reference:g} nm is none of the lens's, {wavelengths:g} nm; choose one of these",
+            reference=lens.reference_nm,
+            wavelengths=lens.wavelengths_nm,
+        )
+
+
 def _chain(motion: Motion, placements: tuple[Placement, ...]) -> Motion:
     return reduce(Motion.then, (placement.motion for placement in placements), motion)
 
@@ -382,7 +453,7 @@ def _chain(motion: Motion, placements: tuple[Placement, ...]) -> Motion:
 def with_sensor(lens: Lens, sensor_mm: float) -> Lens:
     """Return the same lens with its sensor ``sensor_mm`` behind the last vertex."""
     if lens.sensor_mm == sensor_mm:
-        return lens  # caches find the very same object without comparing a hundred numbers
+        return lens  # caches find the identical object without comparing a hundred numbers
     last = replace(lens.surfaces[-1], thickness=float(sensor_mm))
     return replace(lens, surfaces=(*lens.surfaces[:-1], last))
 
@@ -393,13 +464,13 @@ def with_f_number(lens: Lens, f_number: float) -> Lens:
 
 
 def with_aim(lens: Lens, aim: Aim) -> Lens:
-    """Return the same lens with its pupil filled as ``aim`` says; GeometryError for an unknown one."""
+    """Return the same lens with this ``aim``; GeometryError for an unknown one."""
     return lens if lens.aim == aim else replace(lens, aim=aim)
 
 
 @check_arguments
 def with_absorption(lens: Lens, absorption: bool = True) -> Lens:
-    """Return the same lens with the light that its media absorb taken from its rays, or left to them."""
+    """Return the same lens with or without the absorption of its media."""
     return lens if lens.absorption == absorption else replace(lens, absorption=absorption)
 
 
@@ -409,20 +480,26 @@ def with_mask(lens: Lens, mask: PupilMask) -> Lens:
     return lens if lens.mask == mask else replace(lens, mask=mask)
 
 
-def check_unmasked(lens: Lens, what: Message) -> None:
-    """Raise GeometryError for ``what`` knows the clear disc of the stop only, where the lens has a mask in it."""
-    if not lens.mask.clear:
-        raise GeometryError(
-            "a mask stands in the stop, and {what} supports only a clear round stop; remove the mask", what=what
-        )
+def without_rays(lens: Lens) -> Message | None:
+    """Return why the places where rays land do not show where the light goes; None where they do."""
+    if not lens.mask.phased:
+        return None
+    return Message("the phase in the stop bends light by diffraction, which rays alone do not show; remove the phase")
+
+
+def check_rays(lens: Lens) -> None:
+    """Raise GeometryError where rays alone do not show where the light goes."""
+    why = without_rays(lens)
+    if why is not None:
+        raise GeometryError("{reason}", reason=why)
 
 
 @lru_cache(maxsize=64)
 def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
-    """Return a lens as a source in this azimuth sees it that is described in the plane x = 0: turned about its axis.
+    """Return a lens rotated about its axis, so that a source at this azimuth lies in the plane x = 0.
 
-    Every break of the coordinates stands in axes that are turned with the source, so that the stop's and the sensor's
-    own are as well. A lens that is not misaligned is returned.
+    Every coordinate break is given in axes rotated with the source, so that the axes of stop and sensor are rotated as
+    well. An aligned lens is returned unchanged.
     """
     if not azimuth_deg or not lens.misaligned:
         return lens
@@ -434,7 +511,7 @@ def seen_from(lens: Lens, azimuth_deg: float) -> Lens:
 
 
 def scale_surface(surface: Surface, factor: float) -> Surface:
-    """Return a surface whose lengths are in units ``factor`` mm long, in mm."""
+    """Return a surface scaled from lengths in units of ``factor`` mm to mm."""
     if factor == 1:
         return surface
     return replace(surface, **{each.name: each.scaled(getattr(surface, each.name), factor) for each in PROPERTIES})
@@ -443,34 +520,29 @@ def scale_surface(surface: Surface, factor: float) -> Surface:
 SET_STRAIGHT = Message("align it")
 
 
+def message_if_misaligned(lens: Lens, message: Message | None) -> Message | None:
+    """Return a message if the lens is tilted, decentred or not of revolution, else None."""
+    return message if lens.misaligned else None
+
+
 def check_aligned(lens: Lens, what: Message, remedy: Message = SET_STRAIGHT) -> None:
-    """Raise GeometryError for ``what`` takes a lens of rotational symmetry, where parts are not symmetric."""
-    if lens.misaligned:
-        raise GeometryError(
-            "surface {surface} is tilted, decentred or not of revolution, and {what} supports only rotational "
-            "symmetry; {remedy}",
-            surface=_first_misaligned(lens),
-            what=what,
-            remedy=remedy,
-        )
-
-
-def _first_misaligned(lens: Lens) -> int:
-    """Return the first surface, from 1, that is not symmetric or that a break stands before or behind.
-
-    The sensor is that behind the last.
-    """
-    placed = (
-        s.rim is not None or s.uneven_parts or any(not p.idle for p in (*s.before, *s.after)) for s in lens.surfaces
+    """Raise GeometryError unless the lens is rotationally symmetric, which ``what`` requires."""
+    refusal = Message(
+        "surface {surface} is tilted, decentred or not of revolution, and {what} supports only rotational symmetry; "
+        "{remedy}",
+        surface=lens.first_misaligned,
+        what=what,
+        remedy=remedy,
     )
-    return next((number for number, found in enumerate(placed, 1) if found), len(lens.surfaces) + 1)
+    if reason := message_if_misaligned(lens, refusal):
+        raise GeometryError(reason)
 
 
 def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
     """Return the refractive index of every medium, shape (surfaces + 1, *wavelength_um.shape).
 
-    It is negative where light runs to the left: a mirror is then a surface with n' = −n, and every equation of
-    refraction holds for it (Welford 1986, ch. 4). Raises GlassError for a wavelength, µm, outside a glass's data.
+    It is negative where light travels to the left: a mirror is then a surface with n' = −n, for which all equations of
+    refraction hold (Welford 1986, ch. 4). Raises GlassError for a wavelength, µm, outside the data of a glass.
     """
     wavelength, media = np.asarray(wavelength_um, dtype=float), lens.media
     known = {id(medium): medium.index(wavelength) for medium in {id(medium): medium for medium in media}.values()}
@@ -482,9 +554,9 @@ def indices(lens: Lens, wavelength_um: ArrayLike) -> np.ndarray:
 
 
 def absorptions(lens: Lens, wavelength_um: FloatOrArray) -> list[FloatOrArray] | None:
-    """Return what every medium absorbs, per mm, in the shape of ``wavelength_um``; None for a lens that absorbs none.
+    """Return the absorption coefficients of the media, per mm, in the shape of ``wavelength_um``; None if all are 0.
 
-    The share that passes a length is exp(−absorption·length).
+    The share transmitted over a length is exp(−absorption·length).
     """
     if not any(lens.absorbs):
         return None
@@ -495,7 +567,7 @@ def absorptions(lens: Lens, wavelength_um: FloatOrArray) -> list[FloatOrArray] |
 def surface_power(
     surface: Surface, before: FloatOrArray, after: FloatOrArray, wavelength_um: FloatOrArray
 ) -> FloatOrArray:
-    """Return the power (n′ − n)c of a surface, and −2 times the r² term of the path that its diffraction adds, per mm.
+    """Return the power (n′ − n)c of a surface, minus twice the r² term of the path that its diffraction adds, per mm.
 
     That of an ideal lens is 1/f in any media. ``before``, ``after``: the signed indices. Source: Welford 1986, ch. 3;
     Sweatt 1977.
@@ -507,7 +579,7 @@ def surface_power(
 
 
 def lens_range_um(lens: Lens) -> tuple[float, float] | None:
-    """Return the wavelengths in µm at which every medium has an index; None where nothing limits them."""
+    """Return the range of wavelengths in µm at which every medium has an index; None if it is unlimited."""
     ranges = [medium.range_um for medium in lens.media if medium.range_um]
     if not ranges:
         return None
@@ -558,7 +630,7 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
 
 
 def _check_shape(surface: Surface, number: int) -> None:
-    """Raise GeometryError for numbers of a shape, of diffraction or of an irregularity that cannot be."""
+    """Raise GeometryError for invalid numbers of a shape, a diffraction or an irregularity."""
     for part in (surface.shape, surface.diffraction, surface.irregularity):
         if part is None:
             continue
@@ -589,8 +661,8 @@ def _check_shape(surface: Surface, number: int) -> None:
     plain = surface.flat and surface.diffraction is None
     if isnan(focal) or (surface.ideal and not (plain and focal)):
         raise GeometryError(
-            "surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not "
-            "diffract, and its focal length not 0",
+            "surface {surface} is an ideal lens of focal length {focal:g} mm; it must be a plane without diffraction, "
+            "and its focal length must not be 0",
             surface=number,
             focal=focal,
         )

@@ -12,10 +12,10 @@ from p2sf.lens.properties import PROPERTIES
 
 
 def displaced(lens: Lens, first: int, last: int, placement: Placement) -> Lens:
-    """Return the lens with its surfaces ``first`` to ``last``, from 1, moved as one piece, and nothing else.
+    """Return the lens with surfaces ``first`` to ``last``, from 1, moved as one piece; all others stay.
 
-    ``placement`` stands in the axes before surface ``first``, and its pivot in mm from that vertex. Raises
-    GeometryError where there are no such surfaces.
+    ``placement`` is given in the axes before surface ``first``, its pivot in mm from that vertex. Raises GeometryError
+    if there are no such surfaces.
     """
     if not 1 <= first <= last <= len(lens.surfaces):
         raise GeometryError(
@@ -36,7 +36,7 @@ def displaced(lens: Lens, first: int, last: int, placement: Placement) -> Lens:
 
 
 def _restoring(lens: Lens, first: int, last: int, placement: Placement) -> Placement:
-    """Return the break behind surface ``last`` that gives back the axes as they are without ``placement``."""
+    """Return the break behind surface ``last`` that restores the axes as they are without ``placement``."""
     inside = along_z(0.0)
     for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
         breaks = (one.motion for one in (*surface.before, *surface.after))
@@ -47,27 +47,30 @@ def _restoring(lens: Lens, first: int, last: int, placement: Placement) -> Place
 
 
 def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
-    """Return the lens with its sensor placed so, in the axes at its place behind the last surface."""
+    """Return the lens with its sensor tilted and decentred, in the axes at its position behind the last surface."""
     return replace(lens, sensor_before=() if placement.idle else (placement,))
 
 
 @lru_cache(maxsize=16)
 def straighten(lens: Lens) -> Lens:
-    """Return the lens without tilts, decentres and what is not of revolution; its rims stay."""
+    """Return the aligned lens: without tilts, decentres and parts that are not of revolution; its rims stay."""
     surfaces = tuple(
         replace(s, **{each.name: each.aligned(getattr(s, each.name)) for each in PROPERTIES}) for s in lens.surfaces
     )
     return replace(lens, surfaces=surfaces, sensor_before=())
 
 
+@lru_cache(maxsize=16)
 def average_azimuths(lens: Lens) -> Lens:
-    """Return the lens as paraxial rays see it: with the mean over all azimuths of every shape, and without shading."""
-    if lens.shading is None and all(s.shape is None or s.shape.radial for s in lens.surfaces):
+    """Return the lens for paraxial rays: with the azimuthal mean of every shape, and without shading."""
+    surfaces = tuple(
+        replace(s, **{each.name: each.averaged(getattr(s, each.name)) for each in PROPERTIES}) for s in lens.surfaces
+    )
+    if lens.shading is None and surfaces == lens.surfaces:
         return lens
-    surfaces = tuple(replace(s, shape=s.shape and s.shape.mean, transmission=None) for s in lens.surfaces)
     return replace(lens, surfaces=surfaces, absorption=False)
 
 
 def folding(placement: Placement) -> dict[str, tuple[Placement, ...]]:
-    """Return ``before`` and ``after`` of a mirror that folds the axis: placed so, with the axes behind following it."""
+    """Return ``before`` and ``after`` of a mirror at ``placement`` that folds the axis: the axes behind it follow."""
     return {"before": (placement,), "after": (placement.followed,)}

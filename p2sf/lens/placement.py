@@ -1,4 +1,4 @@
-"""Tilts and decentres: how the axes of a surface stand in those of the one before it."""
+"""Tilts and decentres: the axes of a surface relative to those of the surface before it."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -10,54 +10,54 @@ import numpy as np
 from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
 
-MOST_TILT_DEG = 90.0  # about x or y: there a surface is seen edge on
-STEEP = 1e-12  # of a cosine: below it two of the angles turn about the same axis
+MOST_TILT_DEG = 90.0  # about x or y: there a surface is edge-on
+STEEP = 1e-12  # of a cosine: below it two of the angles are rotations about the same axis
 
 
 UPRIGHT = np.eye(3).tolist()
 
 
 class Motion(NamedTuple):
-    """New axes in old ones: what is at ``p`` (3,) in the new ones is at origin + rotation @ p in the old, mm."""
+    """New axes in terms of old ones: the point ``p`` (3,) of the new axes is origin + rotation @ p in the old, mm."""
 
     rotation: np.ndarray
     origin: np.ndarray
 
     def then(self, other: "Motion") -> "Motion":
-        """Return the axes of ``other``, given in the axes of this one, in those that this one is given in."""
+        """Return ``other``, given in the axes of this motion, in the axes in which this motion is given."""
         return Motion(self.rotation @ other.rotation, self.origin + self.rotation @ other.origin)
 
     @property
     def inverse(self) -> "Motion":
-        """Return the old axes in the new ones."""
+        """Return the old axes in terms of the new ones."""
         return Motion(self.rotation.T, -(self.rotation.T @ self.origin))
 
     @property
     def turns(self) -> bool:
-        """Return whether the axes turn."""
+        """Return whether the axes are rotated."""
         return bool(self.rotation.tolist() != UPRIGHT)  # np.array_equal takes ten times as long
 
 
 @dataclass(frozen=True)
 class Placement:
-    """A break of the coordinates: axes that are moved and turned, in which all that follows is given.
+    """A coordinate break: everything behind it is given in shifted and rotated axes.
 
-    The axes are first moved by the decentre, then turned about the new x, the new y and the new z axis; with
-    ``tilt_first`` they are first turned about z, the new y and the new x axis, and then moved along the new axes. So
-    the inverse has the opposite signs and the other order. Angles are right-handed: a positive one about x turns y
-    towards z. This is OpticStudio's coordinate break with its order flag; CODE V's ADE and BDE have the other sign,
-    its CDE has this one.
+    The axes are first shifted by the decentre, then rotated about the new x, the new y and the new z axis; with
+    ``tilt_first`` they are first rotated about z, the new y and the new x axis, and then shifted along the new axes. So
+    the inverse has the opposite signs and the other order. Angles are right-handed: a positive one about x rotates y
+    towards z. This is OpticStudio's coordinate break with its order flag; CODE V's ADE and BDE have the other sign, its
+    CDE has this one.
 
     Parameters
     ----------
     decentre_x, decentre_y, decentre_z : float
-        How far the axes are moved, mm.
+        Shift of the axes, mm.
     tilt_x_deg, tilt_y_deg, tilt_z_deg : float
-        By what the axes are turned, degrees, less than 90 about x and y.
+        Rotations of the axes, degrees, less than 90 about x and y.
     tilt_first : bool
-        Turn before moving, in the opposite order of the axes.
+        Rotate before shifting, in the opposite order of the axes.
     pivot : (float, float, float)
-        The point about which the axes turn, mm from the old vertex.
+        The centre of rotation, mm from the old vertex.
     """
 
     decentre_x: float = 0.0
@@ -81,45 +81,45 @@ class Placement:
 
     @property
     def idle(self) -> bool:
-        """Return whether the axes stay as they are."""
+        """Return whether the axes stay unchanged."""
         return not (any(self.decentre) or any(self.tilt_deg))
 
     @property
     def motion(self) -> Motion:
-        """Return the new axes in the old ones."""
+        """Return the new axes in terms of the old ones."""
         return _motion(self)
 
     @property
     def inverse(self) -> "Placement":
-        """Return the break that undoes this one, where it follows at once."""
+        """Return the break that undoes this one if it follows immediately."""
         x, y, z = (-value for value in self.decentre)
         a, b, c = (-value for value in self.tilt_deg)
         return Placement(x, y, z, a, b, c, not self.tilt_first, self.pivot)
 
     @property
     def followed(self) -> "Placement":
-        """Return the break behind a mirror placed by this one, after which the axes follow the reflected axis.
+        """Return the break behind a mirror with this break before it, so that the axes follow the reflected axis.
 
         With R the rotation of the mirror and S the reflection of z at a plane, the mirror maps points p of the axes
-        before it to R·S·Rᵀ·p; behind the rotation S·Rᵀ·S these are the coordinates S·p, as behind a mirror that
-        stands upright. S changes the sign of the angles about x and y.
+        before it to R·S·Rᵀ·p; after the rotation S·Rᵀ·S these have the coordinates S·p, as behind an untilted mirror. S
+        changes the sign of the angles about x and y.
         """
         a, b, c = self.tilt_deg
         return Placement(tilt_x_deg=a, tilt_y_deg=b, tilt_z_deg=-c, tilt_first=not self.tilt_first)
 
     def behind(self, distance: float) -> "Placement":
-        """Return the same break in axes that stand ``distance`` mm farther along z: about the same pivot."""
+        """Return the same break in axes ``distance`` mm farther along z, about the same pivot."""
         x, y, z = self.pivot
         return replace(self, pivot=(x, y, z - distance))
 
     def scaled(self, factor: float) -> "Placement":
-        """Return the same break with lengths in units ``factor`` mm long, in mm."""
+        """Return the break scaled from lengths in units of ``factor`` mm to mm."""
         x, y, z = (factor * value for value in self.decentre)
         across, up, along = (factor * value for value in self.pivot)
         return replace(self, decentre_x=x, decentre_y=y, decentre_z=z, pivot=(across, up, along))
 
     def check(self, surface: int) -> None:
-        """Raise GeometryError for numbers that cannot be; ``surface`` counts from 1."""
+        """Raise GeometryError for invalid numbers; ``surface`` counts from 1."""
         if not all(map(isfinite, (*self.decentre, *self.tilt_deg, *self.pivot))):
             raise GeometryError(
                 "surface {surface}: a tilt or decentre is not finite; give finite numbers", surface=surface
@@ -127,8 +127,8 @@ class Placement:
         for axis, tilt in (("x", self.tilt_x_deg), ("y", self.tilt_y_deg)):
             if abs(tilt) >= MOST_TILT_DEG:
                 raise GeometryError(
-                    "surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge on or further; give less "
-                    "than 90°",
+                    "surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge-on or further; give less than "
+                    "90°",
                     surface=surface,
                     tilt=tilt,
                     axis=axis,
@@ -136,7 +136,7 @@ class Placement:
 
 
 def placement_of(motion: Motion) -> Placement:
-    """Return the break that makes this motion: decentred first, then turned about x, y and z."""
+    """Return the break of a motion: shifted first, then rotated about x, y and z."""
     r = motion.rotation
     b = asin(float(np.clip(r[0, 2], -1, 1)))
     if hypot(r[0, 0], r[0, 1]) > STEEP:
@@ -148,7 +148,7 @@ def placement_of(motion: Motion) -> Placement:
 
 
 def along_z(distance: float) -> Motion:
-    """Return axes that stand ``distance`` mm farther along z."""
+    """Return axes ``distance`` mm farther along z."""
     return Motion(np.eye(3), np.array([0.0, 0.0, distance]))
 
 

@@ -1,4 +1,4 @@
-"""Zoom and focus positions: a lens whose prescription is known in named columns, and what lies between them."""
+"""Zoom and focus positions: a lens whose prescription is known in named columns, and its interpolation between them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -19,18 +19,19 @@ if TYPE_CHECKING:
 
 Kind = Literal["zoom", "focus"]
 PARAMETER: dict[Kind, str] = {"zoom": "zoom", "focus": "focus_position"}
-"""What a request calls the position on an axis."""
+"""The parameter of a request for the position on an axis."""
 Address = tuple[int, str, int]
-"""Where a number of a lens is: surface from 0 (−1: the lens itself), field, place in the field's tuple."""
+"""Address of a number in a lens: surface from 0 (−1: the lens itself), field, index in the field's tuple."""
 WHOLE = -1
+FIELDS = ("fields_deg", "fields_x_deg")
 KEPT = ("name", "title", "source", "comment", "character", "aim", "mask", "absorption")
-"""Fields of a lens that are the same at every position; columns have their defaults."""
+"""Fields of a lens that are the same at every position; in columns they have their defaults."""
 PLAIN: dict[str, Any] = {field.name: field.default for field in fields(Lens) if field.name in (*KEPT, "positions")}
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One ring of a lens: its scale, and where on it the prescription is known.
+    """One ring of a lens: its scale, and the positions on it at which the prescription is known.
 
     Parameters
     ----------
@@ -39,14 +40,14 @@ class Axis:
     columns : tuple of str
         The name of every column, such as "wide" or "35 mm".
     at : tuple of float
-        Where on the ring's scale each column is, ascending. Numbers between columns are interpolated in this variable.
+        Position of each column on the ring's scale, ascending; interpolation between columns uses this variable.
     unit : str
-        The unit of the scale, "" for a bare number.
+        The unit of the scale, "" for a plain number.
 
     Raises
     ------
     GeometryError
-        For fewer than two columns, and for places that do not ascend.
+        For fewer than two columns, and for positions that do not ascend.
     """
 
     kind: Kind
@@ -64,7 +65,7 @@ class Axis:
             )
         if len(set(self.columns)) < len(self.columns):
             raise GeometryError(
-                "{kind} has two columns of one name: {names}; rename one", kind=self.kind, names=self.columns
+                "{kind} has two columns with the same name: {names}; rename one", kind=self.kind, names=self.columns
             )
         if not all(map(isfinite, self.at)) or any(high <= low for low, high in pairwise(self.at)):
             raise GeometryError(
@@ -73,26 +74,26 @@ class Axis:
 
     @property
     def low(self) -> float:
-        """Return where the scale begins."""
+        """Return the lower end of the scale."""
         return self.at[0]
 
     @property
     def high(self) -> float:
-        """Return where the scale ends."""
+        """Return the upper end of the scale."""
         return self.at[-1]
 
     def nearest(self, place: float) -> int:
-        """Return the column nearest to a place, from 0; of two equally near ones the first."""
+        """Return the column nearest to a position, from 0; the first of two equally near ones."""
         return min(range(len(self.at)), key=lambda column: abs(self.at[column] - place))
 
     def words(self, place: float) -> str:
-        """Return a place as its column is called, else as a number with its unit."""
+        """Return a position as the name of its column or, between columns, as a number with its unit."""
         if place in self.at:
             return self.columns[self.at.index(place)]
         return f"{place:.6g} {self.unit}".strip()
 
     def place(self, asked: float | str) -> float:
-        """Return the place that a number, or the name of a column, means; RequestError for one that is not there."""
+        """Return the position of a number or of the name of a column; RequestError if it does not exist."""
         names = {name.casefold(): place for name, place in zip(self.columns, self.at, strict=True)}
         try:
             place = names[asked.strip().casefold()] if isinstance(asked, str) else float(asked)
@@ -112,12 +113,12 @@ class Axis:
 
 
 def position_text(asked: float | str) -> str:
-    """Return a position as a person may have written it."""
+    """Return a position as a user may write it."""
     return asked if isinstance(asked, str) else f"{asked:g}"
 
 
 def _number(text: str, unit: str) -> float:
-    """Return a number that may have its unit behind it; inf, which is on no scale, for anything else."""
+    """Return a number with or without its unit; inf, which is on no scale, for anything else."""
     try:
         return float(text.strip().removesuffix(unit))
     except ValueError:
@@ -126,21 +127,21 @@ def _number(text: str, unit: str) -> float:
 
 @dataclass(frozen=True)
 class Positions:
-    """All that is known of a lens that zooms or focuses: a plain lens for every combination of columns.
+    """The data of a lens that zooms or focuses: a plain lens for every combination of columns.
 
     Parameters
     ----------
     axes : tuple of Axis
         The rings of the lens, zoom first.
     lenses : tuple of Lens
-        The lens at each combination of columns, those of the last axis next to each other.
+        The lens at each combination of columns, with the last axis varying fastest.
     place : tuple of float
-        Where each ring stands.
+        The position of each ring.
 
     Raises
     ------
     GeometryError
-        For another number of lenses than there are combinations, and for lenses of different numbers of surfaces.
+        If the number of lenses is not that of the combinations, or the numbers of surfaces differ.
     """
 
     axes: tuple[Axis, ...]
@@ -161,16 +162,16 @@ class Positions:
             )
 
     def axis(self, kind: Kind) -> Axis | None:
-        """Return the axis of a kind, None where the lens has none."""
+        """Return the axis of a kind, None if the lens has none."""
         return next((axis for axis in self.axes if axis.kind == kind), None)
 
     def at(self, kind: Kind) -> float | None:
-        """Return where the ring of a kind stands, None where the lens has none."""
+        """Return the position of the ring of a kind, None if the lens has none."""
         return next((place for axis, place in zip(self.axes, self.place, strict=True) if axis.kind == kind), None)
 
     @property
     def column(self) -> int | None:
-        """Return which of ``lenses`` this position is, None between columns."""
+        """Return the index in ``lenses`` of this position, None between columns."""
         number = 0
         for axis, place in zip(self.axes, self.place, strict=True):
             if place not in axis.at:
@@ -192,10 +193,10 @@ WORDS: dict[Kind, str] = {"zoom": "zoom {place}", "focus": "focus {place}"}
 
 
 def with_positions(axes: Sequence[Axis], lenses: Sequence[Lens]) -> Lens:
-    """Return the lens of these columns, in its first one; GeometryError for columns that make no lens.
+    """Return the lens with these columns, in its first column; GeometryError for inconsistent columns.
 
-    ``lenses`` has a plain lens for each combination of columns, those of the last axis next to each other. Texts, such
-    as the name, and the aim are those of the first.
+    ``lenses`` has a plain lens for each combination of columns, with the last axis varying fastest. Texts, such as the
+    name, and the aim are those of the first.
     """
     columns = tuple(replace(lens, **PLAIN) for lens in lenses)
     return replace(lenses[0], positions=Positions(tuple(axes), columns, tuple(axis.low for axis in axes)))
@@ -205,9 +206,9 @@ def with_positions(axes: Sequence[Axis], lenses: Sequence[Lens]) -> Lens:
 def interpolate_lens(positions: Positions, place: tuple[float, ...]) -> Lens:
     """Return the plain lens with its rings at ``place``, one number for each axis, within its scale.
 
-    In a column it is the column's own. Between columns every number that varies is a monotone cubic of the place
-    (`scipy.interpolate.PchipInterpolator`), a radius by its curvature, and what is no number, such as a glass, is that
-    of the nearest column.
+    At a column it is the lens of that column. Between columns every number that varies is interpolated by a monotone
+    cubic (`scipy.interpolate.PchipInterpolator`), radii as curvatures; everything else, such as a glass, is taken from
+    the nearest column.
     """
     lenses = positions.lenses
     for axis, there in reversed(list(zip(positions.axes, place, strict=True))):
@@ -217,7 +218,7 @@ def interpolate_lens(positions: Positions, place: tuple[float, ...]) -> Lens:
 
 
 def _along(axis: Axis, lenses: tuple[Lens, ...], place: float) -> Lens:
-    """Return the lens at a place of one axis, of whose columns ``lenses`` are."""
+    """Return the lens at a position on one axis with the columns ``lenses``."""
     if place in axis.at:
         return lenses[axis.at.index(place)]
     near, (addresses, curve) = lenses[axis.nearest(place)], _curves(axis.at, lenses)
@@ -225,17 +226,21 @@ def _along(axis: Axis, lenses: tuple[Lens, ...], place: float) -> Lens:
         return near
     values = dict(zip(addresses, curve(place).tolist(), strict=True))
     surfaces = tuple(_with_values(surface, number, values) for number, surface in enumerate(near.surfaces))
+    along_y, along_x = (
+        tuple(values.get((WHOLE, name, k), field) for k, field in enumerate(getattr(near, name))) for name in FIELDS
+    )
     return replace(
         near,
         surfaces=surfaces,
         aperture=Aperture(near.aperture.kind, values.get((WHOLE, near.aperture.kind, 0), near.aperture.value)),
-        fields_deg=tuple(values.get((WHOLE, "fields_deg", k), field) for k, field in enumerate(near.fields_deg)),
+        fields_deg=along_y,
+        fields_x_deg=along_x,
     )
 
 
 @lru_cache(maxsize=64)
 def _curves(at: tuple[float, ...], lenses: tuple[Lens, ...]) -> "tuple[tuple[Address, ...], PchipInterpolator | None]":
-    """Return where the lenses have different numbers, and these as a function of the place (Fritsch & Butland 1984)."""
+    """Return the addresses of the numbers that differ and their interpolant (Fritsch & Butland 1984)."""
     from scipy.interpolate import PchipInterpolator
 
     columns = [_numbers(lens) for lens in lenses]
@@ -251,8 +256,8 @@ def _varies(address: Address, columns: Sequence[dict[Address, float]]) -> bool:
 
 
 def _numbers(lens: Lens) -> dict[Address, float]:
-    """Return every number of a lens that can change steadily; a radius as its curvature, which passes through 0."""
-    found: dict[Address, float] = {(WHOLE, "fields_deg", k): field for k, field in enumerate(lens.fields_deg)}
+    """Return every number of a lens that can vary continuously; a radius as its curvature, which may pass through 0."""
+    found: dict[Address, float] = {(WHOLE, n, k): f for n in FIELDS for k, f in enumerate(getattr(lens, n))}
     found[WHOLE, lens.aperture.kind, 0] = lens.aperture.value
     for number, surface in enumerate(lens.surfaces):
         for entry in fields(Surface):
@@ -264,7 +269,7 @@ def _numbers(lens: Lens) -> dict[Address, float]:
 
 
 def _with_values(surface: Surface, number: int, values: dict[Address, float]) -> Surface:
-    """Return a surface with those of the values that are its own."""
+    """Return a surface with the values that belong to it."""
     own = {(name, place): value for (where, name, place), value in values.items() if where == number}
     changes: dict[str, object] = {}
     for name, place in own:
@@ -275,22 +280,22 @@ def _with_values(surface: Surface, number: int, values: dict[Address, float]) ->
             changes[name] = tuple(own.get((name, k), item) for k, item in enumerate(before))
         else:
             changes[name] = own[name, place]
-    return replace(surface, **changes) if changes else surface  # type: ignore[arg-type]  # names are Surface's own
+    return replace(surface, **changes) if changes else surface  # type: ignore[arg-type]  # names of fields of Surface
 
 
-def alone(lens: Lens) -> Lens:
-    """Return the lens of this position alone, which cannot be moved."""
+def without_positions(lens: Lens) -> Lens:
+    """Return the lens at this position as a lens without positions."""
     return replace(lens, positions=None)
 
 
 def steps_between(lens: Lens) -> tuple[Message, ...]:
-    """Return what of a lens between two columns is not interpolated, in words: glasses and other discrete changes."""
+    """Return messages on what is not interpolated between two columns: glasses and other discrete changes."""
     if lens.positions is None or lens.positions.column is not None:
         return ()
     columns = lens.positions.lenses
     near = Message(
         "column {column}",
-        column=tuple(axis.columns[axis.nearest(place)] for axis, place in _standing(lens.positions)),
+        column=tuple(axis.columns[axis.nearest(place)] for axis, place in _axes_and_places(lens.positions)),
     )
     found = []
     for number, rows in enumerate(zip(*(column.surfaces for column in columns), strict=True), 1):
@@ -301,15 +306,17 @@ def steps_between(lens: Lens) -> tuple[Message, ...]:
         if len({getattr(column, name) for column in columns}) > 1:
             found.append(
                 Message(
-                    "{quantity} differ between columns and are those of the nearest, {near}", quantity=words, near=near
+                    "{quantity} differ between columns; they are those of the nearest, {near}",
+                    quantity=words,
+                    near=near,
                 )
             )
     return tuple(found)
 
 
-STEP = "surface {surface}: {what} is not one in all columns; it is that of the nearest, {near}"
+STEP = "surface {surface}: {what} differs between columns and is taken from the nearest, {near}"
 DISCRETE = {"wavelengths_nm": Message("wavelengths"), "stop_surface": Message("stops")}
 
 
-def _standing(positions: Positions) -> list[tuple[Axis, float]]:
+def _axes_and_places(positions: Positions) -> list[tuple[Axis, float]]:
     return list(zip(positions.axes, positions.place, strict=True))

@@ -1,7 +1,7 @@
-"""One table of what a surface has: how each property turns, scales and reads, and which files and sums know it.
+"""Table of the properties of a surface: how each is rotated, scaled and described, and which files and sums support it.
 
-`p2sf.lensfile.toml.surface` adds to each how a lens file in TOML states it. A test compares both with the fields of
-`Surface` and with the columns of the table of surfaces, so that nothing of a new property is forgotten in silence.
+`p2sf.lensfile.toml.surface` adds the TOML entry of each property. A test compares both tables with the fields of
+`Surface` and the columns of the table of surfaces, so that a new property cannot be forgotten silently.
 """
 
 from collections.abc import Callable
@@ -11,6 +11,7 @@ from typing import Any
 
 from p2sf.lens.placement import Placement
 from p2sf.lens.shapes import EvenTerms, Shape
+from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
 
 TOML, ZEMAX, CODE_V, ISET = ".toml", ".zmx", ".seq", ".json"
@@ -38,35 +39,48 @@ def _nothing(value: Any) -> None:
     return None
 
 
+def _is_stated(value: Any) -> bool:
+    return value is not None
+
+
 @dataclass(frozen=True)
 class Property:
-    """What holds for one field of `Surface`.
+    """Description of one field of `Surface`.
 
     Parameters
     ----------
     name : str
         The field.
     label : Message
-        What messages call it, as in "its shape".
+        Its name in messages, such as "its shape".
     column : str
-        The column of the table of surfaces that shows it: that of the field itself, or one with words beside it.
+        The column of the table of surfaces that shows it: its own column, or one with additional words.
     scaled : callable
-        (value, factor): the value of a surface with lengths in units ``factor`` mm long, in mm.
+        (value, factor): the value, in mm, of a surface whose lengths are in units of ``factor`` mm.
     turned : callable
-        (value, angle): that of the surface turned about its vertex, degrees from x towards y.
+        (value, angle): the value of the surface rotated about its vertex, degrees from x towards y.
     endings : callable
-        The endings of the lens files that have a line for a value.
+        The endings of the lens files that can express a value.
+    symmetric : callable
+        Whether a lens with a value is still symmetric about its axis.
     aligned : callable
-        The value in a lens without tilts, decentres and anything that is not of revolution.
+        The value in an aligned lens, without tilts, decentres and parts that are not of revolution.
+    acts : callable
+        Whether a value curves a plane, or turns or dims rays on one between equal media.
+    shades : callable
+        What takes more light from some parts of the pupil than from others, as the predicate of a sentence about the
+        surface; None where nothing does.
+    averaged : callable
+        The value that paraxial rays see: its mean over all azimuths, without what shades.
     unseen : callable
-        What six coefficients do not describe, as the predicate of a sentence about the surface; None where they do, or
-        where they are those of the aligned lens, as a warning says.
+        What the six coefficients cannot describe, as the predicate of a sentence about the surface; None where they
+        can, or where they describe the aligned lens and a warning says so.
     short, words : callable
-        A value in a word or two, and with numbers, where its column does not show it itself.
+        A value in a word or two, and with numbers, if it has no column of its own.
     operand : str
-        What Zemax calls it where it differs between configurations; "" where it cannot.
+        Zemax's operand for a value that differs between configurations; "" if there is none.
     steps : bool
-        Whether it is not interpolated between the columns of a zoom.
+        Whether it changes in steps instead of being interpolated between the columns of a zoom.
     """
 
     name: str
@@ -75,7 +89,11 @@ class Property:
     scaled: Callable[[Any, float], Any]
     turned: Callable[[Any, float], Any] = _same
     endings: Callable[[Any], Endings] = lambda _: EVERY
+    symmetric: Callable[[Any], bool] = lambda _: True
     aligned: Callable[[Any], Any] = lambda value: value
+    acts: Callable[[Any], bool] = lambda _: False
+    shades: Callable[[Any], Message | None] = _nothing
+    averaged: Callable[[Any], Any] = lambda value: value
     unseen: Callable[[Any], Message | None] = _nothing
     short: Callable[[Any], Message | None] = _nothing
     words: Callable[[Any], Message | None] = _nothing
@@ -84,7 +102,7 @@ class Property:
 
 
 def turned_breaks(placements: tuple[Placement, ...], angle_deg: float) -> tuple[Placement, ...]:
-    """Return breaks of coordinates that stand in axes turned about z by an angle, degrees, as all that follows does."""
+    """Return coordinate breaks in axes rotated about z by an angle, degrees, as everything behind them is."""
     into, back = Placement(tilt_z_deg=angle_deg), Placement(tilt_z_deg=-angle_deg)
     return (into, *placements, back) if placements else ()
 
@@ -94,11 +112,15 @@ def _scaled_breaks(placements: tuple[Placement, ...], factor: float) -> tuple[Pl
 
 
 def _breaks_words(placements: tuple[Placement, ...]) -> Message | None:
-    if all(placement.idle for placement in placements):
+    if _symmetric_breaks(placements):
         return None
     numbers = [(*placement.decentre, *placement.tilt_deg) for placement in placements]
     x, y, z, a, b, c = (sum(column) for column in zip(*numbers, strict=True))
     return Message("axes decentred by ({decentre:g}) mm and tilted by ({tilt:g})°", decentre=(x, y, z), tilt=(a, b, c))
+
+
+def _symmetric_breaks(placements: tuple[Placement, ...]) -> bool:
+    return all(placement.idle for placement in placements)
 
 
 def _unseen_shape(shape: Shape | None) -> Message | None:
@@ -120,12 +142,17 @@ def _hole_words(radius: float) -> Message | None:
     return Message("rays within a radius of {radius:g} mm are lost", radius=radius) if radius else None
 
 
+def _shading_words(passed: Transmission | None) -> Message | None:
+    changes = passed is not None and passed.per_mm2
+    return Message("passes a share of light that changes with the height") if changes else None
+
+
 def _only(*endings: str) -> Callable[[Any], Endings]:
     return lambda _: frozenset((TOML, *endings))
 
 
 PROPERTIES = (
-    Property("radius", Message("its radius"), "radius", _length, operand="CRVT"),
+    Property("radius", Message("its radius"), "radius", _length, acts=isfinite, operand="CRVT"),
     Property("thickness", Message("the thickness behind it"), "thickness", _length, operand="THIC"),
     Property("medium", Message("the medium behind it"), "medium", _same, operand="GLSS", steps=True),
     Property("conic", Message("its conic constant"), "conic", _same, operand="CONN"),
@@ -134,6 +161,7 @@ PROPERTIES = (
         Message("its aspheric terms"),
         "aspheric",
         lambda terms, factor: EvenTerms(terms).scaled(factor).coefficients,
+        acts=any,
     ),
     Property("semi_diameter", Message("its clear rim"), "semi_diameter", _length, operand="SDIA"),
     Property(
@@ -143,7 +171,10 @@ PROPERTIES = (
         _multiply,
         _turn,
         endings=lambda shape: shape.endings if shape else EVERY,
+        symmetric=lambda shape: shape is None or shape.radial,
         aligned=lambda shape: shape and shape.mean,
+        acts=_is_stated,
+        averaged=lambda shape: shape and shape.mean,
         unseen=_unseen_shape,
         short=lambda shape: shape and shape.name,
         words=lambda shape: shape and shape.words,
@@ -155,6 +186,7 @@ PROPERTIES = (
         "aspheric",
         _multiply,
         endings=_only(ZEMAX, CODE_V),
+        acts=_is_stated,
         short=lambda phase: phase and Message("diffractive"),
         words=lambda phase: phase and phase.words,
         steps=True,
@@ -167,6 +199,7 @@ PROPERTIES = (
             _scaled_breaks,
             turned_breaks,
             endings=_only(ZEMAX, CODE_V),
+            symmetric=_symmetric_breaks,
             aligned=lambda _: (),
             words=_breaks_words,
             steps=True,
@@ -187,6 +220,7 @@ PROPERTIES = (
         "aspheric",
         _length,
         endings=_only(ZEMAX),
+        acts=isfinite,
         short=lambda focal: Message("ideal lens") if isfinite(focal) else None,
         words=_ideal_words,
     ),
@@ -197,6 +231,7 @@ PROPERTIES = (
         _multiply,
         _turn,
         endings=_only(ZEMAX, CODE_V),
+        symmetric=lambda rim: rim is None,
         words=lambda rim: rim and rim.words,
         steps=True,
     ),
@@ -207,7 +242,10 @@ PROPERTIES = (
         _multiply,
         _turn,
         endings=_only(),
+        symmetric=lambda one: one is None,
         aligned=_nothing,
+        acts=_is_stated,
+        averaged=_nothing,
         short=lambda one: one and Message("irregular"),
         words=lambda one: one and one.words,
         steps=True,
@@ -218,9 +256,10 @@ PROPERTIES = (
         "medium",
         _multiply,
         endings=_only(),
-        unseen=lambda passed: (
-            Message("passes a share of light that changes with the height") if passed and passed.per_mm2 else None
-        ),
+        acts=_is_stated,
+        shades=_shading_words,
+        averaged=lambda passed: None if _shading_words(passed) else passed,
+        unseen=_shading_words,
         words=lambda passed: passed and passed.words,
         steps=True,
     ),
@@ -229,12 +268,12 @@ BY_NAME = {each.name: each for each in PROPERTIES}
 
 
 def words_of(surface: object, column: str) -> tuple[Message, ...]:
-    """Return in numbers what a column of the table of surfaces does not show itself."""
+    """Return, with numbers, the properties that a column of the table of surfaces describes beside its own."""
     found = (each.words(getattr(surface, each.name)) for each in PROPERTIES if each.column == column)
     return tuple(words for words in found if words)
 
 
 def short_words_of(surface: object, column: str) -> tuple[Message, ...]:
-    """Return what a column names in a word or two beside its numbers."""
+    """Return the properties that a column names in a word or two beside its numbers."""
     found = (each.short(getattr(surface, each.name)) for each in PROPERTIES if each.column == column)
     return tuple(words for words in found if words)

@@ -1,4 +1,4 @@
-"""Clear rims that are not circles about the axis: decentred ones, and rectangles."""
+"""Clear apertures that are not centred circles: decentred and rectangular ones."""
 
 from dataclasses import dataclass, replace
 from math import cos, isfinite, radians, sin
@@ -11,9 +11,9 @@ from p2sf.messages import Message
 
 @dataclass(frozen=True)
 class Rim:
-    """Where the clear aperture of a surface stands, and a rectangle that it is instead of a circle.
+    """Position of a clear aperture and, if it is a rectangle, its size.
 
-    It counts where rims clip. A circle has the surface's ``semi_diameter`` as its radius, and so has a hole its own.
+    It matters where rims clip. A circle has the surface's ``semi_diameter`` as its radius, a hole its ``inner_radius``.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Rim:
     half_widths : (float, float), optional
         Half of a rectangle's sides along x and y, mm; a circle if not given.
     turn_deg : float
-        By what the rectangle is turned about its centre, degrees from x towards y.
+        Rotation of the rectangle about its centre, degrees from x towards y.
     """
 
     decentre: tuple[float, float] = (0.0, 0.0)
@@ -30,7 +30,7 @@ class Rim:
     turn_deg: float = 0.0
 
     def about_centre(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return points as seen from the centre, along the sides, mm."""
+        """Return coordinates relative to the centre along the sides, mm."""
         across, up = x - self.decentre[0], y - self.decentre[1]
         if not self.turn_deg:
             return across, up
@@ -44,13 +44,13 @@ class Rim:
         return replace(self, decentre=centre, turn_deg=self.turn_deg + angle_deg if self.half_widths else 0.0)
 
     def scaled(self, factor: float) -> "Rim":
-        """Return the rim with lengths in units ``factor`` mm long, in mm."""
+        """Return the rim scaled from lengths in units of ``factor`` mm to mm."""
         sides = (self.half_widths[0] * factor, self.half_widths[1] * factor) if self.half_widths else None
         return replace(self, decentre=(self.decentre[0] * factor, self.decentre[1] * factor), half_widths=sides)
 
     @property
     def words(self) -> Message:
-        """Return the rim in numbers."""
+        """Return the description of the rim with numbers."""
         if self.half_widths is None:
             return Message("rim about ({centre:g}) mm", centre=self.decentre)
         return Message(
@@ -61,7 +61,7 @@ class Rim:
         )
 
     def check(self, surface: int) -> None:
-        """Raise GeometryError for numbers that cannot be; ``surface`` counts from 1."""
+        """Raise GeometryError for invalid numbers; ``surface`` counts from 1."""
         finite = all(map(isfinite, (*self.decentre, self.turn_deg)))
         if not (finite and all(side > 0 for side in self.half_widths or ())):
             raise GeometryError(

@@ -1,4 +1,4 @@
-"""The shapes that a surface may have, by their type in a lens file in TOML."""
+"""The shapes of surfaces by their type in a lens file in TOML."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from p2sf.lens.shapes import EXTENDED, EXTENDED_ODD, ODD, Qbfs, Qcon, RadialPoly
 
 
 class ShapeType(NamedTuple):
-    """What makes a shape of the coefficients of a file and a normalisation radius, and the most coefficients."""
+    """A function from coefficients and normalisation radius to a shape, and the largest number of coefficients."""
 
     of: Callable[[tuple[float, ...], float], Shape]
     most: int = 60
@@ -18,8 +18,8 @@ def _even(numbers: tuple[float, ...], radius: float) -> Shape:
     return RadialPolynomial(tuple(x for number in numbers for x in (0.0, number)), radius)
 
 
-# Coefficients are of r, r², … (in units⁰, units⁻¹, …), of ρ = r/normalisation radius, ρ², …, of ρ², ρ⁴, …, of Forbes's
-# polynomials Q₀, Q₁, …, of x, y, x², xy, y², …, and of Zernike's from piston (all in units).
+# Coefficients belong to r, r², … (in units⁰, units⁻¹, …), ρ = r/normalisation radius, ρ², …, ρ², ρ⁴, …, Forbes's
+# polynomials Q₀, Q₁, …, x, y, x², xy, y², …, and Zernike polynomials from piston (all in units).
 SHAPES = {
     ODD: ShapeType(RadialPolynomial),
     EXTENDED_ODD: ShapeType(RadialPolynomial),

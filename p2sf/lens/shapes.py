@@ -1,7 +1,7 @@
 """The parts of revolution whose sags add up to that of a surface: a conic, even terms, and further shapes.
 
-Every part knows its sag and dz/d(r²) at squared radii r², mm², and its power series at the vertex, which is what first
-and third order see. Lengths are mm. `freeform` and `irregularity` have the parts that are not of revolution.
+Every part provides its sag and dz/d(r²) at squared radii r², mm², and its power series at the vertex, which determines
+first and third order. Lengths are mm. `freeform` and `irregularity` contain the parts that are not of revolution.
 """
 
 from abc import ABC, abstractmethod
@@ -22,14 +22,14 @@ Series: TypeAlias = tuple[float, float, float, float]
 
 
 class Part(ABC):
-    """What adds to the sag of a surface; ``curvature`` and ``conic`` are those of the conic that all parts stand on."""
+    """A term in the sag of a surface; ``curvature`` and ``conic`` are those of the conic to which parts are added."""
 
     radial: ClassVar[bool] = False
     """Whether the part is of revolution about the axis."""
 
     @property
     def addends_mm(self) -> float:
-        """Return how large the numbers are whose sum is the sag, mm; 0 where that is about as large as they are."""
+        """Return the magnitude of the addends of the sag, mm; 0 if the sag is about as large."""
         return 0.0
 
     @abstractmethod
@@ -44,7 +44,7 @@ class Part(ABC):
 
     @abstractmethod
     def scaled(self, factor: float) -> Self:
-        """Return the part with its lengths in units ``factor`` mm long, in mm."""
+        """Return the part scaled from lengths in units of ``factor`` mm to mm."""
 
 
 class RadialPart(Part):
@@ -111,18 +111,22 @@ class EvenTerms(RadialPart):
 
 
 class Shape(Part):
-    """A part that a surface may have besides a conic and even terms: polynomials over a normalisation radius."""
+    """A part besides the conic and even terms: polynomials over a normalisation radius."""
 
     coefficients: tuple[float, ...]
     normalisation_mm: float
-    endings: ClassVar[frozenset[str]] = frozenset((".toml",))
-    """Of the lens files that have a type for it."""
+    endings: ClassVar[frozenset[str]] = frozenset()
+    """Of the lens files that have a type for it; each class states its own, as files would hold another shape."""
     ends: ClassVar[bool] = False
-    """Whether its polynomials describe a surface up to the normalisation radius only."""
+    """Whether its polynomials describe a surface only up to the normalisation radius."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.endings = cls.__dict__.get("endings", frozenset())
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """Return every number of the shape."""
+        """Return all numbers of the shape."""
         return (*self.coefficients, self.normalisation_mm)
 
     @property
@@ -133,16 +137,16 @@ class Shape(Part):
     @property
     @abstractmethod
     def name(self) -> Message:
-        """Return the name of the shape, OpticStudio's."""
+        """Return the name of the shape in OpticStudio."""
 
     @property
     def stated(self) -> tuple[float, ...]:
-        """Return the coefficients as files and words list them."""
+        """Return the coefficients as listed in files and descriptions."""
         return self.coefficients
 
     @property
     def words(self) -> Message:
-        """Return the shape in numbers."""
+        """Return the description of the shape with numbers."""
         return Message(
             "{kind}: normalisation radius {radius:g} mm, coefficients {numbers:.6g} mm",
             kind=self.name,
@@ -152,17 +156,17 @@ class Shape(Part):
 
     @property
     def powers(self) -> dict[int, float] | None:
-        """Return the coefficients of the powers of r over the normalisation radius, mm; None where it has others."""
+        """Return the coefficients of the powers of r over the normalisation radius, mm; None for other polynomials."""
         return None
 
     @property
     @abstractmethod
     def mean(self) -> "RadialShape | None":
-        """Return the mean of the shape over all azimuths, which is what paraxial rays see; None for a plane."""
+        """Return the azimuthal mean of the shape, which acts on paraxial rays; None for a plane."""
 
     @abstractmethod
     def series(self, curvature: float) -> Series:
-        """Return the coefficients of r … r⁴ of the mean over all azimuths, on a base of this curvature, per mm."""
+        """Return the coefficients of r … r⁴ of the azimuthal mean, on a base of this curvature, per mm."""
 
 
 class RadialShape(RadialPart, Shape):
@@ -176,9 +180,9 @@ class RadialShape(RadialPart, Shape):
 
 @dataclass(frozen=True)
 class RadialPolynomial(RadialShape):
-    """Terms Σ aₖρᵏ, k = 1, 2, 3 …, of ρ = r/``normalisation_mm``, as OpticStudio's odd and extended aspheres have them.
+    """Terms Σ aₖρᵏ, k = 1, 2, 3 …, of ρ = r/``normalisation_mm``, as in OpticStudio's odd and extended aspheres.
 
-    ``coefficients``: a₁, a₂, …, mm. With a normalisation radius of 1 mm they are those of powers of r in mm.
+    ``coefficients``: a₁, a₂, …, mm. With a normalisation radius of 1 mm they are the coefficients of powers of r in mm.
     """
 
     coefficients: tuple[float, ...]
@@ -186,49 +190,49 @@ class RadialPolynomial(RadialShape):
     endings = frozenset((".toml", ".zmx", ".seq", ".json"))
 
     @property
-    def even(self) -> bool:
-        """Return whether all terms are even."""
-        return not any(self.coefficients[::2])
+    def odd(self) -> tuple[float, ...]:
+        """Return the coefficients of odd powers."""
+        return self.coefficients[::2]
 
     @property
     def kind(self) -> str:
-        """Return the type in a lens file in TOML: in powers of r itself, of ρ, or of ρ²."""
+        """Return the type in a lens file in TOML: powers of r itself, of ρ, or of ρ²."""
         if self.normalisation_mm == 1:
             return ODD
-        return EXTENDED if self.even and len(self.coefficients) % 2 == 0 else EXTENDED_ODD
+        return EXTENDED_ODD if any(self.odd) or len(self.coefficients) % 2 else EXTENDED
 
     @property
     def name(self) -> Message:
-        """Return the name of the shape, OpticStudio's."""
+        """Return the name of the shape in OpticStudio."""
         if self.kind == ODD:
             return Message("odd asphere")
         return Message("extended asphere") if self.kind == EXTENDED else Message("extended odd asphere")
 
     @property
     def stated(self) -> tuple[float, ...]:
-        """Return the coefficients as files list them: of an extended asphere those of even powers."""
+        """Return the coefficients as listed in files: only even powers for an extended asphere."""
         return self.coefficients[1::2] if self.kind == EXTENDED else self.coefficients
 
     @property
     def words(self) -> Message:
-        """Return the shape in numbers."""
+        """Return the description of the shape with numbers."""
         if self.kind == ODD:
             return Message("odd asphere: coefficients of r, r², … in mm {numbers:.6g}", numbers=self.coefficients)
         return super().words
 
     @property
     def powers(self) -> dict[int, float] | None:
-        """Return the coefficients by the powers of ρ, mm."""
+        """Return the coefficients of the powers of ρ, mm."""
         return dict(enumerate(self.coefficients, 1))
 
     def sag_and_slope(self, square: FloatOrArray, curvature: float = 0.0, conic: float = 0.0) -> SagAndSlope:
-        """Return the sag and dz/d(r²); at the vertex itself a term in ρ has the slope of its mean, 0."""
+        """Return the sag and dz/d(r²); at the vertex a term in ρ has the azimuthal mean of its slope, 0."""
         scale = self.normalisation_mm**-2
         u = square * scale
         sag, slope = _even_terms(self.coefficients[1::2], u)
-        if not self.even:
+        if any(self.odd):
             rho = np.sqrt(u)
-            odd, odd_slope = _horner(self.coefficients[::2], u)
+            odd, odd_slope = _horner(self.odd, u)
             sag = sag + rho * odd
             with np.errstate(divide="ignore", invalid="ignore"):  # the vertex of a cone
                 slope = slope + np.where(u == 0, 0.0, odd / (2 * rho)) + rho * odd_slope
@@ -241,7 +245,7 @@ class RadialPolynomial(RadialShape):
         return a, b, c, d
 
     def scaled(self, factor: float) -> "RadialPolynomial":
-        """Return the shape ``factor`` times as large; powers of r in mm stay so."""
+        """Return the shape ``factor`` times as large; powers of r in mm remain such."""
         if self.kind == ODD:
             return RadialPolynomial(tuple(a * factor ** (1 - k) for k, a in enumerate(self.coefficients, 1)))
         return RadialPolynomial(_times(self.coefficients, factor), self.normalisation_mm * factor)
@@ -249,9 +253,9 @@ class RadialPolynomial(RadialShape):
 
 @dataclass(frozen=True)
 class Qcon(RadialShape):
-    """Forbes's u⁴Σ aₘQₘ(u²) over a conic, u = r/``normalisation_mm`` (Forbes 2007): what sag departs from it.
+    """Forbes's u⁴Σ aₘQₘ(u²), the departure of the sag from a conic, u = r/``normalisation_mm`` (Forbes 2007).
 
-    ``coefficients``: a₀, a₁, …, mm. Qₘ(x) = P⁽⁰⁴⁾ₘ(2x − 1), Jacobi's polynomials.
+    ``coefficients``: a₀, a₁, …, mm. Qₘ(x) = P⁽⁰⁴⁾ₘ(2x − 1), Jacobi polynomials.
     """
 
     coefficients: tuple[float, ...]
@@ -277,7 +281,7 @@ class Qcon(RadialShape):
         return 0.0, 0.0, 0.0, (*self.even_terms(), 0.0)[0]
 
     def scaled_terms(self) -> tuple[float, ...]:
-        """Return the coefficients of u⁴, u⁶, …, mm: the same surface but for rounding, more with each term."""
+        """Return the coefficients of u⁴, u⁶, …, mm, of the same surface; rounding errors grow with each term."""
         columns = _jacobi_powers(len(self.coefficients))
         return tuple(fsum(a * c for a, c in zip(self.coefficients, column, strict=True)) for column in columns)
 
@@ -295,9 +299,9 @@ class Qbfs(RadialShape):
     """Forbes's u²(1 − u²)/cos·Σ aₘQₘ(u²) over the best-fit sphere or conic, u = r/``normalisation_mm`` (Forbes 2007).
 
     cos is that of the angle between the base's normal and the axis, √(1 − c²r²) for a sphere, so that the departure is
-    along the normal; OpticStudio has it for a conic too. ``coefficients``: a₀, a₁, …, mm: their squares add to the mean
-    square slope of that departure, which is none at the vertex and at r = ``normalisation_mm``. a₀ and the others have
-    an r² term, so that the curvature at the vertex is not the base's.
+    along the normal; OpticStudio applies it to a conic too. ``coefficients``: a₀, a₁, …, mm: the sum of their squares
+    is the mean square slope of that departure, which vanishes at the vertex and at r = ``normalisation_mm``. All terms
+    contain r², so that the curvature at the vertex differs from that of the base.
     """
 
     coefficients: tuple[float, ...]
@@ -336,11 +340,11 @@ ODD, EXTENDED_ODD, EXTENDED = "odd asphere", "extended odd asphere", "extended a
 
 @dataclass(frozen=True)
 class Diffraction:
-    """A diffractive surface of revolution, OpticStudio's binary 2, which adds the phase m·Σ Aⱼρ²ʲ.
+    """The phase m·Σ Aⱼρ²ʲ of a diffractive surface of revolution, OpticStudio's binary 2.
 
-    ``coefficients``: A₁, A₂, …, radians, of powers of ρ = r/``normalisation_mm``; ``order``: m, that of diffraction.
-    The phase of a ray is added at every wavelength alike, so that its path grows by λ/2π times it; all light goes
-    into this one order.
+    ``coefficients``: A₁, A₂, …, radians, of powers of ρ = r/``normalisation_mm``; ``order``: m, the order of
+    diffraction. The phase added to a ray is the same at every wavelength, so that its path grows by λ/2π times the
+    phase; all light goes into this one order.
     """
 
     coefficients: tuple[float, ...]
@@ -349,12 +353,12 @@ class Diffraction:
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """Return every number of the surface's phase."""
+        """Return all numbers of the phase."""
         return (*self.coefficients, self.normalisation_mm, self.order)
 
     @property
     def words(self) -> Message:
-        """Return the phase in numbers."""
+        """Return the description of the phase with numbers."""
         return Message(
             "diffracts in order {order:g}: normalisation radius {radius:g} mm, phase in rad of ρ², ρ⁴, … {numbers:.6g}",
             order=self.order,
@@ -369,13 +373,13 @@ class Diffraction:
         return phase * self.order, slope * (self.order * scale)
 
     def path_terms(self, wavelength_um: FloatOrArray) -> tuple[FloatOrArray, FloatOrArray]:
-        """Return the coefficients of r² and r⁴ of the path that is added, mm⁻¹ and mm⁻³."""
+        """Return the coefficients of r² and r⁴ of the added path, mm⁻¹ and mm⁻³."""
         second, fourth = (*self.coefficients, 0.0, 0.0)[:2]
         unit = wavelength_um * (self.order * WAVES_MM)
         return unit * (second / self.normalisation_mm**2), unit * (fourth / self.normalisation_mm**4)
 
     def scaled(self, factor: float) -> "Diffraction":
-        """Return the phase spread over ``factor`` times the radius."""
+        """Return the phase stretched to ``factor`` times the radius."""
         return replace(self, normalisation_mm=self.normalisation_mm * factor)
 
 
@@ -424,7 +428,7 @@ def clenshaw(coefficients: Sequence[complex], steps: Steps, x: FloatOrArray) -> 
 
 @lru_cache(maxsize=64)
 def jacobi_steps(count: int, beta: int) -> Steps:
-    """Return the recurrence of P⁽⁰ᵝ⁾ₘ(2x − 1) (Abramowitz and Stegun 1964, ch. 22)."""
+    """Return the coefficients of the recurrence of P⁽⁰ᵝ⁾ₘ(2x − 1) (Abramowitz and Stegun 1964, ch. 22)."""
     steps = [(-(beta + 1.0), beta + 2.0, 0.0)]
     for m in range(2, count + 1):
         s, scale = 2 * m + beta, 1 / (2 * m * (m + beta) * (2 * m + beta - 2))
@@ -445,7 +449,7 @@ SLOPE_STEPS = (3.0, -4.0, 0.0), (2.0, -4.0, -1.0)  # of the first and of every l
 def _slope_orthogonal(coefficients: tuple[float, ...], x: FloatOrArray) -> SagAndSlope:
     """Return Σ aₘQₘ(x) of Qbfs and its derivative, by auxiliary polynomials (Forbes 2010, appendix A).
 
-    P₀ = 2, P₁ = 6 − 8x, Pₘ = (2 − 4x)Pₘ₋₁ − Pₘ₋₂, which Clenshaw's sum has with P₀ = 1.
+    P₀ = 2, P₁ = 6 − 8x, Pₘ = (2 − 4x)Pₘ₋₁ − Pₘ₋₂; Clenshaw's sum takes P₀ = 1.
     """
     count = len(coefficients)
     steps = tuple(SLOPE_STEPS[min(m, 1)] for m in range(count))

@@ -1,4 +1,4 @@
-"""One point source: the place in (depth, field, wavelength) that a PSF belongs to."""
+"""One point source: the point in (depth, field, wavelength) of a PSF."""
 
 from dataclasses import dataclass
 from math import atan2, cos, degrees, hypot, inf, radians, sin
@@ -15,24 +15,25 @@ from p2sf.parameters import check_angle, check_distance, check_finite, check_pos
 D_LINE_UM = 0.5875618
 NAMES = "depth_mm", "field_slope", "wavelength_um", "field_deg", "wavelength_nm", "azimuth_deg"
 PLAIN = frozenset((float, int, type(None)))
-_set = object.__setattr__  # what a frozen dataclass fills its own fields with
+_set = object.__setattr__  # as the generated __init__ of a frozen dataclass sets its fields
 
 
 @dataclass(frozen=True, init=False)
 class Source:
-    """A point source: how far away, how far off the axis, and of which wavelength.
+    """A point source: its distance, field and wavelength.
 
     Parameters
     ----------
     depth_mm : float
         Distance of the object plane from the first vertex, mm, up to 1e16; inf (the default) is allowed.
     field_slope : float
-        Slope (tangent) of the chief ray at the entrance pupil; a positive one lands above the axis. 0 when not given.
+        Slope (tangent) of the chief ray at the entrance pupil, 0 by default; for positive slopes the image is above the
+        axis.
     wavelength_um : float
-        Wavelength, µm; the d line of helium, 0.5875618, when not given.
+        Wavelength, µm; by default 0.5875618, the d line of helium.
     field_deg : float or (float, float)
-        Instead of ``field_slope``: the angle of the chief ray, degrees, or its angles (x, y) where the source does
-        not stand in the plane of x = 0. Such a source is described as one in that plane, seen from ``azimuth_deg``.
+        Instead of ``field_slope``: the angle of the chief ray, degrees, or its angles (x, y) if the source is outside
+        the plane x = 0. Such a source is described as one in that plane, rotated by ``azimuth_deg``.
     wavelength_nm : float
         Instead of ``wavelength_um``: the wavelength, nm.
     azimuth_deg : float
@@ -41,7 +42,7 @@ class Source:
     Raises
     ------
     RequestError
-        For a value that no source can have, and for one quantity given twice.
+        For an impossible value, and for a quantity given twice.
 
     Examples
     --------
@@ -92,7 +93,7 @@ class Source:
                 and -inf < field_slope < inf
                 and 0 < wavelength_um < inf
             )
-        except ValueError:  # arrays, which stand for many sources at once, are checked by what computes with them
+        except ValueError:  # arrays describe many sources at once; the functions that use them check them
             return
         if not possible or azimuth_deg:
             _check(self)
@@ -112,7 +113,7 @@ class Source:
     def slopes_xy(self) -> tuple[float, float]:
         """Return the slopes (x, y) of the chief ray at the entrance pupil, as `source_at` takes them."""
         turn = radians(self.azimuth_deg)
-        off_axis = self.azimuth_deg % 180  # a right angle's cosine is not quite 0, nor a straight one's sine
+        off_axis = self.azimuth_deg % 180  # cos 90° and sin 180° are not exactly 0
         x, y = (self.field_slope * part for part in (sin(turn), cos(turn)))
         return x if off_axis else 0.0, y if off_axis != 90 else 0.0
 
@@ -125,23 +126,23 @@ class Source:
 
 
 def source_at(depth_mm: float, slope_x: float, slope_y: float, wavelength_um: float) -> Source:
-    """Return the point source whose chief ray has these slopes along x and y at the entrance pupil."""
+    """Return the point source whose chief ray has these slopes in x and y at the entrance pupil."""
     azimuth = degrees(atan2(slope_x, slope_y))
     return Source(depth_mm, hypot(slope_x, slope_y), wavelength_um, azimuth_deg=azimuth)
 
 
 def check_one(source: Source) -> None:
-    """Raise RequestError for a source that stands for many."""
+    """Raise RequestError for a source that holds arrays."""
     for value in (source.depth_mm, source.field_slope, source.wavelength_um, source.azimuth_deg):
         if not is_number(value):
             raise RequestError(
-                "the source has values of shape {shape}, which are many sources; give one after the other",
+                "the source has values of shape {shape}, so it describes many sources; give one at a time",
                 shape=str(np.shape(value)),
             )
 
 
 def _number(name: str, value: Any) -> Any:
-    """Return an argument without its unit; RequestError unless it is a number, or an array of them."""
+    """Return an argument without its unit; RequestError unless it is a number or an array of numbers."""
     return in_own_unit(name, value) if name == "field_deg" else argument(name, value, float | np.ndarray | None)
 
 

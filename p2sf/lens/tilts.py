@@ -1,15 +1,15 @@
-"""Tilts and decentres as other programs state them: OpticStudio's coordinate breaks, CODE V's decentred surfaces."""
+"""Tilts and decentres of other programs: OpticStudio's coordinate breaks, CODE V's decentred surfaces."""
 
 from dataclasses import replace
 
 from p2sf.errors import GeometryError
 from p2sf.lens.placement import Placement
 
-COORDINATE_BREAK = 6  # parameters of one: decentre x and y, tilt about x, y and z, order
+COORDINATE_BREAK = 6  # number of parameters: decentre x and y, tilt about x, y and z, order
 
 
 def coordinate_break(parameters: dict[int, float]) -> Placement:
-    """Return a break by the parameters of OpticStudio's: angles right-handed; a flag other than 0 tilts first."""
+    """Return a break from the parameters of OpticStudio: angles right-handed; a flag other than 0 tilts first."""
     x, y, a, b, c, order = (parameters.get(place, 0.0) for place in range(1, COORDINATE_BREAK + 1))
     return Placement(x, y, 0.0, a, b, c, bool(order))
 
@@ -19,9 +19,9 @@ Row = tuple[float, float, float, float, float, float, float]
 
 
 def break_rows(placement: Placement, thickness: float) -> list[Row]:
-    """Return coordinate breaks that move the axes so and then ``thickness`` along z.
+    """Return OpticStudio's coordinate breaks for a placement and a shift by ``thickness`` along z behind it.
 
-    A decentre in z is the thickness of a break, and a pivot a shift there and back.
+    A decentre in z becomes the thickness of a break, and a pivot a shift there and back.
     """
     (x, y, z), (a, b, c), (px, py, pz) = placement.decentre, placement.tilt_deg, placement.pivot
     rows: list[Row]
@@ -35,11 +35,11 @@ def break_rows(placement: Placement, thickness: float) -> list[Row]:
 
 
 def decentred_surface(kind: str, decentre: tuple[float, ...], angles_deg: tuple[float, ...]) -> "Breaks":
-    """Return the breaks before and after a surface of CODE V's, or ray-optics': XDE YDE ZDE and ADE BDE CDE.
+    """Return the breaks before and after a surface of CODE V or ray-optics: XDE YDE ZDE and ADE BDE CDE.
 
     ADE and BDE are left-handed, CDE is right-handed. ``kind``: "" basic, the axes stay with the surface; "DAR" decentre
-    and return; "REV" reverse, the axes behind it are moved back by as much; "BEN" bend, the axes follow the axis that a
-    mirror reflects. Raises GeometryError for a bend about more than one axis.
+    and return; "REV" reverse, the axes behind it are moved by the reverse decentre; "BEN" bend, the axes follow the
+    axis that a mirror reflects. Raises GeometryError for a bend about more than one axis.
     """
     (x, y, z), (alpha, beta, gamma) = decentre, angles_deg
     placement = Placement(x, y, z, -alpha, -beta, gamma)

@@ -1,4 +1,4 @@
-"""The share of light that a surface passes, which may change with the height: a coating, a filter that is shaded."""
+"""Transmission of a surface, which may vary with the height: a coating or a graded filter."""
 
 from dataclasses import dataclass, replace
 
@@ -10,16 +10,16 @@ from p2sf.messages import Message
 
 @dataclass(frozen=True)
 class Transmission:
-    """What a surface passes, or a mirror reflects, of the energy of a ray that meets it at height h: t₀ + t₂h².
+    """Share of a ray's energy that a surface transmits, or a mirror reflects, at height h: t₀ + t₂h².
 
-    Where that is negative nothing passes.
+    Negative values count as 0.
 
     Parameters
     ----------
     vertex : float
         t₀, from 0 to 1.
     per_mm2 : float
-        t₂, per mm²; negative where less passes towards the rim.
+        t₂, per mm²; negative if the transmission decreases towards the rim.
     """
 
     vertex: float = 1.0
@@ -32,14 +32,14 @@ class Transmission:
 
     @property
     def words(self) -> Message:
-        """Return it in numbers."""
+        """Return its description with numbers."""
         return Message("transmission {vertex:g} + {slope:g} mm⁻²·h²", vertex=self.vertex, slope=self.per_mm2)
 
     def at(self, square: FloatOrArray) -> FloatOrArray:
-        """Return the share of energy that passes at squared heights, mm²."""
+        """Return the transmitted share of energy at squared heights, mm²."""
         share: FloatOrArray = np.maximum(self.vertex + self.per_mm2 * square, 0.0)
         return share
 
     def scaled(self, factor: float) -> "Transmission":
-        """Return it with lengths in units ``factor`` mm long, in mm."""
+        """Return it scaled from lengths in units of ``factor`` mm to mm."""
         return replace(self, per_mm2=self.per_mm2 / factor**2)

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import LINES_UM
-from p2sf.glass.media import checked_wavelength
+from p2sf.glass.media import Medium, checked_wavelength
 from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lensfile.source_text import LensText, number, read_source, whole
 from p2sf.messages import Message
@@ -256,9 +257,9 @@ def _transmittance(entry: Entry, source: LensText) -> InternalTransmittance | No
     return InternalTransmittance(tuple(records)) if records else None
 
 
-def nd_and_vd(glass: FormulaGlass) -> tuple[float, float]:
+def nd_and_vd(glass: Medium) -> tuple[float, float]:
     """Return nd and the Abbe number vd as a catalogue prints them; 0 where the glass has no data at F, d and C."""
-    low, high = glass.range_um
+    low, high = glass.range_um or (0.0, inf)
     if not (low <= LINES_UM["F"] and LINES_UM["C"] <= high):
         return 0.0, 0.0
     n_f, n_d, n_c = (float(glass.index(LINES_UM[line])) for line in "FdC")

@@ -1,24 +1,26 @@
 """From what a file states to a Lens: units, glasses, stop, aperture, fields; every error keeps its line."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import zip_longest
 from math import inf, isfinite
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium, TabulatedIndex, measured_index
-from p2sf.lens.lens import Aperture, Lens, Surface, scale_surface
+from p2sf.lens.lens import D_NM, Aperture, Lens, Surface, scale_surface
 from p2sf.lens.placement import Placement
 from p2sf.lens.properties import PROPERTIES, words_of
 from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
-from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import CATALOGUE_AIR, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
 
 HIGHEST_ORDER = 40
+SAME_DEG_C, SAME_ATM = 5.0, 0.05  # which change the index of a glass relative to air by less than 3e-5
 MOST_SURFACES = 1000
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
 NO_STOP = Message("no stop named")
@@ -42,6 +44,8 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
             count=len(raw.surfaces),
             most=MOST_SURFACES,
         )
+    _leave_out_object_plane(raw, notes)
+    _check_environment(raw, notes, source)
     media = _media(raw, sources, notes, source)
     lens = _with_line(lambda: _bare_lens(raw, media), raw, source, None)
     lens = _with_line(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
@@ -52,6 +56,36 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     _read_notes(lens, raw, notes)
     _note_vignetting(lens, raw, notes)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
+
+
+def _leave_out_object_plane(raw: RawLens, notes: Notebook) -> None:
+    """Put the object where a plane stands that does nothing at no distance before it; some programs begin with one."""
+    first = raw.surfaces[0]
+    idle = replace(first, number=0, line=None, label="", thickness=0.0, semi_diameter=inf) == RawSurface(0)
+    if raw.object_distance == 0 and idle and raw.object_glass is None and raw.stop != 1 and len(raw.surfaces) > 1:
+        notes.add("read", "a plane at the object, which does nothing, is left out", first.number, first.line)
+        raw.object_distance = first.thickness
+        del raw.surfaces[0]
+        raw.stop = raw.stop - 1 if raw.stop else None
+
+
+def _check_environment(raw: RawLens, notes: Notebook, source: LensText) -> None:
+    """Raise LensFileError for glasses in other air than that of their catalogues, which their data do not follow."""
+    temperature, pressure = raw.environment
+    if raw.environment == CATALOGUE_AIR or not any(surface.glass and surface.glass.name for surface in raw.surfaces):
+        return
+    told = (
+        "indices are those at 20 °C and 1 atm, not at {temperature:g} °C and {pressure:g} atm; they differ by some 1e-5"
+    )
+    notes.add("caution", told, None, raw.environment_line, temperature=temperature, pressure=pressure)
+    if abs(temperature - CATALOGUE_AIR[0]) > SAME_DEG_C or abs(pressure - CATALOGUE_AIR[1]) > SAME_ATM:
+        raise source.error(
+            "the glasses stand at {temperature:g} °C and {pressure:g} atm, but their indices are known at 20 °C in air "
+            "of 1 atm only; set these in the program that wrote the file, and save it again",
+            raw.environment_line,
+            temperature=temperature,
+            pressure=pressure,
+        )
 
 
 def private_glass(
@@ -119,17 +153,34 @@ def _bare_lens(raw: RawLens, media: list[Medium]) -> Lens:
     surfaces = tuple(
         _surface(s, m, raw.unit_mm, n) for n, (s, m) in enumerate(zip(raw.surfaces, media[1:], strict=True), 1)
     )
-    wavelengths = tuple(dict.fromkeys(round(w * NM_PER_UM, 9) for w in raw.wavelengths_um)) or (587.5618,)
+    lines: dict[float, float] = {}
+    for um, weight in zip_longest(raw.wavelengths_um, raw.weights[: len(raw.wavelengths_um)], fillvalue=1.0):
+        lines[_nm(um)] = lines.get(_nm(um), 0.0) + weight
+    stated = raw.primary is not None and 0 <= raw.primary < len(raw.wavelengths_um)
     return Lens(
         surfaces,
         PLACEHOLDER,
         raw.stop,
         title=raw.title,
         source=raw.source,
-        wavelengths_nm=wavelengths,
+        wavelengths_nm=tuple(lines) or (D_NM,),
+        wavelength_weights=_weights(lines.values()),
+        reference_nm=_nm(raw.wavelengths_um[raw.primary or 0]) if stated else None,
         object_medium=media[0],
+        aim=raw.aim,
+        mask=raw.mask,
         sensor_before=_to_mm(raw.sensor_before, raw.unit_mm),
     )
+
+
+def _nm(wavelength_um: float) -> float:
+    return round(wavelength_um * NM_PER_UM, 9)
+
+
+def _weights(weights: Iterable[float]) -> tuple[float, ...]:
+    """Return the weights of wavelengths, none where all are the same or one is no weight."""
+    listed = tuple(weights)
+    return listed if len(set(listed)) > 1 and min(listed) >= 0 else ()
 
 
 def _to_mm(placements: tuple[Placement, ...], unit: float) -> tuple[Placement, ...]:
@@ -138,13 +189,12 @@ def _to_mm(placements: tuple[Placement, ...], unit: float) -> tuple[Placement, .
 
 def _within_data(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     """Return the lens with the wavelengths at which all its glasses have data; GlassError if the primary has none."""
-    primary = _primary_um(raw, lens)
     kept = []
-    for wave in lens.wavelengths_nm:
+    for place, wave in enumerate(lens.wavelengths_nm):
         lacking = next((medium for medium in lens.media if _lacks(medium, wave / NM_PER_UM)), None)
         if lacking is None:
-            kept.append(wave)
-        elif abs(wave / NM_PER_UM - primary) < 1e-9 or len(lens.wavelengths_nm) == 1:
+            kept.append(place)
+        elif wave == lens.reference_wavelength_nm:
             lacking.index(wave / NM_PER_UM)  # raises, with the range of the data
         else:
             notes.add(
@@ -153,7 +203,14 @@ def _within_data(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
                 wavelength=wave,
                 glass=lacking.label,
             )
-    return replace(lens, wavelengths_nm=tuple(kept))
+    found = replace(
+        lens,
+        reference_nm=None,
+        wavelengths_nm=tuple(lens.wavelengths_nm[place] for place in kept),
+        wavelength_weights=_weights(lens.wavelength_weights[place] for place in kept if lens.wavelength_weights),
+    )
+    reference = lens.reference_wavelength_nm
+    return found if found.reference_wavelength_nm == reference else replace(found, reference_nm=reference)
 
 
 def _lacks(medium: Medium, wavelength_um: float) -> bool:
@@ -195,29 +252,21 @@ def _even(terms: dict[int, float]) -> tuple[float, ...]:
     return tuple(terms.get(power, 0.0) for power in range(4, top + 1, 2))
 
 
-def _primary_um(raw: RawLens, lens: Lens) -> float:
-    if raw.primary is not None and 0 <= raw.primary < len(raw.wavelengths_um):
-        return raw.wavelengths_um[raw.primary]
-    return lens.reference_wavelength_um
-
-
 def _with_aperture(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
-    primary = _primary_um(raw, lens)
     if raw.aperture is None:
-        return _open_to_its_rims(lens, raw, primary, notes)
+        return _open_to_its_rims(lens, raw, notes)
     stop = raw.stop
     if stop is None:
-        stop, _ = conjugates.limiting_rim(lens, primary)
+        stop, _ = conjugates.limiting_rim(lens, lens.reference_wavelength_um)
         notes.add("caution", "no stop is named; the narrowest rim, surface {number}, is the stop", number=stop)
         lens = replace(lens, stop_surface=stop)
     if not raw.aperture[1] > 0:
         raise GeometryError("the aperture is {value:g}; give a positive number", value=raw.aperture[1])
-    rays = conjugates.trace(lens, stop, primary)
-    same = abs(primary - lens.reference_wavelength_um) < 1e-9
-    return replace(lens, aperture=conjugates.aperture(raw, raw.aperture, rays, same))
+    rays = conjugates.trace(lens, stop, lens.reference_wavelength_um)
+    return replace(lens, aperture=conjugates.aperture(raw, raw.aperture, rays))
 
 
-def _open_to_its_rims(lens: Lens, raw: RawLens, wavelength_um: float, notes: Notebook) -> Lens:
+def _open_to_its_rims(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     """Return the lens of a file without an aperture, open to the rim of its stop or to its narrowest rim."""
     if raw.stop and isfinite(lens.surfaces[raw.stop - 1].semi_diameter):
         rim = lens.surfaces[raw.stop - 1].semi_diameter
@@ -228,7 +277,7 @@ def _open_to_its_rims(lens: Lens, raw: RawLens, wavelength_um: float, notes: Not
             rim=rim,
         )
     else:
-        surface, rim = conjugates.limiting_rim(lens, wavelength_um)
+        surface, rim = conjugates.limiting_rim(lens, lens.reference_wavelength_um)
         notes.add(
             "caution", "no aperture is stated; the narrowest rim, surface {number}, limits the light", number=surface
         )
@@ -240,21 +289,20 @@ def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
         return lens
     stop = lens.stop_surface or conjugates.limiting_rim(lens, lens.reference_wavelength_um)[0]
     try:
-        slopes = conjugates.field_slopes(raw, conjugates.trace(lens, stop, _primary_um(raw, lens)))
+        slopes = conjugates.field_slopes(raw, conjugates.trace(lens, stop, lens.reference_wavelength_um))
     except GeometryError as failure:
         if raw.field_kind == "angle":
             raise
         notes.add("caution", "{error}; the field list holds the axis only", None, raw.field_line, error=failure)
         return lens
-    if any(x for x, _ in raw.fields):
-        notes.add("read", "fields beside the y axis are turned onto it, which a round lens does not notice")
     if raw.field_kind in HEIGHTS:
         notes.add(
             "read", "fields given as {kind} are kept as angles at the entrance pupil", kind=HEIGHTS[raw.field_kind]
         )
-    if raw.field_kind == "real_image_height" and any(slopes):
+    if raw.field_kind == "real_image_height" and any(map(any, slopes)):
         notes.add("caution", "real image heights are taken as paraxial ones; distortion makes the angles differ")
-    return replace(lens, fields_deg=conjugates.degrees_of(slopes))
+    across, fields = zip(*conjugates.degrees_of(slopes), strict=True)
+    return replace(lens, fields_deg=fields, fields_x_deg=across if any(across) else ())
 
 
 def _at_paraxial_focus(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
@@ -280,6 +328,13 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         wavelengths=lens.wavelengths_nm,
         angles=lens.fields_deg,
     )
+    if lens.fields_x_deg:
+        notes.add("read", "fields along x {angles:.4g}°", angles=lens.fields_x_deg)
+    if not raw.mask.clear:
+        told = "the pupil's amplitude falls to 1/e at {radius:.6g} of its rim's radius"
+        notes.add("read", told, radius=raw.mask.apodisation)
+    if lens.wavelength_weights:
+        notes.add("read", "weights of the wavelengths, as the spectrum {spectrum}", spectrum=lens.spectrum)
     for number, surface in enumerate(lens.surfaces, 1):
         for words in words_of(surface, "aspheric"):
             notes.add("read", "{shape}", number, shape=words)

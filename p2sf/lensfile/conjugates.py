@@ -5,7 +5,7 @@ has its aperture.
 """
 
 from dataclasses import dataclass, replace
-from math import asin, atan, degrees, hypot, inf, isfinite, radians, tan
+from math import asin, atan, degrees, inf, isfinite, radians, tan
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aperture, Lens, surface_power
@@ -20,6 +20,7 @@ KINDS: dict[RawApertureKind, Message] = {
     "f_number": Message("f number"),
     "image_f_number": Message("image f number"),
     "object_na": Message("object na"),
+    "object_cone_angle": Message("object cone angle"),
     "image_na": Message("image na"),
 }
 
@@ -81,21 +82,20 @@ def limiting_rim(lens: Lens, wavelength_um: float) -> tuple[int, float]:
     return widest + 1, lens.surfaces[widest].semi_diameter
 
 
-def aperture(raw: RawLens, stated: tuple[RawApertureKind, float], rays: Paraxial, keep: bool) -> Aperture:
-    """Return the ``stated`` aperture of a lens whose stop is known; ``keep`` leaves a pupil diameter or f-number as is.
+def aperture(raw: RawLens, stated: tuple[RawApertureKind, float], rays: Paraxial) -> Aperture:
+    """Return the ``stated`` aperture of a lens whose stop is known.
 
-    Otherwise, because the file's primary wavelength is not the lens's reference wavelength or because
-    the aperture is stated at a finite distance, it becomes the stop's semi-diameter. Raises GeometryError
-    for an aperture that is impossible or fills nothing.
+    One stated at a finite distance becomes the stop's semi-diameter. Raises GeometryError for an aperture that is
+    impossible or fills nothing.
     """
     kind, value = stated
     if kind == "image_f_number" and not isfinite(raw.object_distance):
         kind = "f_number"  # the same for an object at infinity
     if kind == "stop_semi_diameter":
         return Aperture(kind, value * raw.unit_mm)
-    if kind == "entrance_pupil_diameter" and keep:
+    if kind == "entrance_pupil_diameter":
         return Aperture(kind, value * raw.unit_mm)
-    if kind == "f_number" and keep and rays.last[2]:
+    if kind == "f_number" and rays.last[2]:
         return Aperture(kind, value)
     rim = abs(_marginal_height(kind, value, raw, rays))
     if not (isfinite(rim) and rim > 0):
@@ -113,11 +113,9 @@ def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Pa
     a, b = rays.stop
     _, _, c, d = rays.last
     distance = raw.object_distance * raw.unit_mm
-    if kind == "entrance_pupil_diameter":
-        return value * raw.unit_mm / 2 * a
     if kind == "f_number":
-        return a / (2 * value * c) if c else inf
-    if kind == "object_na" and not isfinite(distance):
+        return inf  # of an afocal lens
+    if kind in ("object_na", "object_cone_angle") and not isfinite(distance):
         raise GeometryError("an object at infinity has no numerical aperture; state the pupil's diameter or f-number")
     start = rays.object_index / distance if distance else inf
     if not isfinite(start):
@@ -125,6 +123,8 @@ def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Pa
     per_height = a + b * start
     if kind == "object_na":
         return distance * tan(asin(_sine(value, rays.object_index))) * per_height
+    if kind == "object_cone_angle":
+        return distance * tan(radians(_angle(value))) * per_height
     slope = c + d * start
     index = abs(rays.image_index)  # negative behind a mirror
     goal = 1 / (2 * value) if kind == "image_f_number" else index * tan(asin(_sine(value, index)))
@@ -141,20 +141,19 @@ def _sine(numerical_aperture: float, index: float) -> float:
     return numerical_aperture / index
 
 
-def field_slopes(raw: RawLens, rays: Paraxial) -> list[float]:
-    """Return each field as the slope of its chief ray at the entrance pupil; x and y count by their distance only.
+def field_slopes(raw: RawLens, rays: Paraxial) -> list[tuple[float, float]]:
+    """Return each field as the slopes (x, y) of its chief ray at the entrance pupil, upwards positive.
 
     Raises GeometryError where a height has no slope: an afocal lens, a telecentric one, an object at infinity.
     """
     if raw.field_kind == "angle":
-        return [hypot(*(tan(radians(_angle(x))) for x in pair)) for pair in raw.fields]
-    heights = [hypot(*pair) * raw.unit_mm for pair in raw.fields]
-    if not any(heights):
-        return [0.0] * len(heights)
+        return [(tan(radians(_angle(x))), tan(radians(_angle(y)))) for x, y in raw.fields]
+    if not any(map(any, raw.fields)):
+        return [(0.0, 0.0)] * len(raw.fields)
     per_slope = _height_per_slope(raw, rays)
     if not (isfinite(per_slope) and per_slope):
         raise GeometryError("field heights have no angle for this lens")
-    return [abs(height / per_slope) for height in heights]
+    return [(x * raw.unit_mm / per_slope, y * raw.unit_mm / per_slope) for x, y in raw.fields]
 
 
 def _angle(angle_deg: float) -> float:
@@ -168,7 +167,7 @@ def _height_per_slope(raw: RawLens, rays: Paraxial) -> float:
     distance = raw.object_distance * raw.unit_mm
     pupil = rays.entrance_pupil
     if raw.field_kind == "object_height":
-        return distance + pupil
+        return -(distance + pupil)
     if not isfinite(pupil):
         return inf
     a, b, c, d = rays.last
@@ -187,6 +186,10 @@ def with_object_named(lens: Lens, distance_mm: float) -> Lens:
     return replace(lens, comment=f"{lens.comment}\n{words}".strip())
 
 
-def degrees_of(slopes: list[float]) -> tuple[float, ...]:
-    """Return field angles in degrees, each once, in the file's order."""
-    return tuple(dict.fromkeys(round(degrees(atan(slope)), 12) for slope in slopes))
+def degrees_of(slopes: list[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """Return field angles (x, y) in degrees, each once, in the file's order."""
+    return tuple(dict.fromkeys((_degrees(x), _degrees(y)) for x, y in slopes))
+
+
+def _degrees(slope: float) -> float:
+    return round(degrees(atan(slope)), 12) + 0.0  # + 0.0 turns −0 into 0

@@ -10,8 +10,7 @@ Exact, taken without asking:
 5. where the file names no known maker: the glass of that name, if the indices of all its sellers agree.
 
 Substitutes, offered in the error and taken when the user accepts them:
-6. its successor (N-, S-, …) from a named maker, then from any;
-7. the index and Abbe number that the file writes beside the name.
+6. its successor (N-, S-, …) from a named maker, then from any.
 """
 
 import re
@@ -131,7 +130,7 @@ class Resolution:
 class Substitute:
     """A glass that could stand in for another: how to name it, and its difference in index at the d line."""
 
-    label: str | Message
+    label: str
     medium: Medium
     difference: Message
 
@@ -292,11 +291,7 @@ def _substitute(glass: RawGlass, sources: GlassSources) -> Resolution:
 
 def _offers(glass: RawGlass) -> list[Substitute]:
     """Return up to four substitutes, the nearest in nd first."""
-    found: list[tuple[str | Message, Medium | None]] = [(label, _refractive(label)) for label in _equivalents(glass)]
-    if glass.beside:
-        nd, vd = glass.beside
-        label = Message("a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it", nd=nd, vd=vd)
-        found.append((label, model_glass(nd, vd)))
+    found = [(label, _refractive(label)) for label in _equivalents(glass)]
     wanted = _nominal_nd(glass)
     away = [
         (abs((nd_of(medium) or 9.0) - wanted) if wanted else 0.0, label, medium) for label, medium in found if medium
@@ -323,9 +318,7 @@ def _stems(maker: str) -> dict[str, tuple[str, ...]]:
 
 
 def _nominal_nd(glass: RawGlass) -> float | None:
-    """Return nd of the glass that was asked for, where the file or an old data sheet states it."""
-    if glass.beside:
-        return glass.beside[0]
+    """Return nd of the glass that was asked for, where an old data sheet states it."""
     known = not glass.makers or any(_same_maker(maker, "SCHOTT") for maker in glass.makers)
     return OBSOLETE.get(key(glass.name), (None,))[0] if known else None
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.agf import Catalogue, read_agf
+from p2sf.lensfile.agf import Catalogue, read_agf, read_agf_text
 from p2sf.lensfile.formats.codev import read_codev
 from p2sf.lensfile.formats.csv_table import read_table
 from p2sf.lensfile.formats.iset import read_iset_dat, read_iset_json
@@ -71,7 +71,8 @@ def import_lens(
     LensFileError, with its line, for what cannot be read exactly; a substitute glass needs consent.
     """
     source = read_source(path)
-    return import_text(source, GlassSources(_catalogues(path, catalogues), {}, accept_substitutes))
+    inside = [_tolerant(each) for each in source.beside]
+    return import_text(source, GlassSources(_catalogues(path, [*catalogues, *inside]), {}, accept_substitutes))
 
 
 def import_text(source: LensText, sources: GlassSources) -> Import:
@@ -125,8 +126,8 @@ def _catalogues(path: str | os.PathLike, given: Iterable[str | os.PathLike | Cat
     return tuple(item for item in listed if item.glasses)
 
 
-def _tolerant(path: Path) -> Catalogue:
+def _tolerant(found: Path | LensText) -> Catalogue:
     try:
-        return read_agf(path)
+        return read_agf_text(found) if isinstance(found, LensText) else read_agf(found)
     except LensFileError:
-        return Catalogue(path.stem.upper(), str(path), {})
+        return Catalogue("", "", {})

@@ -3,17 +3,27 @@
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import inf
+from math import inf, nan
 from typing import Literal
 
+from p2sf.errors import RequestError
 from p2sf.glass.media import Medium
+from p2sf.lens.lens import USUAL_AIM, Aim
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Shape
+from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
+from p2sf.pupil.mask import CLEAR, PupilMask
 
 RawApertureKind = Literal[
-    "stop_semi_diameter", "entrance_pupil_diameter", "f_number", "image_f_number", "object_na", "image_na"
+    "stop_semi_diameter",
+    "entrance_pupil_diameter",
+    "f_number",
+    "image_f_number",
+    "object_na",
+    "object_cone_angle",
+    "image_na",
 ]
 RawFieldKind = Literal["angle", "object_height", "image_height", "real_image_height"]
 
@@ -22,19 +32,19 @@ RawFieldKind = Literal["angle", "object_height", "image_height", "real_image_hei
 class RawGlass:
     """What a file says about a medium: a name with its makers, an index, or nd and vd.
 
-    ``beside`` are the (nd, vd) that a file writes beside a name; ``medium`` is a medium that the file itself
-    defines (a private glass, a table of indices).
+    ``medium`` is a medium that the file itself defines (a private glass, a table of indices). What a Zemax file writes
+    beside a name is left over from earlier glasses and no statement at all.
     """
 
     name: str = ""
     makers: tuple[str, ...] = ()
     index: float | None = None
     model: tuple[float, float] | None = None
-    beside: tuple[float, float] | None = None
     medium: Medium | None = None
     line: int | None = None
 
 
+CATALOGUE_AIR = (20.0, 1.0)  # °C and atmospheres, at which makers state indices relative to air
 HOLE = "rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip"
 
 
@@ -75,6 +85,9 @@ class RawSurface:
 class RawLens:
     """A whole file. Lengths in units of ``unit_mm``; wavelengths µm; field pairs (x, y) in the kind's unit.
 
+    ``environment``: temperature, °C, and pressure of the air, atmospheres, that indices of glasses are for.
+    ``weights`` are those of the wavelengths, 1 where there are fewer; an object's cone angle is in degrees.
+
     ``primary`` counts wavelengths from 0. ``sensor_before``: how the image surface stands.
     """
 
@@ -89,13 +102,25 @@ class RawLens:
     fields: list[tuple[float, float]] = field(default_factory=list)
     field_line: int | None = None
     wavelengths_um: list[float] = field(default_factory=list)
+    weights: list[float] = field(default_factory=list)
     wavelength_line: int | None = None
     primary: int | None = None
+    aim: Aim = USUAL_AIM
+    mask: PupilMask = CLEAR
+    environment: tuple[float, float] = CATALOGUE_AIR
+    environment_line: int | None = None
     vignetting: float | None = None  # the largest vignetting factor of the file, None where it has no such line
     title: str = ""
     source: str = ""
     sensor_stated: bool = True
     sensor_before: tuple[Placement, ...] = ()
+
+    def apodise(self, exponent: float, source: LensText, line: int) -> None:
+        """Let the amplitude fall as exp(−exponent·ρ²) over the pupil; LensFileError where that is impossible."""
+        try:
+            self.mask = PupilMask(apodisation=exponent**-0.5 if exponent > 0 else nan)
+        except RequestError as failure:
+            raise source.error(failure.message, line) from failure
 
     def add_vignetting(self, factors: Iterable[str]) -> None:
         """Take note of a line of vignetting factors; words that are no numbers say that rims give them."""

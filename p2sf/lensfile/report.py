@@ -5,12 +5,13 @@ from typing import Literal
 
 from p2sf.messages import Message
 
-Kind = Literal["read", "substituted", "ignored", "caution"]
+Kind = Literal["read", "substituted", "ignored", "unknown", "caution"]
 MOST_NOTES = 500
 TITLES: dict[Kind, str] = {
     "read": "read",
     "substituted": "substituted",
     "ignored": "ignored, without effect on the picture",
+    "unknown": "unknown here, and not read",
     "caution": "taken differently from the file",
 }
 
@@ -75,11 +76,20 @@ class Notebook:
     """Collects notes while a file is being read, at most `MOST_NOTES` of them."""
 
     seen: dict[Note, None] = field(default_factory=dict)
+    unknown: dict[str, list[int]] = field(default_factory=dict)
 
     @property
     def notes(self) -> list[Note]:
-        """Return the notes in the order in which they were added."""
-        return list(self.seen)
+        """Return the notes in the order in which they were added, then one for each unknown word of the file."""
+        words = [
+            Note("unknown", Message("{name} ({count}×)", name=word, count=len(lines)), None, lines[0])
+            for word, lines in self.unknown.items()
+        ]
+        return [*self.seen, *words[:MOST_NOTES]]
+
+    def add_unknown(self, name: str, line: int) -> None:
+        """Count a word of the file, in one of its lines, of which the reader knows nothing."""
+        self.unknown.setdefault(name[:40], []).append(line)
 
     def add(
         self,

@@ -1,32 +1,35 @@
-"""Lens files as text: size limits, encodings, zip archives, numbers with their line, and writing whole."""
+"""Lens files as text: size limits, encodings, archives, numbers with their line, and writing whole."""
 
 import math
 import os
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import LensFileError
 from p2sf.files.atomic import write_whole
+from p2sf.lensfile.archives import LARGEST_BYTES, check_size, is_archive, unpack
 from p2sf.messages import Message
 
-# A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
-LARGEST_BYTES = 4_000_000
 LARGEST_FILE = 1_000_000  # bytes of a file of this program; a lens takes a few thousand
 MOST_LINES = 200_000
 LONGEST_LINE = 300_000
-IN_ARCHIVES = (".zmx", ".seq", ".len", ".roa", ".json", ".txt")
 BYTE_ORDER_MARKS = (("utf-8-sig", b"\xef\xbb\xbf"), ("utf-16", b"\xff\xfe"), ("utf-16", b"\xfe\xff"))
 
 
 @dataclass(frozen=True)
 class LensText:
-    """A lens file as text, with the path it was read from and the encoding it was written in."""
+    """A lens file as text, with the path it was read from and the encoding it was written in.
+
+    ``beside`` are the glass catalogues that lie with it in an archive.
+    """
 
     path: str
     encoding: str
     text: str
+    beside: tuple["LensText", ...] = ()
 
     @cached_property
     def lines(self) -> tuple[str, ...]:
@@ -41,7 +44,7 @@ class LensText:
 
 
 def read_source(path: str | os.PathLike) -> LensText:
-    """Return the text of a lens file, or of the one lens inside a zip archive.
+    """Return the text of a lens file, or of the first lens inside a zip or .zar archive.
 
     Raises LensFileError for a missing or unreadable file, one of over 4 MB, and an archive without a lens.
     """
@@ -49,10 +52,14 @@ def read_source(path: str | os.PathLike) -> LensText:
 
 
 def source_of(data: bytes, path: str) -> LensText:
-    """Return the text of a lens file's bytes; a zip archive is opened, a binary file refused."""
-    if data[:4] == b"PK\x03\x04":
-        name, data = _zip_member(data, path)
-        path = f"{path}/{name}"
+    """Return the text of a lens file's bytes; an archive is opened, another binary file refused."""
+    if is_archive(data):
+        first, *others = unpack(data, path)
+        return replace(_text(first[1], f"{path}/{first[0]}"), beside=tuple(_texts(others, path)))
+    return _text(data, path)
+
+
+def _text(data: bytes, path: str) -> LensText:
     text, encoding = decode(data)
     if "\0" in text:
         line = text[: text.index("\0")].count("\n") + 1
@@ -60,6 +67,15 @@ def source_of(data: bytes, path: str) -> LensText:
     source = LensText(path, encoding, text)
     _check_lines(source)
     return source
+
+
+def _texts(members: list[tuple[str, bytes]], path: str) -> Iterator[LensText]:
+    """Yield the catalogues of an archive; one that is not text is left out, as one in the folder of a lens is."""
+    for name, data in members:
+        try:
+            yield _text(data, f"{path}/{name}")
+        except LensFileError:
+            continue
 
 
 def _check_lines(source: LensText) -> None:
@@ -87,7 +103,7 @@ def read_bytes(path: str | os.PathLike) -> bytes:
             path,
             reason=getattr(failure, "strerror", None) or str(failure),
         ) from None
-    _check_size(len(data), str(path))
+    check_size(len(data), str(path))
     return data
 
 
@@ -103,38 +119,6 @@ def decode(data: bytes) -> tuple[str, str]:
         return data.decode("utf-8"), "utf-8"
     except UnicodeDecodeError:
         return data.decode("latin-1"), "latin-1"
-
-
-def _check_size(count: int, path: str) -> None:
-    if count > LARGEST_BYTES:
-        raise LensFileError(
-            "the file is over {size:g} MB; a prescription is far smaller", path, size=LARGEST_BYTES / 1e6
-        )
-
-
-def _zip_member(data: bytes, path: str) -> tuple[str, bytes]:
-    """Return name and bytes of the first lens in an archive; LensFileError as for a file, 4 MB unpacked included."""
-    import io
-    import zipfile
-    import zlib
-
-    damaged = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError)
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            names = [name for name in archive.namelist() if name.lower().endswith(IN_ARCHIVES)]
-            if not names:
-                raise LensFileError("the archive contains no .zmx or .seq file; unpack the lens yourself", path)
-            first = sorted(names, key=lambda name: not name.lower().endswith(".zmx"))[0]
-            with archive.open(first) as stream:
-                member = stream.read(LARGEST_BYTES + 1)
-    except LensFileError:
-        raise
-    except (*damaged, ValueError) as failure:
-        raise LensFileError(
-            "the archive cannot be unpacked ({reason}); unpack it yourself", path, reason=str(failure)
-        ) from failure
-    _check_size(len(member), f"{path}/{first}")
-    return first, member
 
 
 def number(word: str, what: str | Message, source: LensText, line: int) -> float:

@@ -13,7 +13,7 @@ from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
 from p2sf.lens.even_terms import even_asphere, power_terms
 from p2sf.lens.freeform import Freeform, ZernikeSag
-from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.lens import Lens, Surface, message_if_misaligned
 from p2sf.lens.properties import ISET, PROPERTIES, ZEMAX
 from p2sf.lens.shapes import Qbfs
 from p2sf.lens.tilts import break_rows
@@ -24,11 +24,12 @@ from p2sf.lensfile.formats.zemax import FREEFORMS
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits, write_text
-from p2sf.lensfile.surface_endings import check_endings
+from p2sf.lensfile.surface_endings import check_endings, type_in_file
 from p2sf.lensfile.toml.columns import columns_of
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
-from p2sf.paraxial.positions import as_in_columns, focused_vergence
+from p2sf.paraxial.positions import focused_vergence, matches_columns
+from p2sf.pupil.mask import PupilMask
 
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
@@ -55,7 +56,8 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
         raise LensFileError(
             'ending "{ending}" is none of {endings}; choose one', path, ending=ending, endings=tuple(writers)
         )
-    if ending != ".toml" and not lens.mask.clear:
+    gaussian = ending in (".zmx", ".seq") and lens.mask == PupilMask(apodisation=lens.mask.apodisation)
+    if ending != ".toml" and not lens.mask.clear and not gaussian:
         raise LensFileError(
             "a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML",
             path,
@@ -70,12 +72,13 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
 
 def _check_aligned(lens: Lens, what: Message) -> None:
     """Raise LensFileError for a lens with tilts or decentres, which ``what`` cannot hold."""
-    if lens.misaligned:
-        raise LensFileError(
-            "parts of the lens are tilted or decentred, which {what} cannot express; save as TOML, or for Zemax at "
-            "one position",
-            what=what,
-        )
+    tilted = Message(
+        "parts of the lens are tilted or decentred, which {what} cannot express; save as TOML, or for Zemax at one "
+        "position",
+        what=what,
+    )
+    if reason := message_if_misaligned(lens, tilted):
+        raise LensFileError(reason)
 
 
 def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
@@ -98,7 +101,7 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
 
 def _zemax_configurations(lens: Lens, stop: int) -> list[str]:
     """Return the lines of the multi-configuration editor: the titles, and every number that varies."""
-    if lens.positions is None or not as_in_columns(lens):
+    if lens.positions is None or not matches_columns(lens):
         return []
     (axis, *others), columns = lens.positions.axes, columns_of(lens)
     if others:
@@ -128,6 +131,7 @@ def _zemax_numbers(lens: Lens, stop: int) -> dict[tuple[str, int], float | str]:
         found |= {("CONN", number): surface.conic, ("GLSS", number): _zemax_glass(surface.medium).split()[1]}
         if number != stop or lens.aperture.kind != "stop_semi_diameter":
             found["SDIA", number] = rim
+    found |= {("XFIE", k): float(field) for k, field in enumerate(lens.fields_x_deg, 1)}
     found |= {("YFIE", k): float(field) for k, field in enumerate(lens.fields_deg, 1)}
     return found | {("WAVE", k): wave / NM_PER_UM for k, wave in enumerate(lens.wavelengths_nm, 1)}
 
@@ -156,7 +160,7 @@ def _check_zemax_columns(lens: Lens) -> None:
 
 def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
     waves, fields = lens.wavelengths_nm, lens.fields_deg
-    primary = min(range(len(waves)), key=lambda i: abs(waves[i] / NM_PER_UM - lens.reference_wavelength_um)) + 1
+    weights = lens.wavelength_weights or (1.0,) * len(waves)
     keyword = ZEMAX_APERTURES.get(lens.aperture.kind)
     return [
         "VERS 181122 258 36214",
@@ -166,10 +170,15 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
         f"{keyword} {digits(lens.aperture.value)} 0" if keyword else "FLOA",
         f"GCAT {' '.join(makers)}",
         f"FTYP 0 0 {len(fields)} {len(waves)} 0 0 0",
-        f"XFLN {' '.join('0' for _ in fields)}",
+        f"XFLN {' '.join(digits(field) for field in lens.fields_x_deg or (0.0,) * len(fields))}",
         f"YFLN {' '.join(digits(field) for field in fields)}",
-        *(f"WAVM {i} {digits(wave / NM_PER_UM)} 1" for i, wave in enumerate(waves, 1)),
-        f"PWAV {primary}",
+        *(
+            f"WAVM {i} {digits(wave / NM_PER_UM)} {digits(weight)}"
+            for i, (wave, weight) in enumerate(zip(waves, weights, strict=True), 1)
+        ),
+        f"PWAV {waves.index(lens.reference_wavelength_nm) + 1}",
+        *[f"GFAC 1 {digits(lens.mask.apodisation**-2)}"] * (not lens.mask.clear),
+        f"RAIM 0 {0 if lens.aim == 'paraxial' else 2} 1 1 0 0 0 0 0",
     ]
 
 
@@ -281,7 +290,7 @@ def _own_type(surface: Surface, shape: Qbfs | Freeform, number: int) -> tuple[st
         )
     if isinstance(shape, Qbfs):  # type 0 of Forbes's
         return "QED_TYPE", _extra_lines((0, len(shape.coefficients), shape.normalisation_mm, *shape.coefficients))
-    kind = next(kind for kind, known in FREEFORMS.items() if isinstance(shape, known))
+    kind = type_in_file({known: kind for kind, known in FREEFORMS.items()}, shape, number, ZEMAX)
     if isinstance(shape, ZernikeSag):  # parameter 0: the terms hold beyond the normalisation radius too
         even = [f"  PARM {place} {digits(value)}" for place, value in enumerate(surface.aspheric, 2) if value]
         return kind, ["  PARM 0 1", *even, *data]

@@ -64,7 +64,7 @@ def _space(whole: FrameFit) -> Space:
     assert lens is not None
     wave = model.optics.wavelength_um
     farthest = float(np.rad2deg(np.arctan(model.source(model.height_mm, 0.0).field_slope)))
-    fields = np.linspace(0.0, max(1.0, farthest, *lens.fields_deg), NODES[1])
+    fields = np.linspace(0.0, max(1.0, farthest, lens.widest_field_deg), NODES[1])
     light = np.linspace(min(LIGHT_UM[0], wave), max(LIGHT_UM[1], wave), NODES[2])
     return Space(depth_nodes(min(NEAR_MM, model.depth_mm), np.inf, NODES[0]), slope_from_degrees(fields), light)
 

@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -102,47 +103,61 @@ class Measurement:
         return out
 
 
+@dataclass(frozen=True, eq=False)
+class FrameRequest:
+    """What is to be found of frames, and what is known of the lens that made them.
+
+    ``focus_um``: how much farther from the lens the sensor was at each frame, 0 if not given. ``model``: of single
+    points, each fitted by itself where ``singly``. ``lens``: as designed, from which the whole frame departs by
+    ``unknowns``, and every point by four coefficients, which are added to the lens's own; a model with a map starts
+    from the lens's. ``depth_mm``: of the points. ``clip``: the lens's rims end pupils. ``target``: tells where points
+    belong and where the axis meets the sensor, which is the frame's otherwise. ``f_number_error``: one standard
+    deviation of the f-number as stated, percent; unless 0, the f-number is the last unknown of the frame, and single
+    points are fitted with the one found.
+    """
+
+    focus_um: Sequence[float] = (0.0,)
+    model: str = SIX
+    lens: Lens | None = None
+    depth_mm: float = float("inf")
+    unknowns: Sequence[str] = (*FOCUS, *FIELD)
+    singly: bool = True
+    clip: bool = False
+    target: Target | None = None
+    f_number_error: float = F_NUMBER_ERROR
+
+
 def measure_frame(
     frames: Sequence[Frame],
     optics: PictureOptics,
-    *,
-    focus_um: Sequence[float] = (0.0,),
-    model: str = SIX,
-    lens: Lens | None = None,
-    depth_mm: float = float("inf"),
-    unknowns: Sequence[str] = (*FOCUS, *FIELD),
-    singly: bool = True,
-    clip: bool = False,
-    target: Target | None = None,
-    f_number_error: float = F_NUMBER_ERROR,
+    asked: FrameRequest | None = None,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Measurement:
     """Return what one frame, or several of the same points at known focus, tell of the lens that made them.
 
-    ``focus_um``: how much farther from the lens the sensor was at each frame. ``singly``: fit every point by itself.
-    ``lens``: as designed, from which the whole frame departs by ``unknowns``, and every point by four coefficients,
-    which are added to the lens's own; a model with a map starts from the lens's. ``clip``: its rims end pupils.
-    ``target``: tells where points belong and where the axis meets the sensor, which is the frame's otherwise.
-    ``f_number_error``: one standard deviation of the f-number as stated, percent; unless 0, the f-number is the last
-    unknown of the frame, and single points are fitted with the one found. A frame of fewer than five usable points is
-    fitted point by point only. Raises RequestError where no point can be used.
+    A frame of fewer than five usable points is fitted point by point only. Raises RequestError where no point can be
+    used.
     """
-    _check(frames, focus_um, model, f_number_error)
+    asked = asked or FrameRequest()
+    lens, depth_mm, singly, f_number_error = asked.lens, asked.depth_mm, asked.singly, asked.f_number_error
+    _check(frames, asked.focus_um, asked.model, f_number_error)
     points = in_grid(find_points(frames[0], optics))
     half = window_half(points)
     if frames[0].psf:
         points, half = [_at_field(points[0], frames[0], lens, depth_mm, optics.wavelength_um)], points[0].half
         optics = optics if frames[0].integrated else replace(optics, fill=0.0)
     match = None
-    if target is not None:
-        points, match = _on_target(points, target, lens, depth_mm, optics.wavelength_um)
-    taken = [_Taken(frames, point, points, half, focus_um, optics) for point in points]
+    if asked.target is not None:
+        points, match = _on_target(points, asked.target, lens, depth_mm, optics.wavelength_um)
+    taken = [_Taken(frames, point, points, half, asked.focus_um, optics) for point in points]
     height = max([one.height_mm for one in taken if one.pictures] + [LEAST_HEIGHT_MM])
-    names = tuple(name for name in unknowns if name != F_NUMBER) + (F_NUMBER,) * (f_number_error > 0)
-    design = FrameModel(optics, height, names, lens, depth_mm, clip=clip, f_number_error=f_number_error or 1.0)
+    names = tuple(name for name in asked.unknowns if name != F_NUMBER) + (F_NUMBER,) * (f_number_error > 0)
+    design = FrameModel(optics, height, names, lens, depth_mm, clip=asked.clip, f_number_error=f_number_error or 1.0)
     whole = _whole(taken, design, share_of(progress, 0.0, WHOLE if singly else 1.0), cancelled)
-    fits, failures = _singly(taken if singly else [], whole, design, model, share_of(progress, WHOLE, 1.0), cancelled)
+    fits, failures = _singly(
+        taken if singly else [], whole, design, asked.model, share_of(progress, WHOLE, 1.0), cancelled
+    )
     if not singly:
         fits, failures = [None] * len(points), [one.failure for one in taken]
     return Measurement(tuple(frames), optics, tuple(points), half, tuple(fits), tuple(failures), whole, match)
@@ -467,8 +482,19 @@ def _pairs(one: np.ndarray, two: np.ndarray) -> list[tuple[int, int]]:
 
 
 def __getattr__(name: str) -> object:
-    """Return `measure_frame` by its former name, for one version more."""
+    """Return `measure_frame` by its former name and with its former keywords, for one version more."""
     if name != "measured":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     warnings.warn("measured is measure_frame now", DeprecationWarning, stacklevel=2)
-    return measure_frame
+    return _by_keywords
+
+
+def _by_keywords(
+    frames: Sequence[Frame],
+    optics: PictureOptics,
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    **known: Any,
+) -> Measurement:
+    return measure_frame(frames, optics, FrameRequest(**known), progress, cancelled)

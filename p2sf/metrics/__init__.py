@@ -1,1 +1,1 @@
-"""What a PSF is judged by: transfer function, line and edge spread, encircled energy; from the pupil or a window."""
+"""Quality measures of a PSF: transfer function, line and edge spread, encircled energy; from pupil or window."""

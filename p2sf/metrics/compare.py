@@ -1,4 +1,4 @@
-"""How far one PSF is from another on the same grid, in the quantities a PSF is judged by (handbook 6.1)."""
+"""Differences between two PSFs on the same grid in the usual quality measures (handbook 6.1)."""
 
 from dataclasses import dataclass
 
@@ -10,17 +10,17 @@ from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.result import Psf
 
-SAME_PITCH = 1e-9  # relative: the rounding of a pitch written to a file and read again
+SAME_PITCH = 1e-9  # relative: the rounding of a pitch stored in a file
 
 
 @dataclass(frozen=True)
 class Errors:
     """A PSF against a reference, both normalised to unit sum in the window they share.
 
-    ``r_squared`` is 1 − Σ(reference − psf)²/Σ(reference − mean)², negative where the mean itself fits better;
-    ``relative_l2`` the root of Σ(reference − psf)²/Σreference². ``strehl`` is the difference of Strehl ratios, None
-    where one has none, ``radius_50_um`` and ``radius_80_um`` of encircled-energy radii about each one's centroid,
-    ``centroid_um`` the distance between the centroids. Differences are this PSF less the reference.
+    ``r_squared`` is 1 − Σ(reference − psf)²/Σ(reference − mean)², negative if the mean itself fits better;
+    ``relative_l2`` the root of Σ(reference − psf)²/Σreference². ``strehl`` is the difference of Strehl ratios, None if
+    one has none, ``radius_50_um`` and ``radius_80_um`` of encircled-energy radii about each one's centroid,
+    ``centroid_um`` the distance between the centroids. Differences are this PSF minus the reference.
     """
 
     r_squared: float
@@ -32,7 +32,7 @@ class Errors:
 
 
 def compare(psf: Psf, reference: Psf) -> Errors:
-    """Return how far a PSF is from the reference; SamplingError unless both have the same samples and pitch."""
+    """Return the errors of a PSF against the reference; SamplingError unless both have the same samples and pitch."""
     _check_same_grid(psf, reference)
     (x, y), (x_reference, y_reference) = centroid(psf), centroid(reference)
     radii = [float(radius_of_energy(psf, part) - radius_of_energy(reference, part)) for part in (0.5, 0.8)]
@@ -61,6 +61,6 @@ def _check_same_grid(psf: Psf, reference: Psf) -> None:
 
 
 def _grid(psf: Psf) -> Message:
-    """Return what grid a PSF has, in words."""
+    """Return a description of the grid of a PSF."""
     shape = " × ".join(map(str, psf.values.shape))
     return Message("{shape} samples at {pixel_um:g} µm", shape=shape, pixel_um=psf.pixel_um)

@@ -20,8 +20,10 @@ from scipy import fft
 from p2sf.conventions import write_protect
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
-from p2sf.metrics.mask_lines import box_edges, open_intervals, places_between
+from p2sf.metrics.mask_lines import box_edges
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.mask import mask_slopes
+from p2sf.pupil.open_part import open_intervals, places_between
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import MOST_KEPT, even_count, gauss_legendre
 
@@ -99,7 +101,7 @@ def energy_of(
     waves = blur_waves(pupil, centre, aside)
     if waves <= MOST_WAVES:
         return landing_energy(pupil, centre, aside, radius_um)
-    if not pupil.mask.clear:
+    if not pupil.plain:
         raise SamplingError(
             "a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or "
             "stop down",
@@ -146,7 +148,7 @@ def landing_energy(
     blur = blur_waves(pupil, centre_um, aside_um)
     waves = float(np.clip(radius_um * half, blur + BEYOND, blur + FARTHEST))
     x, y, wave, light = _nodes(pupil, (aside_um, centre_um), 2 * waves)
-    circles = _circles(even_count(waves), pupil.even)
+    circles = _circles(even_count(waves), pupil.domain)
     top = waves / half
     field = _at_points(x * pupil.half_x * top, y * pupil.half_y * top, wave, circles)
     mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
@@ -161,7 +163,7 @@ class Circles:
     """Points of circles about 0, ``x`` and ``y`` (points,), one circle behind the other from ``starts`` (circles,).
 
     ``radius``: shares of the largest, first Chebyshev points between 0 and 1; ``directions``: points of each circle, on
-    the half x > 0 if ``halved``.
+    the half x > 0 of a symmetric pupil.
     """
 
     radius: np.ndarray
@@ -169,26 +171,25 @@ class Circles:
     starts: np.ndarray
     x: np.ndarray
     y: np.ndarray
-    halved: bool
 
 
-def _circles(waves: int, halved: bool) -> Circles:
-    return (_kept_circles if waves**2 <= MOST_KEPT else _kept_circles.__wrapped__)(waves, halved)
+def _circles(waves: int, domain: PupilDomain) -> Circles:
+    return (_kept_circles if waves**2 <= MOST_KEPT else _kept_circles.__wrapped__)(waves, domain)
 
 
 @lru_cache(maxsize=8)
-def _kept_circles(waves: int, halved: bool) -> Circles:
+def _kept_circles(waves: int, domain: PupilDomain) -> Circles:
     """Return circles that resolve the light of a pupil up to where its edges' plane waves have turned so often."""
     count = even_count(CIRCLES * _harmonics(2 * pi * waves))
     radius = (1 + np.cos(pi * (np.arange(count) + 0.5) / count)) / 2
     order = 4 * pi * waves * radius
     half = np.ceil((DIRECTIONS * order + 8 * np.cbrt(order) + 8) / 4).astype(int) * 2
-    directions = half if halved else 2 * half
+    directions = half * len(domain.halves)
     starts = np.cumsum(directions) - directions
     angle = (np.arange(directions.sum()) - np.repeat(starts - 0.5, directions)) * np.repeat(pi / half, directions)
     reach = np.repeat(radius, directions)
     x, y = (write_protect((reach * turn).astype(np.float32)) for turn in (np.sin(angle), np.cos(angle)))
-    return Circles(write_protect(radius), write_protect(directions), write_protect(starts), x, y, halved)
+    return Circles(write_protect(radius), write_protect(directions), write_protect(starts), x, y)
 
 
 def _harmonics(order: float) -> float:
@@ -219,11 +220,11 @@ def _node_count(waves: float) -> int:
 def _nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) -> Nodes:
     """Return the nodes of a pupil whose phase has such a slope: columns between the ends and corners of its edges.
 
-    Those of an even pupil at fx < 0 mirror the others.
+    Those of a symmetric pupil at fx < 0 mirror the others.
     """
     light, dark = box_edges(pupil)
     lines = max(FEWEST_LINES, ceil(LINE_EXCESS * _node_count(waves)))
-    places, weights = places_between([*light, *dark], lines, pupil.even)
+    places, weights = pupil.domain.of_lines(*places_between([*light, *dark], lines))
     parts = []
     for low, high in zip(*open_intervals(light, dark, places), strict=True):
         length = (high - low)[:, None] / 2
@@ -232,9 +233,9 @@ def _nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) 
         parts.append(_column_nodes(pupil, centre_um, (places, y), weights[:, None] * length * weight))
     x, y, wave = (np.concatenate(column) for column in zip(*(part[:3] for part in parts), strict=True))
     total = sum(part[3] for part in parts)
-    if pupil.even:
-        return np.append(x, -x), np.append(y, y), np.append(wave, wave) / 2, total
-    return x, y, wave, total
+    images = pupil.domain.images
+    count = len(images)
+    return np.concatenate([side * x for side in images]), np.tile(y, count), np.tile(wave / count, count), total
 
 
 def _column_nodes(

@@ -23,19 +23,20 @@ from scipy.linalg import qr, solve_triangular
 
 from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.smooth_pupil import all_reach
+from p2sf.pupil.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.open_part import WHOLE_DISC, PupilEdges
+from p2sf.raytrace.clear_pieces import without_holes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.spot import Landing, landing
-from p2sf.raytrace.vignetting import clear_nodes, clear_outline, whole_nodes
+from p2sf.raytrace.vignetting import clear_nodes, clear_outline, pupil_edges, whole_nodes
 
 # RMS error of phase and density from which a higher order is tried: the transfer function's is at most 2π√2 times it.
 RESIDUAL_WAVES = 5e-5
@@ -48,7 +49,6 @@ RIM = 64  # intervals of half the rim that are traced
 OUTLINE = 4096  # intervals of the edge: chords between them depart from it by 3e-7 of the radius
 CENTROID_CELLS = 256  # along each side, for the centroid of the light that a mask lets through: 1e-3 of its radius
 PROBE = 33  # points along each axis where slopes are looked for
-OFF_AXIS = 1e-9  # of the radius: what lies nearer to the plane of symmetry lies in it
 
 UNFOLLOWED = "no polynomial fits the rays of this pupil; stop the lens down or reduce the field"
 
@@ -85,10 +85,10 @@ EXACT = RayCounts(4, 6, 10)  # the six coefficients are a polynomial of fourth o
 class PupilSamples:
     """Rays over the whole pupil, (nodes,): the last ``rim`` of them once around its edge.
 
-    ``traced``: how many of them were; of even ones the others mirror these.
+    ``traced``: how many of them were; of a symmetric pupil the others mirror these.
     ``share``: the area that each stands for, 0 on the edge; ``weight``: of its field; phase in waves, fx and fy in
-    cycles per µm. ``even``: whether rays at −ξ mirror those at ξ. ``disc``: the counts of nodes over the whole disc;
-    None where the pupil ends elsewhere.
+    cycles per µm. ``domain``: HALF where rays at −ξ mirror those at ξ. ``disc``: the counts of nodes over the whole
+    disc; None where the pupil ends elsewhere.
     """
 
     xi: np.ndarray
@@ -99,7 +99,7 @@ class PupilSamples:
     fx: np.ndarray
     fy: np.ndarray
     rim: int
-    even: bool
+    domain: PupilDomain
     disc: tuple[int, int] | None
     traced: int
 
@@ -155,10 +155,12 @@ class FrequencyPupil:
         By which the mask's path is waves.
     xi, eta : numpy.ndarray
         ξ and η of the ray at a point of the box, as ``phase`` is.
-    even : bool
-        Whether fx and −fx are alike, the mask included, so that sums take half of the lines.
+    domain : PupilDomain
+        HALF where fx and −fx are alike, the mask included, so that sums take half of the lines.
     centroid_x_um : float
         The light's centroid along x.
+    edges : PupilEdges
+        Where rims and holes end the pupil over the stop; ``edge`` is that rim in the box.
     """
 
     half_x: float
@@ -175,8 +177,14 @@ class FrequencyPupil:
     wavelength_um: float = nan
     xi: np.ndarray = field(default_factory=lambda: np.array([[0.0, 1.0], [0.0, 0.0]]))
     eta: np.ndarray = field(default_factory=lambda: np.array([[0.0, 0.0], [1.0, 0.0]]))
-    even: bool = True
+    domain: PupilDomain = HALF
     centroid_x_um: float = 0.0
+    edges: PupilEdges = WHOLE_DISC
+
+    @property
+    def plain(self) -> bool:
+        """Return whether all within its edge is open, and lets light through alike."""
+        return self.mask.clear and not self.edges.shadows
 
     @property
     def predicted_error(self) -> float:
@@ -210,7 +218,7 @@ class FrequencyPupil:
             eta=self.eta.T,
             centroid_um=self.centroid_x_um,
             centroid_x_um=self.centroid_um,
-            even=False,
+            domain=WHOLE,
         )
 
     def columns(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -320,30 +328,59 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
     Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
     rays of different parts of it arrive in one direction.
     """
-    mask, even = mask_seen(lens, source), not (lens.misaligned or turn_deg)
+    domain = lens.pupil_domain.turned(turn_deg)
     whole = not clip and all_reach(lens, source)
-    if not (whole or mask.clear):
-        check_unmasked(lens, Message("a transfer function of a pupil that ends at rims or where rays are lost"))
     if not (whole or clip):
         _check_reach(lens, source)
-    outline = None if whole else clear_outline(lens, source, OUTLINE // 8, clip, even)
+    end = WHOLE_PUPIL if whole else PupilAtRims(lens, source, clip)
 
     def traced(sampling: RayCounts) -> PupilSamples:
-        if outline is None:
-            columns, rim = _over_disc(sampling.counts, even)
-        else:
-            columns, rim = _with_edge(clear_nodes(lens, source, sampling.counts, clip), outline, even)
+        columns, rim = end.columns(sampling.counts, domain)
         rays = pencil(lens, source, *columns[:2])
         if whole and not rays.passed.all():
             raise GeometryError(UNFOLLOWED)
         kept = rays.passed  # where light is lost, an outline by directions misses a few rays
-        columns = np.stack([*columns, rays.amplitude, rays.phase, *rotate_frequencies(rays.fx, rays.fy, turn_deg)])[
-            :, kept
-        ]
-        return _samples(columns, int(kept[-rim:].sum()), even, sampling.counts if whole else None)
+        frequencies = rotate_frequencies(rays.fx, rays.fy, turn_deg)
+        columns = np.stack([*columns, rays.amplitude, rays.phase, *frequencies])[:, kept]
+        return _samples(columns, int(kept[-rim:].sum()), domain, end.disc(sampling.counts))
 
-    found = behind_mask(_settle(traced, ORDERS), mask, float(source.wavelength_um))
+    found = replace(_settle(traced, ORDERS), edges=end.edges)
+    found = behind_mask(found, mask_seen(lens, source), float(source.wavelength_um))
     return with_spot(found, lens, source, clip, turn_deg)
+
+
+class PupilEnd:
+    """Where a pupil ends: at the rim of the disc."""
+
+    domain: PupilDomain = HALF
+    edges = WHOLE_DISC
+
+    def columns(self, counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
+        """Return ξ, η and shares of the area of nodes over a domain, and on the edge, and how many these are."""
+        return _over_disc(counts, domain)
+
+    def disc(self, counts: tuple[int, int]) -> tuple[int, int] | None:
+        """Return the counts of nodes over the whole disc; None of other pupils."""
+        return counts
+
+
+WHOLE_PUPIL = PupilEnd()
+
+
+class PupilAtRims(PupilEnd):
+    """Where the pupil of a lens ends at rims and holes, with ``clip``, or where rays are lost."""
+
+    def __init__(self, lens: Lens, source: Source, clip: bool):
+        self._lens, self._source, self._clip = without_holes(lens), source, clip
+        self.domain, self.edges = lens.pupil_domain, pupil_edges(lens, source, OUTLINE // 8, clip)
+
+    def columns(self, counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
+        """Return the same of the clear part without its holes."""
+        edge = clear_outline(self._lens, self._source, OUTLINE // 8, self._clip, domain)
+        return _with_edge(clear_nodes(self._lens, self._source, counts, self._clip), edge, domain)
+
+    def disc(self, counts: tuple[int, int]) -> None:
+        """Return that these are not over the whole disc."""
 
 
 def _check_reach(lens: Lens, source: Source) -> None:
@@ -380,74 +417,83 @@ def rotate_frequencies(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple
     return cosine * fx - sine * fy, sine * fx + cosine * fy
 
 
-def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0) -> FrequencyPupil:
+def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0, end: PupilEnd = WHOLE_PUPIL) -> FrequencyPupil:
     """Return the pupil that a fit describes, axes as `pupil_of_rays`. Raises GeometryError where its map folds."""
-    even = found.level.basis.domain.symmetric and not turn_deg
+    domain = found.level.basis.domain.turned(turn_deg)
 
     def evaluated(sampling: RayCounts) -> PupilSamples:
-        columns, rim = _over_disc(sampling.counts, even)
+        columns, rim = end.columns(sampling.counts, domain)
         phase, fx, fy = found.at(*columns[:2])
         weight = found.amplitude_at(*columns[:2])
         table = np.stack([*columns, weight, phase, *rotate_frequencies(fx, fy, turn_deg)])
-        return _samples(table, rim, even, sampling.counts)
+        return _samples(table, rim, domain, end.disc(sampling.counts))
 
-    known = _settle(evaluated, ORDERS)
-    known = replace(known, rays=found.rays, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
+    known = replace(_settle(evaluated, ORDERS), rays=found.rays, edges=end.edges)
+    known = replace(known, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
     return behind_mask(known, found.mask, found.wavelength_um)
 
 
-def pupil_of_coefficients(six: Coefficients, mask: PupilMask = CLEAR, turn_deg: float = 0.0) -> FrequencyPupil:
+def pupil_of_coefficients(
+    six: Coefficients, mask: PupilMask = CLEAR, turn_deg: float = 0.0, end: PupilEnd = WHOLE_PUPIL
+) -> FrequencyPupil:
     """Return the pupil of the six coefficients: the unit circle, frequencies −n'u'(ξ, η)/λ, uniform density.
 
     ``mask``: what else stands in it, as the source sees it. W counts the other way round than the mask's path.
     """
-    even, scale = not turn_deg, -float(six.reduced_slope) / float(six.wavelength_um)
+    domain, scale = end.domain.turned(turn_deg), -float(six.reduced_slope) / float(six.wavelength_um)
 
     def evaluated(sampling: RayCounts) -> PupilSamples:
-        columns, rim = _over_disc(sampling.counts, even)
+        columns, rim = end.columns(sampling.counts, domain)
         xi, eta, _ = columns
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
         table = np.stack([*columns, one, phase, *rotate_frequencies(scale * xi, scale * eta, turn_deg)])
-        return _samples(table, rim, even, sampling.counts)
+        return _samples(table, rim, domain, end.disc(sampling.counts))
 
-    found = replace(_settle(evaluated, (EXACT,)), rays=2)
+    found = replace(_settle(evaluated, (EXACT,)), rays=2, edges=end.edges)
     return behind_mask(found, mask, -float(six.wavelength_um))
 
 
 @lru_cache(maxsize=16)
-def _over_disc(counts: tuple[int, int], even: bool) -> tuple[np.ndarray, int]:
-    """Return ξ, η and shares of the area of nodes over the disc, of an even pupil over half of it, and on its rim."""
-    angle = np.linspace(0, np.pi, RIM + 1) if even else np.arange(2 * RIM) * (np.pi / RIM)
-    columns, rim = _with_edge(whole_nodes(counts), (np.sin(angle), np.cos(angle)), even)
+def _over_disc(counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
+    """Return ξ, η and shares of the area of nodes over the disc or its half, and on its rim, and how many these are."""
+    angle = domain.edge_directions((0.0, domain.turn), RIM)
+    columns, rim = _with_edge(whole_nodes(counts), (np.sin(angle), np.cos(angle)), domain)
     return write_protect(columns), rim
 
 
-def _with_edge(inside: ClearNodes, edge: tuple[np.ndarray, np.ndarray], even: bool) -> tuple[np.ndarray, int]:
+def _with_edge(inside: ClearNodes, edge: tuple[np.ndarray, np.ndarray], domain: PupilDomain) -> tuple[np.ndarray, int]:
     """Return ξ, η and shares of the area of nodes and behind them of points on the edge, and how many these are."""
-    nodes = (inside if even else inside.unfolded()).with_points(*edge)
+    nodes = domain.over(inside).with_points(*edge)
     return np.stack([nodes.xi, nodes.eta, nodes.weight]), edge[0].size
 
 
-def _samples(table: np.ndarray, rim: int, even: bool, disc: tuple[int, int] | None) -> PupilSamples:
-    """Return samples of (ξ, η, share, weight, phase, fx, fy), of an even pupil given for half of it."""
-    traced = table.shape[1]
-    if even:
-        mirrored = table * np.array([-1, 1, 1, 1, 1, -1, 1])[:, None]
-        parts = table[:, :-rim], mirrored[:, :-rim], table[:, -rim:], mirrored[:, -2:-rim:-1]
-        table, rim = np.concatenate(parts, axis=1), 2 * rim - 2
-    xi, eta, share, weight, phase, fx, fy = table
-    return PupilSamples(xi, eta, share, weight, phase, fx, fy, rim, even, disc, traced)
+def _samples(table: np.ndarray, rim: int, domain: PupilDomain, disc: tuple[int, int] | None) -> PupilSamples:
+    """Return samples of (ξ, η, share, weight, phase, fx, fy), given over a domain."""
+    inside, edge = [table[:, :-rim]], [table[:, -rim:]]
+    for side in domain.images[1:]:
+        image = table * np.array([side, 1, 1, 1, 1, side, 1])[:, None]
+        inside.append(image[:, :-rim])
+        edge.append(image[:, -2:-rim:-1])
+    xi, eta, share, weight, phase, fx, fy = np.concatenate([*inside, *edge], axis=1)
+    rim = sum(part.shape[1] for part in edge)
+    return PupilSamples(xi, eta, share, weight, phase, fx, fy, rim, domain, disc, table.shape[1])
 
 
 def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) -> FrequencyPupil:
     """Return the pupil behind a mask: centroid and RMS distance are those of the light that passes."""
-    if mask.clear:
+    if mask.clear and pupil.plain:
         return pupil
-    pupil = replace(pupil, even=pupil.even and mask.even, mask=mask, wavelength_um=wavelength_um)
+    pupil = replace(pupil, domain=pupil.domain.behind(mask.domain), mask=mask, wavelength_um=wavelength_um)
     axis = (np.arange(CENTROID_CELLS) + 0.5) * (2 / CENTROID_CELLS) - 1
     xi, eta = pupil.stop_on_grid(axis, axis)
     low, high = pupil.columns(axis)  # beyond the edge its polynomials are of no use
-    inside = mask.opens(xi, eta) & (xi * xi + eta * eta <= 1) & (axis[:, None] >= low) & (axis[:, None] <= high)
+    inside = (
+        mask.opens(xi, eta)
+        & pupil.edges.opens(xi, eta)
+        & (xi * xi + eta * eta <= 1)
+        & (axis[:, None] >= low)
+        & (axis[:, None] <= high)
+    )
     phase, density = pupil.on_grid(axis, axis)
     if mask.phased:
         phase = phase + np.where(inside, mask.path_um(xi * inside, eta * inside), 0.0) / wavelength_um
@@ -457,14 +503,14 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     # Of rays the density is the light, of waves the amplitude.
     light = np.where(whole, density * np.square(mask.amplitude(xi * inside, eta * inside)), 0.0)
     landing_x, landing_y = -slope_x / pupil.half_x, -slope_y / pupil.half_y
-    spot, waves = (_moments(landing_x, landing_y, part, pupil.even) for part in (light, light * density))
+    spot, waves = (_moments(landing_x, landing_y, part, pupil.domain) for part in (light, light * density))
     return replace(pupil, centroid_um=waves.y_um, centroid_x_um=waves.x_um, spot=spot)
 
 
-def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray, even: bool) -> RayMoments:
-    """Return the moments of light that lands at x and y; of an ``even`` pupil it is as much on either side of x = 0."""
-    share = light / light.sum()
-    aside, centre = 0.0 if even else float((share * x).sum()), float((share * y).sum())
+def _moments(x: np.ndarray, y: np.ndarray, light: np.ndarray, domain: PupilDomain) -> RayMoments:
+    """Return the moments of light that lands at x and y, from a pupil of this domain."""
+    x, y, share = x.ravel(), y.ravel(), light.ravel() / light.sum()
+    aside, centre = float(domain.mean_across(share, x)), float(share @ y)
     square = float((share * ((x - aside) ** 2 + (y - centre) ** 2)).sum())
     return RayMoments(aside, centre, float(np.sqrt(square)))
 
@@ -505,7 +551,7 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     middle = (high + low) / 2
     (centre_x, centre_y), share = middle, nodes.share
     x, y = (nodes.fx - centre_x) / half_x, (nodes.fy - centre_y) / half_y
-    least = LeastSquares(order, x, y, share, nodes.even)
+    least = LeastSquares(order, x, y, share, nodes.domain)
     phase = least.solve(nodes.phase)
     miss = least.values(phase) - nodes.phase
     area = _over_stop(nodes, order + STOP_ORDERS).area(x, y)
@@ -514,7 +560,7 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     light = share * nodes.weight
     landing_x, landing_y = (-slope / size for slope, size in zip(least.slopes(phase), half, strict=True))
     # Of rays weight·dξdη is the light, of waves D²df = D·weight·dξdη.
-    spot, waves = (_moments(landing_x, landing_y, part, nodes.even) for part in (light, light * true))
+    spot, waves = (_moments(landing_x, landing_y, part, nodes.domain) for part in (light, light * true))
     thin = light * true @ (least.values(density) / true - 1) ** 2 / (light @ true)
     # An error of the amplitude changes the field as a phase of 1/2π of it does.
     residual = float(np.sqrt((share @ miss**2 / share.sum() + thin / (2 * np.pi) ** 2) / least.freedom))
@@ -531,7 +577,7 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
         0,
         xi=least.solve_across(nodes.xi),
         eta=least.solve(nodes.eta),
-        even=nodes.even,
+        domain=nodes.domain,
         centroid_x_um=waves.x_um,
     )
 
@@ -539,28 +585,29 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
 class LeastSquares:
     """Polynomials T_a(x)·T_b(y), a + b ≤ order, through values at points of the box, by one QR.
 
-    Of ``even`` points, which x = 0 mirrors, it is that of half the points and of even a.
+    Of points that x = 0 mirrors it is that of half the points and of even a.
     """
 
-    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray, even: bool):
-        self._x, self._order, self._even = x, order, even
-        self._at = np.array([(b, a) for a in range(0, order + 1, 1 + even) for b in range(order + 1 - a)]).T
+    def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray, domain: PupilDomain):
+        self._x, self._order, self._domain = x, order, domain
+        every = range(0, order + 1, len(domain.images))
+        self._at = np.array([(b, a) for a in every for b in range(order + 1 - a)]).T
         self._across, self._along = chebvander(x, order + 1), chebvander(y, order + 1)
-        self._used = x > OFF_AXIS if even else np.ones(x.size, bool)
+        self._used = domain.holds(x)
         design = self._along[self._used][:, self._at[0]] * self._across[self._used][:, self._at[1]]
         self._root = np.sqrt(share + share[share > 0].min())  # the edge counts too, where polynomials deviate first
         self._factor, self._upper = qr(design * self._root[self._used, None], mode="economic", check_finite=False)
         self.freedom = max(1 - design.shape[1] / design.shape[0], 1e-3)
 
     def solve(self, values: np.ndarray) -> np.ndarray:
-        """Return the coefficients, (order + 1, order + 1) for (b, a), of what even points mirror alike."""
+        """Return the coefficients, (order + 1, order + 1) for (b, a), of what x = 0 mirrors alike."""
         table = np.zeros((self._order + 1, self._order + 1))
         table[tuple(self._at)] = solve_triangular(self._upper, self._factor.T @ (values * self._root)[self._used])
         return table
 
     def solve_across(self, values: np.ndarray) -> np.ndarray:
         """Return the coefficients, up to (order + 2, order + 2), of what changes its sign between mirrored points."""
-        if not self._even:
+        if not self._domain.symmetric:
             return self.solve(values)
         # Over x it is even.
         return _times_x(self.solve(np.divide(values, self._x, out=np.zeros_like(values), where=self._used)))
@@ -589,18 +636,18 @@ class LeastSquares:
 def _over_stop(nodes: PupilSamples, order: int) -> LeastSquares:
     """Return polynomials over the stop, where ∂(x, y)/∂(ξ, η) is smooth however rays crowd."""
     if nodes.disc is None:
-        return LeastSquares(order, nodes.xi, nodes.eta, nodes.share, nodes.even)
+        return LeastSquares(order, nodes.xi, nodes.eta, nodes.share, nodes.domain)
     return (_over_whole_stop if order <= MOST_KEPT_ORDER else _over_whole_stop.__wrapped__)(
-        nodes.disc, nodes.even, order
+        nodes.disc, nodes.domain, order
     )
 
 
 @lru_cache(maxsize=8)
-def _over_whole_stop(counts: tuple[int, int], even: bool, order: int) -> LeastSquares:
+def _over_whole_stop(counts: tuple[int, int], domain: PupilDomain, order: int) -> LeastSquares:
     """Return the same of rays over the whole disc, whatever the source and the wavelength."""
-    columns, rim = _over_disc(counts, even)
-    nodes = _samples(np.stack([*columns, *columns, columns[0]]), rim, even, counts)
-    return LeastSquares(order, nodes.xi, nodes.eta, nodes.share, even)
+    columns, rim = _over_disc(counts, domain)
+    nodes = _samples(np.stack([*columns, *columns, columns[0]]), rim, domain, counts)
+    return LeastSquares(order, nodes.xi, nodes.eta, nodes.share, domain)
 
 
 def _times_x(table: np.ndarray) -> np.ndarray:

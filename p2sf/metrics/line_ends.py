@@ -1,4 +1,4 @@
-"""Weights of even samples along a line that ends between two of them."""
+"""Weights of evenly spaced samples along a line that ends between two of them."""
 
 import numpy as np
 
@@ -23,8 +23,8 @@ def end_weights(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def interval_weights(low: np.ndarray, high: np.ndarray, size: int) -> np.ndarray:
     """Return positive weights (lines, size) of samples for intervals, in steps, one a line; 0 where low ≥ high.
 
-    At both ends those of `end_weights`. Where the ends are nearer than the samples they change, the weights are scaled
-    to the length of the interval, which is right for a constant.
+    At both ends those of `end_weights`. If the ends are closer than the number of samples they affect, the weights are
+    scaled to the length of the interval, which is exact for a constant.
     """
     last, top = end_weights(high)
     behind, bottom = end_weights(size - 1 - low)

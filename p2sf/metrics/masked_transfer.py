@@ -16,13 +16,15 @@ from scipy import fft
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of
 from p2sf.metrics.line_ends import END, interval_weights
-from p2sf.metrics.mask_lines import box_edges, light_on_grid, open_intervals, places_between
+from p2sf.metrics.mask_lines import box_edges, light_on_grid
+from p2sf.pupil.domain import WHOLE
 from p2sf.pupil.mask import mask_slopes
+from p2sf.pupil.open_part import open_intervals, places_between
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
 
 FEWEST_ROWS, ROWS_PER_WAVE, ROWS_OF_RING = 320, 3.0, 160
-NARROW = 0.35  # power of a ring's width by which it needs more lines
+NARROW = 0.35  # power of a ring's width with which the number of lines grows
 FEWEST_SAMPLES, SAMPLES_PER_WAVE, SAMPLES_PER_WIDTH = 256, 8.0, 12.0
 MOST_SAMPLES = 2**25  # of all lines, seconds of work
 MARGIN = 4  # samples beyond the box at either end, more than END
@@ -31,7 +33,7 @@ AT_ONCE = 2**15  # samples of the lines in one block
 
 @dataclass(frozen=True, eq=False)
 class MaskedLines:
-    """The lines of a pupil along one axis, in the box's coordinates, and what of each is open.
+    """The lines of a pupil along one axis, in the box's coordinates, and their open intervals.
 
     ``places``, ``weights``: of the lines, (lines,). ``low``, ``high``: the ends of their intervals, (intervals, lines).
     ``samples``: steps along the box.
@@ -64,7 +66,8 @@ def masked_lines(pupil: FrequencyPupil) -> tuple[MaskedLines, MaskedLines]:
                 waves=along + more,
             )
         inner, outer = ([curve if along_y else curve[::-1] for curve in curves] for curves in (light, dark))
-        places, weights = places_between([*inner, *outer], rows, along_y and pupil.even)
+        domain = pupil.domain if along_y else WHOLE
+        places, weights = domain.of_lines(*places_between([*inner, *outer], rows))
         found.append(MaskedLines(along_y, samples, places, weights, *open_intervals(inner, outer, places)))
     return found[0], found[1]
 

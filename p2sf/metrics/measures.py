@@ -22,7 +22,10 @@ from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of
 from p2sf.metrics.frequency_pupil import (
+    WHOLE_PUPIL,
     FrequencyPupil,
+    PupilAtRims,
+    PupilEnd,
     pupil_of_coefficients,
     pupil_of_fit,
     pupil_of_rays,
@@ -198,25 +201,34 @@ def _six_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> Frequ
     check_seidel(lens)
     six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     check_image(six)
-    return pupil_of_six(lens, source, six, turn_deg)
+    return pupil_of_six(lens, source, six, turn_deg, clip)
 
 
 def _fit_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
-    return with_spot(pupil_of_fit(fit(lens, source), turn_deg), lens, source, turn_deg=turn_deg)
+    found = pupil_of_fit(fit(lens, source), turn_deg, _end_of(lens, source, clip))
+    return with_spot(found, lens, source, clip, turn_deg)
+
+
+def _end_of(lens: Lens, source: Source, clip: bool) -> PupilEnd:
+    """Return where a pupil that is described whole ends."""
+    return PupilAtRims(lens, source, clip) if clip else WHOLE_PUPIL
 
 
 PUPILS = {"seidel": _six_pupil, "fitted": _fit_pupil, "traced": pupil_of_rays, "huygens": pupil_of_rays}
 """What describes the pupil of each method that has one."""
 
 
-def pupil_of_six(lens: Lens, source: Source, six: Coefficients, turn_deg: float = 0.0) -> FrequencyPupil:
+def pupil_of_six(
+    lens: Lens, source: Source, six: Coefficients, turn_deg: float = 0.0, clip: bool = False
+) -> FrequencyPupil:
     """Return the pupil of six coefficients of a lens, with what they are predicted to miss of its exact rays."""
     missed = sqrt(seidel_error(lens, source, six) / SAFETY["seidel"]) / (2 * np.pi)
-    pupil = replace(pupil_of_coefficients(six, mask_seen(lens, source), turn_deg), residual_waves=missed)
+    pupil = pupil_of_coefficients(six, mask_seen(lens, source), turn_deg, _end_of(lens, source, clip))
+    pupil = replace(pupil, residual_waves=missed)
     if lens.misaligned:  # the six are those of the aligned lens
         return pupil
     try:
-        return with_spot(pupil, lens, source, turn_deg=turn_deg)
+        return with_spot(pupil, lens, source, clip, turn_deg)
     except GeometryError:  # no ray arrives, which the six cannot know
         return pupil
 

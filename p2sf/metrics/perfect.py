@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from scipy.special import j0, j1
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.psf.seidel import AIRY_RADIUS
+from p2sf.raytrace.ray_field import AIRY_RADIUS
 
 FIRST_DARK = 2 * np.pi * AIRY_RADIUS  # the first zero of J₁
 

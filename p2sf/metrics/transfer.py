@@ -31,7 +31,7 @@ FEWEST_SAMPLES, SAMPLES_PER_WAVE = 128, 8.0
 MOST_SAMPLES = 2**25  # of all lines: slopes of some 1500 waves, seconds of work
 AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
 CALIBRATED = 512  # lines: with more, what a calibration mends is below 1e-6
-SMALLEST = 1e-6  # of a calibrating contrast: below, both are nothing
+SMALLEST = 1e-6  # of a calibrating contrast: below, both are negligible
 
 Counts = tuple[int, int]
 """Lines, and samples along each."""
@@ -41,7 +41,7 @@ Stop = Callable[[], bool]
 
 
 def never() -> bool:
-    """Return that nothing is to be stopped."""
+    """Return False: never cancelled."""
     return False
 
 
@@ -60,7 +60,7 @@ class OtfSlice:
 
     @property
     def cut_off(self) -> float:
-        """Return the frequency from which on nothing is transferred, cycles per µm."""
+        """Return the cut-off frequency, cycles per µm."""
         return self.step * (self.values.size - 1)
 
     def at(self, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +83,7 @@ def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice
 
     ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
     """
-    if not pupil.mask.clear:
+    if not pupil.plain:
         lines = masked_lines(pupil)
         return _masked_slice(pupil, lines[0], cancelled), _masked_slice(pupil, lines[1], cancelled)
     across, along = line_counts(reach_of(pupil))
@@ -92,7 +92,7 @@ def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice
 
 def check_contrast(pupil: FrequencyPupil) -> None:
     """Raise the SamplingError of `otf_slices` for a pupil that takes too many samples."""
-    _ = line_counts(reach_of(pupil)) if pupil.mask.clear else masked_lines(pupil)
+    _ = line_counts(reach_of(pupil)) if pupil.plain else masked_lines(pupil)
 
 
 def _slice(pupil: FrequencyPupil, counts: Counts, along_y: bool, cancelled: Stop = never) -> OtfSlice:
@@ -165,10 +165,10 @@ def _counts(across: float, along: float) -> Counts:
 def column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
     """Return the sums over columns of their autocorrelations about the centroid at the lags 0 … counts[1].
 
-    Up to a factor: of an even pupil over half of the columns, those at Gauss–Chebyshev points with fx > 0.
+    Up to a factor: of a symmetric pupil over half of the columns, those at Gauss–Chebyshev points with fx > 0.
     """
     columns, samples = counts
-    lines = columns // 2 if pupil.even else columns
+    lines = columns // len(pupil.domain.images)
     angle, step, size = (np.arange(lines) + 0.5) * (pi / columns), 2 / samples, samples + 4
     columns_x, place = np.cos(angle), np.arange(size)
     y = (place - (size - 1) / 2) * step

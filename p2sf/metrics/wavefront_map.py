@@ -6,7 +6,7 @@ picture, RMS and the shares of the variance are read off there.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -17,10 +17,10 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.basis import HALF, PupilDomain
+from p2sf.pupil.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_cells import inside_share, open_share
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.mask_outline import obstructions, opening
 from p2sf.pupil.tilt import rms
 from p2sf.pupil.zernike import basis, powers, terms
@@ -89,7 +89,7 @@ class PassingCells:
         """Return the middles of these cells, whatever the ``radii`` of other parts."""
         xi, eta, inside = disc(len(self.passed))
         even = np.full(int(self.passed.sum()), 1 / self.passed.sum())
-        return ClearNodes(xi[self.passed], eta[self.passed], even, float(even.size / inside.sum()), even=False)
+        return ClearNodes(xi[self.passed], eta[self.passed], even, float(even.size / inside.sum()), domain=WHOLE)
 
 
 Clear = ClearRim | PassingCells
@@ -349,7 +349,7 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> OpenPar
     if mask.clear and clear is None:  # where they are orthogonal as they are
         degrees, values = known.degrees, known.at(parts.xi, parts.eta)
     else:
-        used = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.even or not parts.even)
+        used = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.odd in parts.domain.parities(False))
         degrees, values = [(term.n, term.m) for term in used], zernike_values(used, parts.xi, parts.eta)
     open_, beyond = _on_samples(mask, clear, SAMPLES[known.quality])
     return OpenPart(
@@ -374,7 +374,7 @@ def _figure_nodes(mask: PupilMask, known: MapTerms, clear: Clear | None) -> tupl
     if clear is None and mask.clear:
         return (known.domain.nodes(RAYS[known.quality]),) * 2
     if clear is None:
-        nodes, parts = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, replace(mask, vanes=0)))
+        nodes, parts = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, mask.without_vanes))
         over = known.domain.over(nodes)
         return over, over if parts is nodes else known.domain.over(parts)
     if mask.clear:
@@ -391,7 +391,7 @@ def _open_cells(mask: PupilMask, clear: Clear, count: int) -> ClearNodes:
     if not kept.any():
         raise GeometryError(LOST)
     total = float(share.sum())
-    return ClearNodes(xi[kept], eta[kept], share[kept] / total, total * (2 / count) ** 2 / np.pi, even=False)
+    return ClearNodes(xi[kept], eta[kept], share[kept] / total, total * (2 / count) ** 2 / np.pi, domain=WHOLE)
 
 
 def _on_samples(mask: PupilMask, clear: Clear | None, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -1,8 +1,8 @@
-"""Numbers read off the samples of a PSF alone: peak, centre, energy, profiles, contrast (handbook 6.3).
+"""Figures computed from the samples of a PSF alone: peak, centre, energy, profiles, contrast (handbook 6.3).
 
-Every function takes a `Psf` of any stack shape and works on the light inside its window; ``psf.energy`` says how
-much that is, and `resolved` whether samples are close enough. Where the lens is known, `p2sf.metrics.measures` needs
-neither window nor samples.
+Every function takes a `Psf` of any stack shape and works on the light inside its window; ``psf.energy`` is its share,
+and `resolved` tells whether samples are close enough. If the lens is known, `p2sf.metrics.measures` needs neither
+window nor samples.
 """
 
 from collections.abc import Iterator
@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
+from p2sf.psf.enlarge import cubic
 from p2sf.psf.pixel_integrals import ROUNDING, critical_pixel_um
 from p2sf.psf.result import Psf
 
-ROUND_OFF = 1e-5  # of a pixel: what samples in 32 bits leave of a symmetric line
+ROUND_OFF = 1e-5  # of a pixel: rounding of 32-bit samples of a symmetric line
 NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
 
 Grid = tuple[np.ndarray, np.ndarray, np.ndarray, float]
@@ -48,20 +49,20 @@ class WindowMtf(NamedTuple):
 
 
 def resolved(psf: Psf, na: float | np.ndarray) -> bool:
-    """Return whether the pitch is at most λ/(4 NA), so that samples hold all that a PSF of this aperture does."""
+    """Return whether the pitch is at most λ/(4 NA), so that samples determine a PSF of this aperture completely."""
     return bool(np.all(psf.pixel_um <= critical_pixel_um(psf.wavelength_um, na) * (1 + ROUNDING)))
 
 
 def strehl(psf: Psf) -> float | np.ndarray | None:
-    """Return the highest sample, wherever it lies, over the unaberrated peak of the same pupil; None without one."""
+    """Return the highest sample divided by the unaberrated peak of the same pupil; None without one."""
     return psf.strehl
 
 
 def centroid(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
     """Return x and y of the centroid of the window, µm from the chief ray, shape of the stack.
 
-    The first row and column of an even window have no opposite: their light would draw the centroid of a symmetric PSF
-    away from its centre, and is left out.
+    The first row and column of an even window have no counterpart: their light would shift the centroid of a symmetric
+    PSF away from its centre, and is ignored.
     """
     x, y = (line_centroid(psf.values.sum(axis, dtype=float), at) for axis, at in ((-2, psf.x_um), (-1, psf.y_um)))
     return x, y
@@ -70,7 +71,7 @@ def centroid(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
 def line_centroid(line: np.ndarray, position_um: np.ndarray) -> np.ndarray:
     """Return the centroid of lines, (…, n), at positions from their middle one, ⌊n/2⌋; the unpaired first left out.
 
-    What mirrored samples have in common is taken away before, and a line that is symmetric about a sample has its
+    The common part of mirrored samples is subtracted first, so that a line that is symmetric about a sample has its
     centroid there exactly.
     """
     paired = line[..., 1 - line.shape[-1] % 2 :]
@@ -100,7 +101,7 @@ def encircled_energy(
     """Return the fraction of the window's light within each radius of ``centre`` (x, y) in µm.
 
     By default the centre is the centroid and the radii run to the corner of the window. Near the centre the
-    samples are interpolated five times finer; a sample counts by the part of its width that the circle has passed.
+    samples are interpolated five times finer; a sample counts by the share of its width that the circle has covered.
     """
     if radius_um is None:
         corner = np.hypot(np.abs(psf.x_um).max(), np.abs(psf.y_um).max()) + psf.pixel_um
@@ -133,7 +134,7 @@ def _all_rings(
 
 
 def _split(values: np.ndarray, x: np.ndarray, y: np.ndarray, pixel: float) -> tuple[Grid, Grid]:
-    """Return the samples far from the origin as they are, and those near it FINER times finer."""
+    """Return the samples far from the origin unchanged, and those near it FINER times finer."""
     near_x, near_y = (np.flatnonzero(np.abs(axis) <= NEAR * pixel) for axis in (x, y))
     fine_x, fine_y = (_finer(axis, near) for axis, near in ((x, near_x), (y, near_y)))
     fine = fine_y[1] @ values @ fine_x[1].T / FINER**2
@@ -147,15 +148,8 @@ def _finer(axis: np.ndarray, near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     step = axis[1] - axis[0] if len(axis) > 1 else 1.0
     offset = ((np.arange(FINER) + 0.5) / FINER - 0.5) * step
     position = (axis[near, None] + offset).ravel()
-    weight = _cubic(np.abs(position[:, None] - axis) / step)
+    weight = cubic(np.abs(position[:, None] - axis) / step)
     return position, weight / weight.sum(1, keepdims=True)
-
-
-def _cubic(distance: np.ndarray) -> np.ndarray:
-    """Return cubic-convolution weights at a distance in samples (Keys 1981, eq. 15)."""
-    near = (1.5 * distance - 2.5) * distance**2 + 1
-    far = ((2.5 - 0.5 * distance) * distance - 4) * distance + 2
-    return np.where(distance <= 1, near, np.where(distance < 2, far, 0))
 
 
 def _rings(values: np.ndarray, x: np.ndarray, y: np.ndarray, pixel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -194,7 +188,7 @@ def _radius_within(inner: np.ndarray, outer: np.ndarray, value: np.ndarray, frac
 def profiles(psf: Psf, through: str = "chief") -> Cuts:
     """Return the row and column through the chief ray ("chief") or the highest sample ("peak").
 
-    Raises SamplingError for any other place.
+    Raises SamplingError for any other point.
     """
     if through not in ("chief", "peak"):
         raise SamplingError('a profile through "{place}" is unknown; choose "chief" or "peak"', place=through)
@@ -230,7 +224,7 @@ def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None, na: float | None = 
     frequency = np.asarray(frequency_per_mm, dtype=float)
     line_y, line_x = (psf.values.sum(axis, dtype=float) for axis in (-1, -2))
     step = np.exp(-2j * np.pi * psf.pixel_um * frequency / UM_PER_MM)
-    waves = _powers(step, max(psf.values.shape[-2:]))  # their phase at the window's edge does not change the modulus
+    waves = _powers(step, max(psf.values.shape[-2:]))  # a phase at the window's edge does not change the modulus
     known = np.where(np.abs(frequency) * psf.pixel_um <= UM_PER_MM / 2 * (1 + 1e-9), 1.0, np.nan)
     return WindowMtf(frequency, known * _contrast(line_y, waves), known * _contrast(line_x, waves))
 

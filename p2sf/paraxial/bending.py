@@ -1,8 +1,8 @@
 """Bending a lens element at constant thin-lens power, and its shape factor.
 
-The power of a thin element is the sum of those of its surfaces, (n′ − n)c (Welford 1986, ch. 3). Adding the same
-curvature to all of them adds (n_last − n_first)·Δc, which is nothing where the same medium lies on both sides
-(Kingslake and Johnson 2010, ch. 3): the element, cemented or not, changes its shape and hardly its power.
+The power of a thin element is the sum of the powers of its surfaces, (n′ − n)c (Welford 1986, ch. 3). Adding the same
+curvature to all of them adds (n_last − n_first)·Δc, which vanishes if the same medium lies on both sides (Kingslake and
+Johnson 2010, ch. 3): the element, cemented or not, changes its shape and hardly its power.
 """
 
 from dataclasses import replace
@@ -20,9 +20,9 @@ FLAT = 1e-12  # of the larger curvature: a smaller difference is rounding
 
 
 def elements(lens: Lens) -> tuple[tuple[int, int], ...]:
-    """Return the elements that stand free in air as (first, last) surface from 1; cemented ones count as one.
+    """Return the elements in air as (first, last) surface from 1; cemented elements count as one.
 
-    What has air on one side only, such as the eye, is none, and neither is glass with a mirror on it.
+    Parts with air on one side only, such as the eye, and glass with a mirror on it are not elements.
     """
     index = indices(lens, lens.reference_wavelength_um)
     spans, first = [], 0
@@ -42,7 +42,7 @@ def element_of(lens: Lens, surface: int) -> tuple[int, int] | None:
 
 
 def thin_power(lens: Lens, first: int, last: int, wavelength_um: FloatOrArray | None = None) -> FloatOrArray:
-    """Return the sum of the surfaces' powers (n′ − n)c from surface ``first`` to ``last`` (from 1), per mm."""
+    """Return the sum of the powers (n′ − n)c of surfaces ``first`` to ``last`` (from 1), per mm."""
     wave = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
     index = indices(lens, wave)
     power: FloatOrArray = sum(
@@ -64,13 +64,14 @@ def shape_factor(lens: Lens, first: int, last: int) -> float:
 
 
 def bend(lens: Lens, first: int, last: int, by_per_mm: float) -> Lens:
-    """Return the lens with a curvature, 1/mm, added to every surface of an element: the same thin-lens power.
+    """Return the lens with a curvature, 1/mm, added to every surface of an element, which keeps its thin-lens power.
 
-    Conic constants, aspheric terms and thicknesses stay. GeometryError for what is no element of `elements`.
+    Conic constants, aspheric terms and thicknesses stay. Raises GeometryError unless the surfaces are an element of
+    `elements`.
     """
     if (first, last) not in elements(lens):
         raise GeometryError(
-            "surfaces {first} to {last} are no element with air on both sides; choose one that stands free",
+            "surfaces {first} to {last} are not an element with air on both sides; choose such an element",
             first=first,
             last=last,
         )
@@ -79,7 +80,7 @@ def bend(lens: Lens, first: int, last: int, by_per_mm: float) -> Lens:
 
 
 def with_shape_factor(lens: Lens, first: int, last: int, shape: float) -> Lens:
-    """Return the lens with an element bent to a `shape_factor`, as `bend`; GeometryError for one without power."""
+    """Return the lens with an element bent to a `shape_factor` by `bend`; GeometryError for one without power."""
     before = shape_factor(lens, first, last)
     if before == inf:
         raise GeometryError(

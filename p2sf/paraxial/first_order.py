@@ -19,10 +19,10 @@ from p2sf.lens.lens import Lens, indices, surface_power
 class BasisRays:
     """Running system matrices, surface axis first: height at each surface, reduced angle after it.
 
-    A ray (y1, nu1) has height a·y1 + b·nu1 at surface j and reduced angle c·y1 + d·nu1 behind it.
-    ``a``, ``b``, ``c``, ``d``: (surfaces, *wavelength.shape), mm where they carry a unit;
-    ``index``: (surfaces + 1, *wavelength.shape), at ``wavelength_um``. ``power`` of every surface (1/mm) and ``gap``,
-    the reduced thickness behind it (mm), are what the rays were traced with: numbers for one wavelength, else arrays.
+    A ray (y1, nu1) has height a·y1 + b·nu1 at surface j and reduced angle c·y1 + d·nu1 behind it. ``a``, ``b``, ``c``,
+    ``d``: (surfaces, *wavelength.shape), mm where they carry a unit; ``index``: (surfaces + 1, *wavelength.shape), at
+    ``wavelength_um``. ``power`` of every surface (1/mm) and ``gap``, the reduced thickness behind it (mm), are those
+    used in the trace: numbers for one wavelength, else arrays.
     """
 
     a: np.ndarray
@@ -63,8 +63,8 @@ class CardinalPoints:
 def basis_rays(lens: Lens, wavelength_um: FloatOrArray, beside: tuple[FloatOrArray, ...] = ()) -> BasisRays:
     """Trace the two basis rays; arrays of shape (surfaces, *wavelength_um.shape).
 
-    ``beside``: arrays that the result will be combined with; the wavelength gets as many axes as they have
-    (of length one, in front, as numpy broadcasts), so that the surface axis stays the first of all.
+    ``beside``: arrays that the result will be combined with; the wavelength is given as many axes as they have (of
+    length one, in front, as numpy broadcasts), so that the surface axis remains the first.
     """
     if all([is_number(x) for x in (wavelength_um, *beside)]):
         return _basis_at(lens, float(wavelength_um))
@@ -75,7 +75,7 @@ def basis_rays(lens: Lens, wavelength_um: FloatOrArray, beside: tuple[FloatOrArr
 
 @lru_cache(maxsize=64)
 def _basis_at(lens: Lens, wavelength_um: float) -> BasisRays:
-    """Return the basis rays of one wavelength, kept while depth and field are dragged; write-protected."""
+    """Return the basis rays of one wavelength, cached while depth and field change; write-protected."""
     rays = _basis(lens, np.asarray(wavelength_um))
     _ = [write_protect(values) for values in (rays.a, rays.b, rays.c, rays.d, rays.index)]
     return rays
@@ -83,7 +83,7 @@ def _basis_at(lens: Lens, wavelength_um: float) -> BasisRays:
 
 def _basis(lens: Lens, wavelength: np.ndarray) -> BasisRays:
     index = indices(lens, wavelength)
-    layers = index.tolist() if index.ndim == 1 else list(index)  # plain floats make one wavelength 10× faster
+    layers = index.tolist() if index.ndim == 1 else list(index)  # for one wavelength plain floats are ten times faster
     wave = wavelength if index.ndim > 1 else float(wavelength)
     steps = zip(lens.surfaces, layers, layers[1:], strict=False)
     power, gap = zip(*((surface_power(s, n, after, wave), s.thickness / after) for s, n, after in steps), strict=True)
@@ -93,7 +93,7 @@ def _basis(lens: Lens, wavelength: np.ndarray) -> BasisRays:
 
 
 def march(power: Iterable, gap: Iterable, y: FloatOrArray, nu: FloatOrArray) -> list[tuple]:
-    """Return (height, reduced angle behind) at every surface of the ray that arrives as (y, nu) at the first."""
+    """Return (height, reduced angle behind) at every surface for the ray (y, nu) at the first."""
     rows = []
     for strength, reduced in zip(power, gap, strict=False):
         nu = nu - strength * y
@@ -107,27 +107,27 @@ def columns_of(rows: Sequence[tuple], shape: tuple[int, ...]) -> np.ndarray:
     if not shape:
         return np.array(rows, dtype=float).T
     columns = np.empty((len(rows[0]), len(rows), *shape))
-    for number, row in enumerate(rows):  # assignment spreads a number in a tenth of np.broadcast_to's time
+    for number, row in enumerate(rows):  # assignment broadcasts a number in a tenth of the time of np.broadcast_to
         for column, values in zip(columns, row, strict=True):
             column[number] = values
     return columns
 
 
-# An angle below this many roundings of the powers and gaps it comes from counts as zero: 32 leaves room for a
-# focal length, and a gap derived from it, that someone computed in double precision.
+# An angle below this many roundings of the powers and gaps it depends on counts as zero: 32 allows for a focal length,
+# and a gap derived from it, computed by a user in double precision.
 ROUNDING = 32 * np.finfo(float).eps
 SUSPICIOUS = 1e-9
 
 
 def settled_angle(power: Iterable, gap: Iterable, y: np.ndarray, nu: np.ndarray) -> np.ndarray:
-    """Return the last reduced angle of a ray, exactly 0 where it is nothing but the rounding of the inputs.
+    """Return the last reduced angle of a ray, exactly 0 if it is only rounding of the inputs.
 
-    ``y``, ``nu``: heights at, reduced angles behind the surfaces that ``power`` and ``gap`` belong to. A
-    change of power bends a ray by −δ·y, a change of gap lifts it by δ·nu. By the Lagrange invariant of the ray and
-    its change, the last angle of a ray that ends parallel to the axis moves by Σ(|δpower|y² + |δgap|nu²)/y_last.
+    ``y``, ``nu``: heights at, and reduced angles behind, the surfaces of ``power`` and ``gap``. A change of power
+    changes the angle by −δ·y, a change of gap the height by δ·nu. By the Lagrange invariant of the ray and its change,
+    the last angle of a ray that ends parallel to the axis moves by Σ(|δpower|y² + |δgap|nu²)/y_last.
     """
     last: np.ndarray = nu[-1]
-    # Plain numbers are a good deal faster in the usual case of one source.
+    # Plain numbers are much faster in the usual case of one source.
     largest = max(map(abs, nu.tolist())) if nu.ndim == 1 else np.abs(nu).max(0)
     parallel = abs(last) <= SUSPICIOUS * largest
     if not anywhere(parallel):
@@ -140,13 +140,13 @@ def settled_angle(power: Iterable, gap: Iterable, y: np.ndarray, nu: np.ndarray)
 def chief_ray(rays: BasisRays, stop_surface: FloatOrArray) -> tuple[np.ndarray, np.ndarray]:
     """Return heights (surfaces, …) and reduced angles (surfaces + 1, …) of the ray (0, 1) at the stop's centre.
 
-    It is traced outwards from the stop: formed from the basis rays at the first vertex, its height just behind
-    the stop would be the difference of two large numbers. The reduced angles at both ends are exactly
-    zero where only rounding is left, that is, where a pupil is at infinity.
+    It is traced outwards from the stop: computed from the basis rays at the first vertex, its height just behind the
+    stop would be the difference of two large numbers. The reduced angle at either end is exactly zero if it is only
+    rounding, that is, if that pupil is at infinity.
     """
     first, *others = (stop_surface,) if is_number(stop_surface) else np.unique(stop_surface)
     at = int(first) - 1
-    y, nu = _kept_from_stop(rays, at) if rays.index.ndim == 1 else _from_stop(rays, at)
+    y, nu = _cached_from_stop(rays, at) if rays.index.ndim == 1 else _from_stop(rays, at)
     for surface in others:
         here = np.asarray(stop_surface) == surface
         y, nu = (np.where(here, new, old) for new, old in zip(_from_stop(rays, int(surface) - 1), (y, nu), strict=True))
@@ -154,20 +154,21 @@ def chief_ray(rays: BasisRays, stop_surface: FloatOrArray) -> tuple[np.ndarray, 
 
 
 def _from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
-    y, nu = _branch(rays, rays.power[at:], rays.gap[at:])
-    back_y, back_nu = _branch(rays, (0.0, *rays.power[:at][::-1]), rays.gap[:at][::-1])  # mirrored: light runs left
+    y, nu = _trace_branch(rays, rays.power[at:], rays.gap[at:])
+    # mirrored: light runs left
+    back_y, back_nu = _trace_branch(rays, (0.0, *rays.power[:at][::-1]), rays.gap[:at][::-1])
     return np.concatenate([-back_y[:0:-1], y]), np.concatenate([back_nu[::-1], nu])
 
 
 @lru_cache(maxsize=64)
-def _kept_from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the chief ray of one wavelength, kept while depth and field are dragged; write-protected."""
+def _cached_from_stop(rays: BasisRays, at: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the chief ray of one wavelength, cached while depth and field change; write-protected."""
     y, nu = _from_stop(rays, at)
     return write_protect(y), write_protect(nu)
 
 
-def _branch(rays: BasisRays, power: tuple, gap: tuple) -> tuple[np.ndarray, np.ndarray]:
-    """Return heights and reduced angles of the ray (0, 1) from the stop on, along one direction of travel."""
+def _trace_branch(rays: BasisRays, power: tuple, gap: tuple) -> tuple[np.ndarray, np.ndarray]:
+    """Return heights and reduced angles of the ray (0, 1) from the stop in one direction of travel."""
     y, nu = columns_of(march(power, (*gap, 0.0), 0.0, 1.0), rays.index.shape[1:])
     nu[-1] = settled_angle(power, gap, y, nu)
     return y, nu
@@ -180,7 +181,7 @@ def abcd(lens: Lens, wavelength_um: FloatOrArray) -> np.ndarray:
 
 
 def cardinal_points(lens: Lens, wavelength_um: FloatOrArray) -> CardinalPoints:
-    """Return focal, principal and nodal points (Welford 1986, §3); infinite for a lens that is afocal to rounding."""
+    """Return focal, principal and nodal points (Welford 1986, §3); infinite for a lens afocal to rounding."""
     rays = basis_rays(lens, wavelength_um)
     n, n_image = rays.object_index, rays.image_index
     a, c, d = rays.a[-1], settled_angle(rays.power, rays.gap, rays.a, rays.c), rays.d[-1]
@@ -198,7 +199,7 @@ def cardinal_points(lens: Lens, wavelength_um: FloatOrArray) -> CardinalPoints:
 
 
 def _lift(rays: BasisRays) -> np.ndarray:
-    """Return A − 1, summed gap by gap: the difference itself loses every digit when the powers are weak."""
+    """Return A − 1, summed gap by gap: the difference itself loses all digits if the powers are weak."""
     return sum((gap * c for gap, c in zip(rays.gap[:-1], rays.c, strict=False)), np.zeros(rays.a.shape[1:]))
 
 
@@ -209,7 +210,7 @@ def _turn(rays: BasisRays) -> np.ndarray:
 
 
 def _ratio(numerator: FloatOrArray, power: np.ndarray) -> np.ndarray:
-    """Return numerator/power, infinite wherever the power is exactly zero (0/0 included: no such point)."""
+    """Return numerator/power, infinite where the power is exactly zero (also for 0/0: there is no such point)."""
     return np.where(power == 0, np.inf, np.divide(numerator, power))
 
 
@@ -221,8 +222,8 @@ def image_distance(lens: Lens, depth_mm: FloatOrArray, wavelength_um: FloatOrArr
 
 
 def crossing(index: np.ndarray, height: np.ndarray, reduced_angle: np.ndarray) -> np.ndarray:
-    """Return where a ray meets the axis, mm behind the plane of its height; +inf if it runs parallel."""
-    if np.ndim(reduced_angle) == 0 and reduced_angle:  # the usual case of one source, ten times faster
+    """Return where a ray meets the axis, mm behind the plane of its height; +inf for a parallel ray."""
+    if np.ndim(reduced_angle) == 0 and reduced_angle:  # ten times faster in the usual case of one source
         distance: np.ndarray = -index * height / reduced_angle
         return distance
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -233,7 +234,7 @@ def crossing(index: np.ndarray, height: np.ndarray, reduced_angle: np.ndarray) -
 def magnification(lens: Lens, depth_mm: FloatOrArray, wavelength_um: FloatOrArray) -> np.ndarray:
     """Return the transverse magnification nu/(n'u') of the axial ray; 0 for an object at infinity.
 
-    Infinite for an image at infinity, except by an afocal lens, which magnifies every object alike.
+    Infinite for an image at infinity, except for an afocal lens, whose magnification is the same for every object.
     """
     rays = basis_rays(lens, wavelength_um, (depth_mm,))
     height, angle = axial_ray(rays, depth_mm)
@@ -259,5 +260,6 @@ def check_depth(depth_mm: FloatOrArray) -> None:
     if not (depth > 0).all():
         bad = depth.ravel()[~(depth.ravel() > 0)][0]
         raise GeometryError(
-            "depth is {depth:g} mm; the object must stand a positive distance before the first vertex", depth=float(bad)
+            "depth is {depth:g} mm; the object must be a positive distance in front of the first vertex",
+            depth=float(bad),
         )

@@ -10,17 +10,17 @@ from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.positions import steps_between
 from p2sf.messages import Message
-from p2sf.paraxial.pupils import named_stop, stop_rim
+from p2sf.paraxial.pupils import default_stop, stop_rim
 
-BEYOND = 1.001  # of the normalisation radius: less is rounding
-AIR_LIKE = 1.01  # an index up to which a medium is a gas
+BEYOND = 1.001  # of the normalisation radius: smaller differences are rounding
+AIR_LIKE = 1.01  # largest index of a gas
 
 
 def lens_checks(lens: Lens) -> tuple[Message, ...]:
-    """Return a warning for each rim that its surface cannot have, for glass inside out, and if no surface bends light.
+    """Return warnings about rims beyond their surfaces, glass of negative thickness, and surfaces that do not refract.
 
-    Also for absorption of which nothing is known; of a zoom between its columns for each medium, and whatever else is
-    not interpolated.
+    Also about unknown absorption and, for a zoom between its columns, about each medium and every other property that
+    is not interpolated.
 
     Raises GlassError for a reference wavelength outside a glass's data.
     """
@@ -31,13 +31,8 @@ def lens_checks(lens: Lens) -> tuple[Message, ...]:
     return (*(warning for warning in found if warning), *steps_between(lens))
 
 
-def unless_symmetric(lens: Lens, message: Message | None) -> Message | None:
-    """Return what is to be said of a lens that is tilted, decentred or not of revolution; None of another."""
-    return message if lens.misaligned else None
-
-
 def edge(surface: Surface) -> float:
-    """Return the height at which a conicoid turns back on itself, |R|/√(1 + K), mm; inf for an open one."""
+    """Return the largest height of a closed conicoid, |R|/√(1 + K), mm; inf for an open one."""
     if not isfinite(surface.radius) or surface.conic <= -1:
         return inf
     return abs(surface.radius) / sqrt(1 + surface.conic)
@@ -47,7 +42,7 @@ def _rim_beyond_its_sphere(number: int, surface: Surface) -> Message | None:
     if not edge(surface) < surface.semi_diameter < inf:
         return None
     return Message(
-        "surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at "
+        "surface {surface} has a clear semi-diameter of {rim:g} mm, but with its radius of {radius:g} mm it ends at "
         "{edge:.6g} mm; correct one of the two",
         surface=number,
         rim=surface.semi_diameter,
@@ -72,16 +67,16 @@ def _rim_beyond_its_shape(number: int, surface: Surface) -> Message | None:
 
 def _stop_beyond_its_sphere(lens: Lens) -> Message | None:
     try:
-        number = lens.stop_surface or named_stop(lens)
+        number = lens.stop_surface or default_stop(lens)
         rim = float(stop_rim(lens))
-    except GeometryError:  # an impossible aperture is refused by whoever needs it
+    except GeometryError:  # an impossible aperture is refused where it is needed
         return None
     surface = lens.surfaces[number - 1]
     if rim <= edge(surface):
         return None
     return Message(
-        "the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm "
-        "ends that surface at {edge:.6g} mm; stop the lens down or move the stop",
+        "the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but with a radius of {radius:g} mm that "
+        "surface ends at {edge:.6g} mm; stop the lens down or move the stop",
         surface=number,
         rim=rim,
         radius=surface.radius,
@@ -90,13 +85,13 @@ def _stop_beyond_its_sphere(lens: Lens) -> Message | None:
 
 
 def _negative_glass(lens: Lens) -> Iterator[Message]:
-    """Yield a warning for each glass whose thickness runs against the light; in air it stands for a virtual object."""
+    """Yield a warning for each glass of negative thickness; in air a negative thickness describes a virtual object."""
     index = np.abs(indices(lens, lens.reference_wavelength_um))
     for number, surface in enumerate(lens.surfaces[:-1], 1):
         if surface.thickness * lens.directions[number] < 0 and index[number] > AIR_LIKE:
             yield Message(
-                "the glass behind surface {surface} is {thickness:g} mm thick, against the direction of the light; "
-                "change its sign or its neighbours",
+                "the glass behind surface {surface} has a thickness of {thickness:g} mm, opposite to the direction of "
+                "light; change its sign or its neighbours",
                 surface=number,
                 thickness=surface.thickness,
             )
@@ -107,19 +102,19 @@ def _nothing_bends(lens: Lens) -> Message | None:
     if np.ptp(index) or any(surface.diffraction or surface.ideal for surface in lens.surfaces):
         return None
     return Message(
-        "every medium of this lens has the index {index:g}, so no surface bends light; name its glasses",
+        "every medium of this lens has the index {index:g}, so no surface bends light; state its glasses",
         index=float(index[0]),
     )
 
 
 def _unknown_absorption(lens: Lens) -> Message | None:
-    """Return a warning for media that count as clear, where absorption is asked for, since no one says what they do."""
+    """Return a warning if absorption is on and media count as clear because their transmittance is unknown."""
     media = zip(lens.media, lens.absorbs, strict=True)
     unknown = dict.fromkeys(medium.label for medium, lost in [*media][1:] if not lost and medium != AIR)
     if not (lens.absorption and unknown):
         return None
     return Message(
-        "absorption is on, but no internal transmittance is known of {glasses}, which absorb nothing here; import the "
+        "absorption is on, but the internal transmittance of {glasses} is unknown, so they count as clear; import the "
         "lens with their catalogues in the AGF format",
         glasses=tuple(unknown),
     )

@@ -1,4 +1,4 @@
-"""A lens with its zoom and focus rings turned, and the distance that it is then focused on."""
+"""A lens at a position of its zoom and focus rings, and the distance on which it is then focused."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -12,7 +12,7 @@ from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.positions import KEPT, PARAMETER, Axis, Kind, Positions, interpolate_lens, position_text
 from p2sf.paraxial.first_order import basis_rays
 
-RTOL = 1e-12  # of a ring's travel
+RTOL = 1e-12  # of the travel of a ring
 
 
 @check_arguments
@@ -22,21 +22,21 @@ def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float |
     Parameters
     ----------
     lens : Lens
-        A lens with positions; focus, f-number and edits that are not in its columns do not go along.
+        A lens with positions; a focus, an f-number and edits that are not in its columns are lost.
     zoom, focus_position : float or str, optional
-        Where the ring stands, on its own scale, or the name of a column; where it is when not given.
+        Position of the ring on its own scale, or the name of a column; by default the current one.
 
     Returns
     -------
     Lens
-        In a column exactly what the file states there. Between columns every number that varies is interpolated by
-        monotone cubics (Fritsch & Butland 1984), and the sensor follows the image of a lens that zooms, as the cams of
-        its groups would have it.
+        At a column exactly the lens stated in the file. Between columns every number that varies is interpolated by
+        monotone cubics (Fritsch & Butland 1984), and the sensor of a zoom lens follows its image, as the cams of its
+        groups would ensure.
 
     Raises
     ------
     RequestError
-        For a ring that the lens does not have, and for a position that is not on it.
+        For a ring that the lens does not have, and for a position outside its scale.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def lens_at(lens: Lens, zoom: float | str | None = None, focus_position: float |
 
 
 def _with_names_of(lens: Lens, other: Lens) -> Lens:
-    """Return the other lens with what does not depend on the position as this one has it."""
+    """Return the other lens with the properties of this one that do not depend on the position."""
     return replace(other, **{name: getattr(lens, name) for name in KEPT})
 
 
@@ -76,9 +76,10 @@ def _lens_at(positions: Positions, place: tuple[float, ...]) -> Lens:
 
 
 def _refocus(lens: Lens, axis: Axis, place: float, columns: Sequence[Lens]) -> Lens:
-    """Return the lens between columns focused as these are: on a vergence that is a monotone cubic between theirs.
+    """Return the lens between columns, focused on a vergence interpolated between theirs by a monotone cubic.
 
-    Cubics of the spaces alone do not keep the image where the cams of a zoom do. Where it has no image, as it is.
+    Interpolated spaces alone do not keep the image on the sensor as the cams of a zoom do. Without an image the lens is
+    returned unchanged.
     """
     from scipy.interpolate import PchipInterpolator
 
@@ -92,7 +93,7 @@ def _refocus(lens: Lens, axis: Axis, place: float, columns: Sequence[Lens]) -> L
 
 @lru_cache(maxsize=128)
 def focused_vergence(lens: Lens) -> float:
-    """Return the vergence in 1/mm of the object whose paraxial image lies on the lens's sensor; 0 at infinity.
+    """Return the vergence in 1/mm of the object whose paraxial image lies on the sensor; 0 for infinity.
 
     Solves the height of the axial ray on the sensor, linear in the vergence, for zero; at the reference wavelength.
     """
@@ -104,41 +105,43 @@ def focused_vergence(lens: Lens) -> float:
 
 @lru_cache(maxsize=64)
 def focused_inside(lens: Lens, focus_mm: float) -> Lens:
-    """Return the lens with its focus ring where the paraxial image of an object at ``focus_mm`` lies on its sensor.
+    """Return the lens with its focus ring set so that the paraxial image of a plane at ``focus_mm`` is on the sensor.
 
-    A lens without such a ring is returned as it is; beyond an end of its travel the ring stands at that end.
+    A lens without such a ring is returned unchanged; beyond an end of its travel the ring is set to that end.
     """
     axis = lens.positions.axis("focus") if lens.positions else None
     if axis is None:
         return lens
     asked = 1 / focus_mm
 
-    def off(place: float) -> float:
+    def difference(place: float) -> float:
         return focused_vergence(lens_at(lens, focus_position=place)) - asked
 
-    ends = [(place, off(place)) for place in axis.at]
+    ends = [(place, difference(place)) for place in axis.at]
     for (low, before), (high, after) in pairwise(ends):
         if before * after <= 0:
             from scipy.optimize import brentq
 
-            return lens_at(lens, focus_position=float(brentq(off, low, high, xtol=RTOL * (axis.high - axis.low))))
+            return lens_at(
+                lens, focus_position=float(brentq(difference, low, high, xtol=RTOL * (axis.high - axis.low)))
+            )
     return lens_at(lens, focus_position=min(ends, key=lambda end: abs(end[1]))[0])
 
 
-def as_in_columns(lens: Lens) -> bool:
-    """Return whether a lens is what its columns say for its position: not focused, opened or edited since then."""
+def matches_columns(lens: Lens) -> bool:
+    """Return whether a lens equals the one of its columns at its position: not focused, opened or edited since."""
     return lens.positions is not None and _with_names_of(lens, _lens_at(lens.positions, lens.positions.place)) == lens
 
 
-def each_column(lens: Lens, edit: Callable[[Lens], Lens]) -> Lens:
-    """Return the lens with an edit made in all of its columns, its rings where they are."""
+def edit_columns(lens: Lens, edit: Callable[[Lens], Lens]) -> Lens:
+    """Return the lens with an edit applied to all its columns, at the same position."""
     if lens.positions is None:
         return edit(lens)
     return with_columns(lens, tuple(edit(column) for column in lens.positions.lenses))
 
 
 def with_columns(lens: Lens, columns: tuple[Lens, ...]) -> Lens:
-    """Return a lens with positions with other columns, its rings where they are."""
+    """Return a lens with other columns at the same position."""
     if lens.positions is None:
         return lens
     return _with_names_of(lens, _lens_at(replace(lens.positions, lenses=columns), lens.positions.place))

@@ -23,15 +23,15 @@ from p2sf.paraxial.first_order import (
     settled_angle,
 )
 
-# Two rims whose cones differ by less than the rounding of a prescription's six digits are a tie; no warning then.
+# Rims whose cones differ by less than the rounding of a prescription to six digits are a tie, without a warning.
 RIM_TIE = 2e-6
-# Nearer to the entrance pupil than a few roundings of its distance, the cone of light is rounding noise.
+# Closer to the entrance pupil than a few roundings of its distance, the cone of light is rounding noise.
 OBJECT_IN_PUPIL = 8 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
 class Stop:
-    """The stop in use: surface (from 1), its rim in mm, who chose it, and which rim limits the axial cone.
+    """The stop in use: its surface (from 1), its rim in mm, how it was chosen, and which rim limits the axial cone.
 
     ``surface``, ``semi_diameter`` and ``limiting_surface`` are numbers or arrays over (depth, wavelength).
     """
@@ -50,8 +50,8 @@ class Stop:
         rim = int(np.broadcast_to(self.limiting_surface, clash.shape)[clash].ravel()[0])
         stop = int(np.broadcast_to(self.surface, clash.shape)[clash].ravel()[0])
         return Message(
-            "the rim of surface {rim} is narrower for this object than the stop on surface {stop}; "
-            "the stop is kept, choose stop auto to let the narrowest rim decide",
+            "the rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, "
+            "choose stop auto to use the narrowest rim",
             rim=rim,
             stop=stop,
         )
@@ -59,9 +59,9 @@ class Stop:
 
 @dataclass(frozen=True)
 class Pupils:
-    """Entrance and exit pupil, mm, positive to the right of the named vertex; infinite when telecentric.
+    """Positions of entrance and exit pupil, mm, positive to the right of the named vertex; infinite if telecentric.
 
-    ``upright``: −1 where the entrance pupil is an inverted image of the stop, as a relay's is, else 1.
+    ``upright``: −1 if the entrance pupil is an inverted image of the stop, as in a relay, else 1.
     """
 
     entrance_from_first: np.ndarray
@@ -77,7 +77,7 @@ class ParaxialRays:
 
     ``y``, ``chief_y``: heights (surfaces, …), mm. ``nu``, ``chief_nu``: reduced angles (surfaces + 1, …).
     ``invariant``: the Lagrange invariant, n·(entrance-pupil radius) for a chief ray of unit slope.
-    ``wavelength_um``: shaped as one row of ``index``.
+    ``wavelength_um``: in the shape of one row of ``index``.
     """
 
     y: np.ndarray
@@ -94,12 +94,13 @@ def find_stop(
 ) -> Stop:
     """Return the aperture stop per (depth, wavelength): the file's (``mode="file"``) or the limiting rim (``"auto"``).
 
-    The search follows Pieroni et al. 2015 (qSIF): of all rims, the one that the axial ray meets at the
-    greatest fraction of its radius limits the cone. In a tie the file's stop is kept. Raises GeometryError.
+    The search follows Pieroni et al. 2015 (qSIF): of all rims, the one that the axial ray meets at the greatest
+    fraction of its radius limits the cone. In a tie the file's stop is kept. Raises GeometryError if no stop can be
+    found.
     """
     wavelength = lens.reference_wavelength_um if wavelength_um is None else wavelength_um
     rays = basis_rays(lens, wavelength, (depth_mm,))
-    named = lens.stop_surface or named_stop(lens)
+    named = lens.stop_surface or default_stop(lens)
     rim = stop_rim(lens)
     limiting = _limiting_surface(lens, rays, depth_mm, named, rim)
     if mode == "file":
@@ -112,18 +113,18 @@ def find_stop(
 
 def file_stop(lens: Lens) -> tuple[int, float]:
     """Return the file's stop surface (from 1), or the limiting rim if it names none, and its rim in mm."""
-    return lens.stop_surface or named_stop(lens), stop_rim(lens)
+    return lens.stop_surface or default_stop(lens), stop_rim(lens)
 
 
 def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
-    """Return clear semi-diameters in mm, shape (surfaces,), with the stop's own rim in its place."""
+    """Return clear semi-diameters in mm, shape (surfaces,), with that of the stop replaced by its rim."""
     rims = np.array([surface.semi_diameter for surface in lens.surfaces])
     rims[named - 1] = rim
     return rims
 
 
-def named_stop(lens: Lens) -> int:
-    """Return the stop of a lens that names none: the limiting rim for infinity and the reference wavelength."""
+def default_stop(lens: Lens) -> int:
+    """Return the stop of a lens that states none: the limiting rim for infinity at the reference wavelength."""
     rims = np.array([np.inf if surface.rim else surface.semi_diameter for surface in lens.surfaces])
     if not np.isfinite(rims).any():
         raise GeometryError("the lens names no stop surface and no semi-diameters; state one of them")
@@ -149,7 +150,7 @@ def stop_rim(lens: Lens) -> float:
     if lens.aperture.kind == "stop_semi_diameter":
         return lens.aperture.value
     rays = basis_rays(lens, lens.reference_wavelength_um)
-    _, nu = chief_ray(rays, lens.stop_surface or named_stop(lens))
+    _, nu = chief_ray(rays, lens.stop_surface or default_stop(lens))
     scale = abs(float(nu[0]))
     if scale == 0:
         raise GeometryError("the entrance pupil is at infinity, so it has no diameter; state the stop's semi-diameter")
@@ -165,8 +166,8 @@ def stop_rim(lens: Lens) -> float:
 def with_fixed_stop(lens: Lens) -> Lens:
     """Return the same lens with its aperture stated as the stop and the radius of its rim.
 
-    An f-number or a pupil diameter is a demand of the design, which every edit of a surface meets with another rim. The
-    iris of a lens that is built is a piece of metal: fix it before the errors of manufacture. Raises GeometryError as
+    An f-number or a pupil diameter is a specification, which every edit of a surface meets with another rim. The iris
+    of a lens that has been built does not change: fix it before applying manufacturing errors. Raises GeometryError as
     `stop_rim` does.
     """
     surface, rim = file_stop(lens)
@@ -219,15 +220,15 @@ def paraxial_rays(
 
 
 def needed_radii(lens: Lens) -> np.ndarray:
-    """Return what the rays of the widest field need of every surface, mm, an object at infinity, paraxially."""
+    """Return the semi-diameters, mm, that paraxial rays of the widest field require for an object at infinity."""
     rays = paraxial_rays(lens, np.inf, lens.reference_wavelength_um)
-    slope = slope_from_degrees(max(abs(angle) for angle in lens.fields_deg))
+    slope = slope_from_degrees(lens.widest_field_deg)
     needed: np.ndarray = np.abs(rays.y) + np.abs(rays.chief_y) * slope
     return needed
 
 
 def _check_field(field: str, a: np.ndarray, close: np.ndarray) -> None:
-    """Raise GeometryError where a slope (entrance pupil at infinity) or a height (object there) has no meaning."""
+    """Raise GeometryError for a slope with the entrance pupil at infinity, or a height with the object at infinity."""
     if field == "slope" and anywhere(a == 0):
         raise GeometryError(
             "the entrance pupil is at infinity, so a field angle has no meaning; move the stop away from that focus, "
@@ -246,7 +247,7 @@ def _combine(rays: BasisRays, y1: np.ndarray, nu1: np.ndarray) -> tuple[np.ndarr
 
 
 def f_number(lens: Lens, wavelength_um: FloatOrArray, stop: Stop | None = None) -> np.ndarray:
-    """Return the effective focal length over entrance-pupil diameter; infinite for an afocal lens."""
+    """Return the effective focal length divided by the entrance-pupil diameter; infinite for an afocal lens."""
     rays = basis_rays(lens, wavelength_um)
     power = np.abs(settled_angle(rays.power, rays.gap, rays.a, rays.c))
     with np.errstate(divide="ignore"):

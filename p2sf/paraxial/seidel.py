@@ -1,7 +1,7 @@
 """Seidel sums and the six wavefront coefficients: the spatially variant features (SVF) (handbook 3.2).
 
-The chief ray enters with unit field slope; its powers multiply the sums afterwards. That keeps the
-work on (depth, wavelength) only and gives exactly zero for a zero field.
+The sums are computed for a chief ray of unit field slope and multiplied by powers of the slope afterwards. So the work
+depends on (depth, wavelength) only, and a zero field gives exactly zero.
 """
 
 from collections.abc import Sequence
@@ -45,7 +45,7 @@ class SeidelSums:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """The six coefficients in waves, peak values at this field, and what scales the PSF.
+    """The six coefficients in waves, peak values at this field, and the quantities that scale the PSF.
 
     Arrays broadcast over (depth, field, wavelength). ``reduced_slope`` is the signed n'u' of the marginal
     ray; ``image_distance`` and ``image_height`` (paraxial chief ray on the sensor) are mm.
@@ -81,7 +81,7 @@ class Coefficients:
 def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope: FloatOrArray = 1.0) -> SeidelSums:
     """Return the five sums per surface at these field slopes (Welford 1986, eqs 8.24 and 8.40 ff.).
 
-    ``field_slope`` broadcasts against the rays' (depth, wavelength); the surface stays the first axis. Raises
+    ``field_slope`` broadcasts against the rays' (depth, wavelength); the surface remains the first axis. Raises
     GeometryError for a surface with a term in r or r³.
     """
     check_seidel(lens)
@@ -95,8 +95,8 @@ def seidel_sums(lens: Lens, rays: ParaxialRays, field_slope: FloatOrArray = 1.0)
 class ChromaticSums:
     """C_I and C_II per surface in mm between two wavelengths at one field, surface axis first.
 
-    ``axial``/2 is what the shorter wavelength's defocus at the pupil's rim exceeds the longer one's by, as path, and
-    ``lateral`` what its tilt does.
+    ``axial``/2 is the difference of defocus at the rim of the pupil, shorter minus longer wavelength, as path, and
+    ``lateral`` that of tilt.
     """
 
     axial: np.ndarray
@@ -108,10 +108,10 @@ def chromatic_sums(
 ) -> ChromaticSums:
     """Return both sums per surface for the rays of one source, C_I = ΣAyΔ(δn/n) and C_II = ΣĀyΔ(δn/n), mm.
 
-    δn is the index at ``shorter_um`` less that at ``longer_um``, both in vacuum; everything else is of the rays' own
-    wavelength. Exact to first order in δn. Raises GlassError. Source: Welford 1986, §10.3. A diffractive surface has
-    different A before and behind it, and adds −2yδ(path of r²)·y: the limit of a thin lens of infinite index that is
-    proportional to the wavelength (Sweatt 1977).
+    δn is the index at ``shorter_um`` minus that at ``longer_um``, both vacuum wavelengths; everything else is at the
+    wavelength of the rays. Exact to first order in δn. Raises GlassError. Source: Welford 1986, §10.3. A diffractive
+    surface has different A before and behind it, and adds −2yδ(path of r²)·y: the limit of a thin lens of infinite
+    index that is proportional to the wavelength (Sweatt 1977).
     """
     c, _ = _shape_terms(lens)
     n, after, nu, nu_after, y, chief_nu, chief_y = _layers(rays)
@@ -130,16 +130,16 @@ def chromatic_sums(
 
 
 def check_seidel(lens: Lens) -> None:
-    """Raise GeometryError for a lens that no wavefront of fourth order describes."""
-    if reason := without_coefficients(lens):
+    """Raise GeometryError for a lens that no fourth-order wavefront describes."""
+    if reason := reason_against_coefficients(lens):
         raise GeometryError(reason)
 
 
 @lru_cache(maxsize=64)
-def without_coefficients(lens: Lens) -> Message | None:
-    """Return what of a lens no wavefront of fourth order describes, odd terms or a freeform; None where there is none.
+def reason_against_coefficients(lens: Lens) -> Message | None:
+    """Return why a fourth-order wavefront cannot describe a lens, such as odd terms or a freeform; None if it can.
 
-    What six coefficients refuse, "auto" does not choose them for.
+    The methods of the six coefficients refuse such a lens, and "auto" does not choose them for it.
     """
     for number, surface in enumerate(lens.surfaces, 1):
         for each in PROPERTIES:
@@ -176,23 +176,23 @@ def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
 
 
 def _with_row(column: np.ndarray, at: int, value: FloatOrArray) -> np.ndarray:
-    """Return a column of sums with one surface's replaced."""
+    """Return a column of sums with the value of one surface replaced."""
     changed = column.copy()
     changed[at] = value
     return changed
 
 
 @lru_cache(maxsize=64)
-def _kept_totals(
+def _cached_totals(
     lens: Lens, depth_mm: float, wavelength_um: float, field: Literal["slope", "height"]
 ) -> tuple[ParaxialRays, tuple]:
-    """Return the paraxial rays of one depth and wavelength and their `_unit_totals`, which serve every field."""
+    """Return the paraxial rays of one depth and wavelength and their `_unit_totals`, which apply to every field."""
     rays = paraxial_rays(lens, depth_mm, wavelength_um, None, field)
     return rays, _unit_totals(lens, rays)
 
 
 def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
-    """Return the five sums over all surfaces; for one source in plain numbers, three times faster."""
+    """Return the five sums over all surfaces; for one source in plain numbers, which is three times faster."""
     if rays.y.ndim > 1 or _diffractive(lens) or _ideal(lens):
         return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
     columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
@@ -213,9 +213,9 @@ def surface_sums(
     figure: FloatOrArray,
     layers: Sequence[FloatOrArray],
 ) -> tuple:
-    """Return the five sums of a surface of curvature ``c`` and fourth-order ``figure``; numbers or arrays alike.
+    """Return the five sums of a surface of curvature ``c`` and fourth-order ``figure``, for numbers or arrays.
 
-    ``layers``: indices and both rays there, as `_layers` has them.
+    ``layers``: indices and both rays there, as returned by `_layers`.
     """
     n, after, nu, nu_after, y, chief_nu, chief = layers
     inverse, inverse_after = 1 / n, 1 / after
@@ -246,11 +246,11 @@ def diffractive_sums(
 ) -> tuple:
     """Return the five sums of a diffractive surface that adds the ``paths`` (p, q): p·r² + q·r⁴.
 
-    ``shape``: its curvature and its fourth-order figure; ``chief_nu_after``: n'·ū' behind it.
-    It is a thin lens of index N → ∞ whose second surface has N times as little between it and the first as the path
-    that is added (Sweatt 1977). The sums of its two surfaces in `surface_sums` tend to those of either side, with
-    u/n = 0 within, and what the second is figured by to −(8q − 2pc²)y⁴: along the normal the path is p·r², along the
-    axis p·r²(1 + c²r²/2), and the sphere of its curvature, c + 2p/N, takes 3c²p·r⁴/4 of that.
+    ``shape``: its curvature and its fourth-order figure; ``chief_nu_after``: n'·ū' behind it. It is a thin lens of
+    index N → ∞ whose thickness is the added path divided by N (Sweatt 1977). The sums of its two surfaces in
+    `surface_sums` tend to those of either side, with u/n = 0 inside, and the figuring of the second tends to −(8q −
+    2pc²)y⁴: along the normal the path is p·r², along the axis p·r²(1 + c²r²/2), and the sphere of its curvature, c +
+    2p/N, accounts for 3c²p·r⁴/4 of that.
     """
     (c, figure), (n, after, nu, nu_after, y, chief_nu, chief) = shape, layers
     before = _side_sums(invariant, c, n, nu, y, chief_nu, chief)
@@ -269,7 +269,7 @@ def _side_sums(
     chief_nu: FloatOrArray,
     chief: FloatOrArray,
 ) -> tuple[FloatOrArray, ...]:
-    """Return what the five sums are the differences of across a surface (Welford 1986, ch. 8)."""
+    """Return the terms on one side of a surface whose differences across it are the five sums (Welford 1986, ch. 8)."""
     inverse = 1 / n
     square = inverse * inverse
     snell, chief_snell = nu + n * y * c, chief_nu + n * chief * c
@@ -285,7 +285,7 @@ def _side_sums(
 
 
 def _figuring(figure: FloatOrArray, y: FloatOrArray, chief: FloatOrArray) -> tuple[FloatOrArray, ...]:
-    """Return what an asphere, (Kc³ + 8A₄)Δn, adds to the five sums, without division by y (Welford 1986, ch. 8)."""
+    """Return the terms of an asphere, (Kc³ + 8A₄)Δn, in the five sums, without division by y (Welford 1986, ch. 8)."""
     square, cross = figure * y * y, chief * chief
     return square * y * y, square * y * chief, square * cross, 0.0, figure * y * chief * cross
 
@@ -301,7 +301,7 @@ def _shape_terms(lens: Lens) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _shape_of(surface: Surface) -> tuple[float, float]:
-    """Return the curvature at the vertex, and 8 times what the r⁴ term exceeds that of its sphere, c³/8, by."""
+    """Return the curvature c at the vertex, and 8 times the excess of the r⁴ term over c³/8, that of its sphere."""
     c, a4 = surface.curvature, surface.aspheric[0] if surface.aspheric else 0.0
     figure = surface.conic * c**3 + 8 * a4
     if surface.shape is None:
@@ -315,13 +315,13 @@ def _shape_of(surface: Surface) -> tuple[float, float]:
 
 @lru_cache(maxsize=64)
 def _diffractive(lens: Lens) -> tuple[tuple[int, Diffraction], ...]:
-    """Return the diffractive surfaces: their places from 0, and what they add."""
+    """Return the diffractive surfaces: their indices from 0, and their diffraction."""
     return tuple((at, s.diffraction) for at, s in enumerate(lens.surfaces) if s.diffraction is not None)
 
 
 @lru_cache(maxsize=64)
 def _ideal(lens: Lens) -> tuple[int, ...]:
-    """Return the places of ideal lenses from 0: they add nothing to any sum."""
+    """Return the indices of ideal lenses from 0: they contribute nothing to any sum."""
     return tuple(at for at, surface in enumerate(lens.surfaces) if surface.ideal)
 
 
@@ -339,16 +339,15 @@ def coefficients(
 ) -> Coefficients:
     """Return the six coefficients over broadcast (depth, field, wavelength) arrays.
 
-    ``depth_mm`` from the first vertex, ``inf`` allowed; ``field_slope`` the tangent at the entrance
-    pupil, or with ``field="height"`` the mm the object stands below the axis; the sensor is where the lens
-    puts it (`with_sensor` moves it). W40 to W11 are NaN for a surface with a term in r or r³ (`check_seidel`). Raises
-    GeometryError and GlassError.
-    Source: Pieroni et al. 2015; Welford 1986, ch. 8.
+    ``depth_mm`` from the first vertex, ``inf`` allowed; ``field_slope`` the tangent at the entrance pupil, or with
+    ``field="height"`` the distance of the object below the axis in mm; the sensor is that of the lens (`with_sensor`
+    moves it). W40 to W11 are NaN for a surface with a term in r or r³ (`check_seidel`). Raises GeometryError and
+    GlassError. Source: Pieroni et al. 2015; Welford 1986, ch. 8.
     """
-    # [()] turns arrays without axes into numbers, on which numpy is five times faster.
+    # [()] converts 0-d arrays to scalars, on which numpy is five times faster.
     wavelength_um, field_slope = (np.asarray(x, dtype=float)[()] for x in (wavelength_um, field_slope))
     if stop is None and np.ndim(depth_mm) == 0 and np.ndim(wavelength_um) == 0:
-        rays, totals = _kept_totals(lens, float(cast(float, depth_mm)), float(wavelength_um), field)
+        rays, totals = _cached_totals(lens, float(cast(float, depth_mm)), float(wavelength_um), field)
     else:
         rays = paraxial_rays(lens, depth_mm, wavelength_um, stop, field)
         totals = _unit_totals(lens, rays)

@@ -1,7 +1,7 @@
 """The wavefront W(ξ, η) of six coefficients and how steep it is (handbook 3.1).
 
-In waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image
-without blurring it, so it is left out unless asked for (``tilt=True``).
+In waves over the entrance-pupil disc ξ² + η² ≤ 1, η towards the field. W11 moves the image without blurring it, so it
+is omitted unless ``tilt=True``.
 """
 
 from functools import lru_cache
@@ -11,11 +11,11 @@ import numpy as np
 from p2sf.conventions import FloatOrArray, is_number
 from p2sf.paraxial.seidel import Coefficients
 
-# Polar samples that find the extremes of these low-order polynomials: within 1 % over random coefficients (tested).
+# Polar samples that find the extremes of these low-order polynomials to 1 % for random coefficients (tested).
 SLOPE_RADII, SLOPE_ANGLES = 12, 25
 # |4aρ³ + 2bρ| is at most |2b| or |4a + 2b|, whatever the signs; b is the focus across and along, and coma adds 3|W31|.
 _BOUND = np.array([(a, c, b, 2) for a in (0, 4) for b in (0, 2) for c in (-3, 3)], dtype=float).T
-CHORD_MARGIN = 1.04  # along chords the extremes are narrower: the samples miss them by up to 4 %
+CHORD_MARGIN = 1.04  # along chords the extremes are narrower: samples underestimate them by up to 4 %
 
 
 def wavefront(coefficients: Coefficients, xi: FloatOrArray, eta: FloatOrArray, tilt: bool = False) -> np.ndarray:
@@ -31,7 +31,7 @@ def wavefront(coefficients: Coefficients, xi: FloatOrArray, eta: FloatOrArray, t
 
 
 def shapes(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return what W40, W31, W22 and W20 + Wd are the coefficients of, at pupil points, (4, points)."""
+    """Return the polynomials of W40, W31, W22 and W20 + Wd at pupil points, (4, points)."""
     square = xi * xi + eta * eta
     return np.stack([square**2, square * eta, eta**2, square])
 
@@ -46,13 +46,13 @@ def shape_coefficients(
 
 def spread(*columns: FloatOrArray) -> np.ndarray:
     """Return broadcast numbers or arrays as one array with a last axis, (…, columns)."""
-    if all([is_number(x) for x in columns]):  # a single PSF, several times faster
+    if all([is_number(x) for x in columns]):  # several times faster for a single PSF
         return np.array(columns, dtype=float)
     return np.stack(np.broadcast_arrays(*columns), axis=-1)
 
 
 def _before(values: FloatOrArray, grid_ndim: int) -> np.ndarray:
-    """Return values with axes of length one for the pupil grid behind their own."""
+    """Return values with axes of length one appended for the pupil grid."""
     values = np.asarray(values)
     return values.reshape(*values.shape, *[1] * grid_ndim)
 
@@ -60,7 +60,7 @@ def _before(values: FloatOrArray, grid_ndim: int) -> np.ndarray:
 def steepest_slope(coefficients: Coefficients, tilt: bool = False) -> np.ndarray:
     """Return the largest |∇W| over the disc, waves per unit radius, within 1 %; shape of the coefficients.
 
-    λ/NA times this is the largest distance from the chief ray at which a ray of this wavefront lands.
+    λ/NA times this is the largest distance of a ray of this wavefront from the chief ray on the sensor.
     """
     return steepest_of(spread(*shape_coefficients(coefficients, tilt)))
 
@@ -73,7 +73,7 @@ def steepest_of(shape: np.ndarray) -> np.ndarray:
 
 
 def steepest_polar(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
-    """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %: what radial and angular sampling must resolve."""
+    """Return the largest |∂W/∂ρ| and |∂W/∂θ|, waves, within 1 %, which radial and angular sampling must resolve."""
     steepest = polar_of(spread(*shape_coefficients(coefficients)[:4]))
     return steepest[..., 0], steepest[..., 1]
 
@@ -85,10 +85,10 @@ def polar_of(shape: np.ndarray) -> np.ndarray:
 
 
 def steepest_chords(coefficients: Coefficients) -> tuple[np.ndarray, np.ndarray]:
-    """Return the largest |∂W/∂t| and |∂W/∂s|, waves: what the rows and columns of `quadrature.chord_rows` resolve.
+    """Return the largest |∂W/∂t| and |∂W/∂s|, waves, to be resolved by rows and columns of `quadrature.chord_rows`.
 
-    With η = cos t and ξ = sin s·sin t, a slope near the rim, where the nodes crowd, counts little, and one
-    inside the disc in full. Never too small, at most 4 % too large.
+    With η = cos t and ξ = sin s·sin t, a slope near the rim, where nodes are dense, counts little, and one inside the
+    disc fully. Never too small, at most 4 % too large.
     """
     steepest = chords_of(spread(*shape_coefficients(coefficients)[:4]))
     return steepest[..., 0], steepest[..., 1]
@@ -101,7 +101,7 @@ def chords_of(shape: np.ndarray) -> np.ndarray:
 
 
 def bound_of(shape: np.ndarray) -> np.ndarray:
-    """Return an upper bound of |∇W| for W40, W31, W22, W20 + Wd in the last axis: quick, with coma up to twice it."""
+    """Return a quick upper bound of |∇W| for W40, W31, W22, W20 + Wd in the last axis, with coma up to twice |∇W|."""
     bound: np.ndarray = np.abs(shape @ _BOUND).max(-1)
     return bound
 

@@ -16,7 +16,7 @@ from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.raytrace.seen_mask import mask_seen
 
-RAYS = "rays"  # the method of a recipe whose kernels are densities of rays
+RAYS = "rays"  # the method of recipes for kernels from densities of rays
 
 
 Light: TypeAlias = PixelPupil | RaySpread
@@ -24,7 +24,7 @@ Light: TypeAlias = PixelPupil | RaySpread
 
 
 class ChannelLanding(NamedTuple):
-    """In which axes a point's light stands, radians from +y towards +x, and how far from its place it lands, mm."""
+    """The axes of a point's light, radians from +y towards +x, and its displacement from its nominal position, mm."""
 
     angle: float
     across_mm: float
@@ -35,7 +35,7 @@ class ChannelLanding(NamedTuple):
 class Recipe:
     """How kernels are computed: method, its numbers (None: as the residual requires), samples per λ/(2NA), margin.
 
-    ``method``: "seidel" or "fitted", whose waves are summed, or "rays", to which the other numbers mean nothing.
+    ``method``: "seidel" or "fitted", whose waves are summed, or "rays", which ignores the other numbers.
     ``margin`` is a fraction of the window's half width, added on either side before the transform and cut off after
     it.
     """
@@ -48,7 +48,7 @@ class Recipe:
 
 @dataclass(frozen=True)
 class Colour:
-    """Wavelengths in µm and the share of a channel's light that each one carries."""
+    """Wavelengths in µm and their shares of a channel's light."""
 
     wavelengths_um: tuple[float, ...]
     weights: tuple[float, ...]
@@ -58,8 +58,8 @@ class Colour:
 class PointLights:
     """The light of several points in several wavelengths, (waves · points,), the points of one wavelength together.
 
-    ``lights``: pupils, or rays of each, turned by ``angles`` from +y towards +x; ``shifts_um``, (waves · points, 2):
-    how far each lands from its place along x and y.
+    ``lights``: pupils, or rays of each, rotated by ``angles`` from +y towards +x; ``shifts_um``, (waves · points, 2):
+    the displacement of each in x and y.
     """
 
     lights: PupilStack | list[RaySpread]
@@ -67,13 +67,13 @@ class PointLights:
     shifts_um: np.ndarray
 
     def turned(self, angles: np.ndarray) -> "PointLights":
-        """Return the light of these points turned about the axis, (waves · points,) radians from +y towards +x."""
+        """Return the light of these points rotated about the axis, (waves · points,) radians from +y towards +x."""
         (across, along), sine, cosine = self.shifts_um.T, np.sin(angles), np.cos(angles)
         shifts = np.stack([across * cosine + along * sine, along * cosine - across * sine], axis=1)
         return PointLights(self.lights, self.angles + angles, shifts)
 
     def half_widths(self, pixel_um: float) -> np.ndarray:
-        """Return how many pixels on either side of the centre hold each kernel, (waves · points,)."""
+        """Return the half width of each kernel in pixels, (waves · points,)."""
         shifts = np.hypot(*self.shifts_um.T)
         if isinstance(self.lights, PupilStack):
             return half_widths(self.lights, pixel_um, shifts)
@@ -97,7 +97,7 @@ def wave_kernels(
     ``angles`` and ``halves`` (pupils,), ``shifts_um`` (pupils, 2).
     """
     samples = samples_each(pupils, pixel_um, recipe.fineness)
-    # The transform is periodic: a pencil wider than the window would wrap around to its other side.
+    # The transform is periodic: a pencil wider than the window would wrap around.
     need = half_widths(pupils, pixel_um, np.hypot(*shifts_um.T))
     wide = np.maximum(halves, need) + np.ceil(recipe.margin * halves).astype(int)
     kernels: list[np.ndarray] = [np.empty(0)] * len(pupils)
@@ -121,7 +121,7 @@ class Points:
     lights: PointLights
 
     def half_widths(self) -> np.ndarray:
-        """Return how many pixels on either side of the centre hold each point's kernel, (points,)."""
+        """Return the half width of each point's kernel in pixels, (points,)."""
         halves: np.ndarray = self.lights.half_widths(self.pixel_um).reshape(len(self.weights), -1).max(0)
         return halves
 
@@ -142,7 +142,7 @@ class Points:
 class Kernels:
     """Kernels of one view, channel and pixel pitch; pupils are cached, since points on a circle may share them.
 
-    A ``table``, if any, replaces a fit for every place that it covers.
+    A ``table``, if any, replaces a fit for every point that it covers.
     """
 
     seen: SensorMap
@@ -164,7 +164,7 @@ class Kernels:
         return Points(self.pixel_um, self.colour.weights, self.recipe, lights)
 
     def _lights_at(self, x_mm: np.ndarray, y_mm: np.ndarray) -> PointLights:
-        """Return the light of points as `Fields.oriented` has them, in every wavelength."""
+        """Return the light of points as given by `Fields.oriented` in every wavelength."""
         waves, table, depth = self.colour.wavelengths_um, self.table, float(vergence(self.seen.depth_mm))
         if table is not None and self.recipe.method != RAYS and table.covers(x_mm, y_mm, depth):
             places = np.tile(x_mm, len(waves)), np.tile(y_mm, len(waves))
@@ -178,7 +178,7 @@ class Kernels:
         return PointLights(rays or stack_pupils(of_waves), landed[:, 0], landed[:, 1:] * UM_PER_MM)
 
     def lights(self, x_mm: float, y_mm: float) -> list[tuple[Light, ChannelLanding]]:
-        """Return the light of a place in every wavelength, from its own rays."""
+        """Return the light of a point in every wavelength, from its own rays."""
         key = round(x_mm, 9), round(y_mm, 9)
         if key not in self.cache:
             waves = self.colour.wavelengths_um
@@ -189,7 +189,7 @@ class Kernels:
 def own_light(
     seen: SensorMap, x_mm: float, y_mm: float, wavelength_um: float, recipe: Recipe
 ) -> tuple[Light, ChannelLanding]:
-    """Return the pupil of one place from its own rays, or these; P2SFError names the place."""
+    """Return the pupil of one point from its own rays, or these; P2SFError states the point."""
     try:
         source = seen.source(x_mm, y_mm, wavelength_um)
         light: Light

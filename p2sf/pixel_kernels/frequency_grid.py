@@ -1,4 +1,4 @@
-"""A pencil over its own spatial frequencies, which a uniform grid samples and an FFT sums (handbook 5.8).
+"""A pencil as a function of spatial frequency, sampled on a uniform grid and summed by an FFT (handbook 5.8).
 
 Phase and entrance-pupil point are polynomials over f = n'K/λ; the image of the unit circle is the edge and
 |∂(ξ, η)/∂f| the amplitude (equal areas of the entrance pupil have equal weight, as in the reference). The
@@ -16,9 +16,9 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
-from p2sf.pupil.basis import HALF, Kinds, PupilDomain, Terms, at_nodes, determinant
+from p2sf.pupil.basis import Kinds, Terms, at_nodes, determinant
+from p2sf.pupil.domain import HALF, ClearNodes, PupilDomain
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import ClearNodes
 from p2sf.pupil.zernike import basis_by_powers
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.clear_pieces import CLIPPED
@@ -27,7 +27,7 @@ from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.trace import lens_rims, run
 
-ORDERS = 6, 18  # the least and the greatest
+ORDERS = 6, 18  # the smallest and the largest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
 NODES = 16, 44
 FEWER_NODES, SPARSE = (10, 28), 8  # enough for terms up to this order where no rim clips
@@ -40,9 +40,9 @@ CLIPPED_SHARE, BESIDE = 0.03, 1.7  # the part that clipped nodes have in a fit, 
 def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None, clip: bool = False) -> PixelPupil:
     """Return the pupil of one source by the method "seidel" or "fitted"; ``clip`` lets the clear rims clip it.
 
-    It stands in the axes of the source's field.
+    It is given in the axes of the source's field.
 
-    Raises GeometryError where rays do not reach the sensor, rims clip all of them, or the image lies at infinity.
+    Raises GeometryError if rays do not reach the sensor, rims clip all of them, or the image lies at infinity.
     """
     mask, turned = mask_seen(lens, source), seen_from(lens, source.azimuth_deg)
     source = replace(source, azimuth_deg=0.0)
@@ -73,7 +73,7 @@ def of_azimuths(sources: Sequence[Source]) -> list[list[int]]:
 
 
 def fitted_forms(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[PencilForms, np.ndarray]:
-    """Return the fits of one level to several sources in the axes of the sensor, and where they land, (n, 2) mm.
+    """Return the fits of one level to several sources in the axes of the sensor, and their landing points, (n, 2) mm.
 
     Raises GeometryError where rays do not reach the sensor.
     """
@@ -104,7 +104,7 @@ def pupils_of(
 
 
 def _mask_of(lens: Lens, sources: Sequence[Source]) -> PupilMask:
-    """Return the mask in the stop in the axes of the sensor."""
+    """Return the pupil mask in the axes of the sensor."""
     return mask_seen(lens, Source(wavelength_um=sources[0].wavelength_um))
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.sensor_points import SensorMap, landing_mm
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.domain import ClearNodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.clear_rim import clear_rim

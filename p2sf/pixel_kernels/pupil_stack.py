@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.pupil.basis import PupilBasis, PupilDomain, Terms, at_nodes
+from p2sf.pupil.basis import PupilBasis, Terms, at_nodes
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask, mask_slopes
 from p2sf.pupil.zernike import powers
 

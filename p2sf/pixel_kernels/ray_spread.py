@@ -11,9 +11,8 @@ from math import cos, pi, sin
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens, check_rays
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.pupil_stack import stray_of
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -65,8 +64,7 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     """
     sides, mask = lens.pupil_domain.images, mask_seen(lens, source)
     grid = _grid(len(sides))
-    if mask.phased:
-        check_unmasked(lens, Message("a blur by rays"))
+    check_rays(lens)
     rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
     passed = rays.passed.reshape(grid.xi.shape)
     if not passed.any():

@@ -1,4 +1,4 @@
-"""The point spread function: one module a method, the choice between them, and what is read off the result."""
+"""The point spread function: one module per method, the choice between them, and figures of the result."""
 
 from p2sf.psf.result import Psf
 

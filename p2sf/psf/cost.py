@@ -1,4 +1,4 @@
-"""What the sum of a PSF costs before it is made: its nodes, and about its seconds on one core."""
+"""Estimated cost of the sum of a PSF: its nodes, and about its seconds on one core."""
 
 from math import inf, prod
 
@@ -15,42 +15,45 @@ SAMPLE_SECONDS = 1.5e-7  # of a sample of the picture, by a Fourier transform
 
 
 def fit_node_count(fitted: FittedPencil, window: tuple[int, float]) -> float:
-    """Return how many nodes carry the phase of a fit over a window, the mirror half not counted."""
+    """Return the number of nodes that resolve the phase of a fit over a window, without the mirror half."""
     return prod(counts_for(fitted.steepness, window_reach_um(*window))) / (1 + fitted.mask.even)
 
 
 def coefficient_node_count(six: Coefficients, window: tuple[int, float], mask: PupilMask) -> float:
-    """Return how many nodes carry the phase of six coefficients behind a mask over a window."""
+    """Return the number of nodes that resolve the phase of six coefficients behind a mask over a window."""
     return fit_node_count(as_fit(six, mask), window)
 
 
 def node_count(request: PsfRequest, fitted: FittedPencil | None) -> float:
-    """Return how many nodes a settled sum has, the mirror half not counted; 0 where that is not known beforehand.
+    """Return the number of nodes of a settled sum, without the mirror half; 0 if it is not known in advance.
 
     ``fitted``: a coarse fit to exact rays; None where rays are lost.
     """
+    own = method_of(request.method).nodes
+    if own is not None:
+        return own(request)
     if request.six is not None:
         return coefficient_node_count(request.six, request.window, mask_seen(request.lens, request.source))
     return 0.0 if fitted is None else fit_node_count(fitted, request.window)
 
 
 def nodes_beyond(request: PsfRequest, fitted: FittedPencil | None) -> float:
-    """Return how many pupil samples a sum would need that has too many; 0 for one that can be made."""
+    """Return the number of pupil samples of a sum that needs too many; 0 for a feasible sum."""
     nodes = node_count(request, fitted)
     most = method_of(request.method).most_nodes(mask_seen(request.lens, request.source))
     return nodes if nodes > most else 0.0
 
 
 def seconds(method: Method, nodes: float, samples: int) -> float:
-    """Return about how long a sum takes: that of its nodes, and a Fourier transform of its samples."""
+    """Return the estimated seconds of a sum: of its nodes, and of a Fourier transform of its samples."""
     return method.node_seconds * nodes + SAMPLE_SECONDS * samples**2
 
 
 def predicted_seconds(request: PsfRequest, fitted: FittedPencil | None) -> float:
-    """Return about how long a settled sum takes; infinite where rims or lost rays make that unknown beforehand.
+    """Return the estimated seconds of a settled sum; infinite if rims or lost rays make it unpredictable.
 
     Following an outline takes a thousand pencils. ``fitted`` as for `node_count`.
     """
     method, nodes = method_of(request.method), node_count(request, fitted)
-    known = method.whole or (bool(nodes) and not request.clip and all_reach(request.lens, request.source))
-    return seconds(method, nodes, request.window[0]) if known else inf
+    rays_tell = nodes and not request.options.clip and all_reach(request.lens, request.source)
+    return seconds(method, nodes, request.window[0]) if method.nodes or method.whole or rays_tell else inf

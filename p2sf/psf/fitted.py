@@ -1,5 +1,7 @@
 """The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays (handbook 5.3)."""
 
+from collections.abc import Callable
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -10,12 +12,13 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
-from p2sf.psf.prediction import predicted_error
+from p2sf.psf.prediction import EDGE_ERROR, predicted_error
 from p2sf.psf.result import Psf
 from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.pupil.basis import at_nodes
+from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.interpolation import on_disc
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.vignetting import masked_blur
@@ -23,10 +26,11 @@ from p2sf.threads import one_blas_thread
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "fitted_waves", "psf_of_fit", "sum_fit"]
 
+NodesOf = Callable[[Counts], ClearNodes]
 Values = tuple[np.ndarray, np.ndarray, np.ndarray]
 MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
 MOST_NODES = 2**24  # radii × directions: some seconds of work
-MOST_FOR_PEAK = 2**18  # of them for the peak alone, which is then looked for in the window only
+MOST_FOR_PEAK = 2**18  # of them for the peak alone, which is otherwise sought only in the window
 PREVIEW = 0.9  # of the settled counts: 1 − R² against the settled sum is below 1e-5
 
 
@@ -39,29 +43,40 @@ def fitted_psf(
     numbers: int | None = None,
     quality: str = "settled",
 ) -> Psf:
-    """Return the PSF of the `fitted` method, with ``numbers`` coefficients or as many as the residual asks for.
+    """Return the PSF of the `fitted` method, with ``numbers`` coefficients or as many as the residual requires.
 
-    "settled" sums what the fit describes in float64, to a relative L2 error of 1e-4; "preview" sums fewer nodes in
-    float32. Raises GeometryError where rays do not reach the sensor, SamplingError for a window no nodes can carry.
+    "settled" sums the fit in float64 to a relative L2 error of 1e-4; "preview" sums fewer nodes in float32. Raises
+    GeometryError if rays do not reach the sensor, SamplingError for a window that needs too many nodes.
     """
     started = perf_counter()
     return psf_of_fit(fit(lens, source, numbers), source.wavelength_um, (pixels, pixel_um), quality, started)
 
 
-def psf_of_fit(found: FittedPencil, wavelength_um: float, window: Window, quality: str, started: float) -> Psf:
-    """Return the PSF that a fit describes in a window; ``started`` is a `perf_counter` reading."""
+def psf_of_fit(
+    found: FittedPencil,
+    wavelength_um: float,
+    window: Window,
+    quality: str,
+    started: float,
+    nodes_of: NodesOf | None = None,
+) -> Psf:
+    """Return the PSF of a fit in a window; ``started`` is a `perf_counter` reading.
+
+    ``nodes_of``: the nodes of (radial, angular) counts where rims end the pupil, which no polynomial knows.
+    """
     counts = counts_of(found, window_reach_um(*window), quality)
     sampling = nodes_in_words(counts, quality)
     tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    error = predicted_error(found.error_waves, "fitted")
+    error = predicted_error(found.error_waves, "fitted") + EDGE_ERROR * (nodes_of is not None)
     made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance, error)
-    blur = masked_blur(found) if resolved(found.steepness.spread, window[1]) else None
-    waves = fitted_waves(found, counts, window_reach_um(*window))
-    return psf_of_waves(waves, window, wavelength_um, blur, made, lambda reach: waves_reaching(found, reach), quality)
+    blur = masked_blur(found, nodes_of) if resolved(found.steepness.spread, window[1]) else None
+    waves = fitted_waves(found, counts, window_reach_um(*window), nodes_of=nodes_of)
+    reaching = partial(waves_reaching, found, nodes_of=nodes_of)
+    return psf_of_waves(waves, window, wavelength_um, blur, made, reaching, quality)
 
 
 def counts_of(found: FittedPencil, reach_um: float, quality: str = "settled") -> Counts:
-    """Return the node counts that carry a fit up to a distance from the chief ray; SamplingError for too many."""
+    """Return the node counts that resolve a fit up to a distance from the chief ray; SamplingError for too many."""
     counts = counts_for(found.steepness, reach_um, 1.0 if quality == "settled" else PREVIEW)
     if counts[0] * counts[1] > MOST_NODES:
         raise SamplingError(
@@ -75,29 +90,33 @@ def counts_of(found: FittedPencil, reach_um: float, quality: str = "settled") ->
 
 
 def nodes_in_words(counts: Counts, quality: str) -> Message:
-    """Return in words what is summed."""
+    """Return a description of the sum."""
     precision = "float64" if quality == "settled" else "float32"
     return Message("{nodes}, {precision}", nodes=disc_words(counts), precision=precision)
 
 
-def waves_reaching(found: FittedPencil, reach_um: float) -> Waves | None:
-    """Return plane waves that carry a fit up to a distance from the chief ray; None where they are too many."""
+def waves_reaching(found: FittedPencil, reach_um: float, nodes_of: NodesOf | None = None) -> Waves | None:
+    """Return plane waves that resolve a fit up to a distance from the chief ray; None if they are too many."""
     counts = counts_for(found.steepness, reach_um)
-    return fitted_waves(found, counts, reach_um) if counts[0] * counts[1] <= MOST_FOR_PEAK else None
+    return fitted_waves(found, counts, reach_um, nodes_of=nodes_of) if counts[0] * counts[1] <= MOST_FOR_PEAK else None
 
 
 def fitted_waves(
-    found: FittedPencil, counts: Counts, reach_um: float = np.inf, passed: np.ndarray | None = None
+    found: FittedPencil,
+    counts: Counts,
+    reach_um: float = np.inf,
+    passed: np.ndarray | None = None,
+    nodes_of: NodesOf | None = None,
 ) -> Waves:
-    """Return the plane waves of a fit over what its mask leaves open, their amplitudes of unit sum.
+    """Return the plane waves of a fit over the open part of its mask, with amplitudes of unit sum.
 
-    ``passed``: which of these nodes let light pass, (nodes,); all by default.
+    ``passed``: which of these nodes transmit light, (nodes,); by default all. ``nodes_of``: as `psf_of_fit` has it.
     """
-    nodes = found.level.basis.domain.over(mask_nodes(found.mask, *counts))
-    if found.mask.clear:
+    nodes = nodes_of(counts) if nodes_of else found.level.basis.domain.over(mask_nodes(found.mask, *counts))
+    if found.mask.clear and not nodes_of:
         phase, fx, fy, amplitude = _on_rings(found, counts)
     else:
-        phase, fx, fy = _at_nodes(found, nodes, counts)
+        phase, fx, fy = _at_nodes(found, nodes, None if nodes_of else counts)
         phase = phase + nodes.path_um / found.wavelength_um if found.mask.phased else phase
         amplitude = found.amplitude_at(nodes.xi, nodes.eta)
     weight = nodes.weight * nodes.amplitude * amplitude
@@ -105,20 +124,20 @@ def fitted_waves(
         weight = np.where(passed, weight, 0.0)
     weight /= weight.sum()
     blur = found.steepness.radial / found.steepness.spread
-    return Waves(pupil_amplitude(weight, phase), fx, fy, nodes.even, blur, reach_um)
+    return Waves(pupil_amplitude(weight, phase), fx, fy, nodes.domain.symmetric, blur, reach_um)
 
 
 def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:
     """Return phase, fx, fy and amplitude at the nodes of the whole disc, (4, nodes).
 
-    Polynomials are known from as many nodes as they have orders, from which `on_disc` takes them to all others.
+    As many nodes as orders determine the polynomials, and `on_disc` interpolates them to all others.
     """
     basis = found.level.basis
     order = max(basis.orders)
     coarse = order // 2 + 2, 2 * order + 4
     there = at_nodes(basis, coarse)
-    values = np.stack([*found.on(there.values), found.amplitude_at(there.nodes.xi, there.nodes.eta)])
-    return on_disc(basis.domain, values, coarse, counts)
+    amplitude = found.amplitude @ there.values.fy[: found.amplitude.size]  # its terms are those, or the first of them
+    return on_disc(basis.domain, np.stack([*found.on(there.values), amplitude]), coarse, counts)
 
 
 def sum_fit(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
@@ -136,9 +155,12 @@ def fitted_intensity(
     return fitted_waves(found, counts).intensity(axis, axis, dtype)
 
 
-def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts) -> Values:
-    """Return phase, fx and fy of a fit at its nodes, by blocks: of millions of nodes a basis takes gigabytes."""
-    if nodes.xi.size <= MOST_KEPT // 2:
+def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts | None) -> Values:
+    """Return phase, fx and fy of a fit at nodes, in blocks, since a basis at millions of nodes takes gigabytes.
+
+    ``counts``: of the nodes behind its mask, if these are those.
+    """
+    if counts is not None and nodes.xi.size <= MOST_KEPT // 2:
         return found.on(at_nodes(found.level.basis, counts, found.mask).values)
     blocks = []
     for begin in range(0, nodes.xi.size, MOST_KEPT):

@@ -24,7 +24,7 @@ from p2sf.pupil.quadrature import cell_areas
 from p2sf.pupil.transform import matrix_dft
 from p2sf.threads import one_blas_thread
 
-STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase cannot be told from a flatter one
+STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase is aliased
 
 
 @check_arguments
@@ -53,14 +53,14 @@ def psf_of_opd(
     wavelength_nm : float
         Wavelength, nm.
     amplitude : array_like, optional
-        Amplitude that each cell lets through, 0 to 1, same shape; how much of it the unit disc covers when not given.
+        Amplitude transmitted by each cell, 0 to 1, same shape; by default the share of the cell inside the unit disc.
     pixels : int
         Samples along each side.
     pixel_um : float, optional
-        Distance between samples, µm; λ/(4·na), which loses nothing, when not given.
+        Distance between samples, µm; by default λ/(4·na), which loses nothing.
     integrated : bool, optional
-        Whether a sample is the light on the square pixel around it, or the intensity at its place; light where
-        pixels are wider than λ/(4·na) when not given.
+        Whether a sample is the light on the square pixel around it, or the intensity at its centre; by default light if
+        pixels are wider than λ/(4·na).
 
     Returns
     -------
@@ -73,7 +73,7 @@ def psf_of_opd(
     RequestError
         For a numerical aperture, wavelength or distance that is not positive, and for complex numbers.
     SamplingError
-        For arrays that are no equal squares, a grid too coarse for the wavefront or the window, an opaque pupil.
+        For arrays that are not equal squares, a grid too coarse for the wavefront or the window, or an opaque pupil.
 
     Examples
     --------
@@ -83,11 +83,11 @@ def psf_of_opd(
     """
     for name, value in (("na", na), ("wavelength_nm", wavelength_nm), ("pixel_um", pixel_um)):
         check_positive(name, value)
-    opd, clear = _pupil(opd_waves, amplitude)
+    opd, clear = pupil_of_cells(opd_waves, amplitude)
     critical_um = wavelength_nm / NM_PER_UM / (4 * na)
     pitch = critical_um if pixel_um is None else float(pixel_um)
     _check_window(len(opd), na / (wavelength_nm / NM_PER_UM), pixels, pitch)
-    # By Parseval, in units of the unaberrated peak; a cell that the rim cuts lets its covered part through.
+    # By Parseval, in units of the unaberrated peak; a cell cut by the rim transmits its share inside.
     power = clear.sum() if amplitude is None else (clear**2).sum()
     pupil = _Pupil(opd, clear, power / clear.sum() ** 2, na, wavelength_nm / NM_PER_UM)
     return warn_of_window(pixel_integrals.integrate(pupil.psf, pixels, pitch, critical_um, integrated), 5)
@@ -120,7 +120,7 @@ class _Pupil:
 
     @cached_property
     def waves(self) -> Waves:
-        """Return the plane waves of the cells that let light through, as far as their PSF does not repeat itself."""
+        """Return the plane waves of the cells that transmit light, valid up to where their PSF repeats."""
         size, spread = len(self.opd), self.na / self.wavelength_um
         along, lit = spread * centres(size), self.clear > 0
         fy, fx = np.meshgrid(along, along, indexing="ij")
@@ -134,8 +134,8 @@ def centres(size: int) -> np.ndarray:
     return (2 * np.arange(size) + 1 - size) / size
 
 
-def _pupil(opd_waves: ArrayLike, amplitude: ArrayLike | None) -> tuple[np.ndarray, np.ndarray]:
-    """Return the wavefront, 0 where nothing passes, and the amplitude."""
+def pupil_of_cells(opd_waves: ArrayLike, amplitude: ArrayLike | None) -> tuple[np.ndarray, np.ndarray]:
+    """Return the wavefront, 0 in opaque cells, and the amplitude; SamplingError as `psf_of_opd`."""
     opd = real_array("opd_waves", opd_waves)
     if opd.ndim != 2 or opd.shape[0] != opd.shape[1] or not opd.size:
         raise SamplingError("the wavefront has the shape {shape}; give a square array", shape=str(opd.shape))
@@ -156,7 +156,7 @@ def _pupil(opd_waves: ArrayLike, amplitude: ArrayLike | None) -> tuple[np.ndarra
 
 
 def _check_steps(opd: np.ndarray, clear: np.ndarray) -> None:
-    """Raise SamplingError where the wavefront changes too fast from cell to cell for its grid."""
+    """Raise SamplingError if the wavefront changes too fast from cell to cell for its grid."""
     step = _steepest_step(opd, clear)
     if step > STEEPEST_STEP:
         raise SamplingError(
@@ -168,7 +168,7 @@ def _check_steps(opd: np.ndarray, clear: np.ndarray) -> None:
 
 
 def _steepest_step(opd: np.ndarray, clear: np.ndarray) -> float:
-    """Return the largest change of the wavefront between neighbouring cells that both let light through, waves."""
+    """Return the largest change of the wavefront between neighbouring cells that both transmit light, waves."""
     return max(float(np.abs(np.diff(opd, axis=k))[np.minimum(*_pairs(clear, k)) > 0].max(initial=0.0)) for k in (0, 1))
 
 

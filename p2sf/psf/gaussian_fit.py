@@ -19,7 +19,7 @@ NARROWEST = 0.3  # in pixels: below it a sampled Gaussian is one sample, whateve
 def gaussian_psf(reference: Psf) -> Psf:
     """Return the elliptical Gaussian, free along y, that fits one reference PSF best in least squares.
 
-    Three numbers: σx, σy and the centre's y (a field along y leaves the centre at x = 0). Both have unit sum
+    Three numbers: σx, σy and the centre's y (for a field along y the centre is at x = 0). Both have unit sum
     in the window, so this maximises R². Baseline of Pieroni et al. 2015, figure 3.
     """
     from scipy.optimize import least_squares
@@ -43,7 +43,7 @@ def gaussian_psf(reference: Psf) -> Psf:
         reference,
         values=values,
         method="gaussian",
-        strehl=None,  # a fit has no pupil behind it, and narrower than the reference it would peak above 1
+        strehl=None,  # a fit has no pupil, and if narrower than the reference it would peak above 1
         numbers=3,
         rays=0,
         sampling=Message(

@@ -1,9 +1,9 @@
-"""The PSF where blur dwarfs diffraction: the density of rays on the sensor (handbook 8.3).
+"""The geometric PSF, the density of rays on the sensor, for blur much larger than diffraction (handbook 8.3).
 
-A wave sum over a blur of hundreds of wavelengths of slope takes seconds and shows, at 64 pixels, nothing but the
-density of rays. Each ray brings the light of its cell of the pupil, as in a spot diagram: share of the area times
-energy of unit share. The field of waves is linear in the launch weight and their energy quadratic, so that off axis
-their centroid lies elsewhere.
+A wave sum over a blur of hundreds of wavelengths of slope takes seconds and shows, at 64 pixels, only the density of
+rays. Each ray carries the light of its cell of the pupil, as in a spot diagram: share of the area times energy of unit
+share. The field of waves is linear in the launch weight and their energy quadratic, so that their centroid differs off
+axis.
 """
 
 from dataclasses import dataclass, replace
@@ -27,13 +27,13 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.seen_mask import mask_seen
 
 GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
-TOO_FAR = 2.0  # times the distance a lens is focused at
+TOO_FAR = 2.0  # times the distance on which a lens is focused
 FARTHEST_FOCUS = 1e-6  # 1/mm: six digits in a file do not distinguish a focus at a kilometre from infinity
 MOST_LIGHT, AROUND = 0.9, 1.25  # nine tenths of the light of an even disc lie within 1/1.18 of its half width
-MOST_PIXELS = 128  # on a side: as many as the rays fill evenly
+MOST_PIXELS = 128  # on a side: as many as the rays fill uniformly
 TRACED = {"preview": (12, 24), "settled": (20, 48)}  # exact rays, interpolated to the above
 
-WITHIN = 3  # parts of a cell's sides, at which a mask's edges are looked for
+WITHIN = 3  # subdivisions of a cell's sides at which a mask is sampled
 SLOPE_STEP = 1e-4
 
 Columns = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -42,9 +42,9 @@ Columns = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 @dataclass(frozen=True, eq=False)
 class RayBlur:
-    """Where the light of cells of the pupil lands, µm from the chief ray, (radii, directions).
+    """Landing points of the light of pupil cells, µm from the chief ray, (radii, directions).
 
-    ``light``: of each cell, a share of all that is sent in; where none of it arrives the place is infinite. ``even``:
+    ``light``: of each cell, as a share of all light that enters; if none of it arrives the point is infinite. ``even``:
     the cells are those of the half disc ξ > 0, and the other half's light lands in the mirror image.
     """
 
@@ -64,7 +64,7 @@ def geometric_psf(
 ) -> Psf:
     """Return the ray density over a window (pixels, µm per pixel): of exact rays, or of those of ``six`` coefficients.
 
-    Its ``energy`` is the share of the pupil's light that lands in the window. Raises GeometryError where no ray does.
+    Its ``energy`` is the share of the pupil's light that lands in the window. Raises GeometryError if no ray does.
     """
     begun, (pixels, pixel_um) = perf_counter(), window
     blur, blocks = ray_blur(lens, source, quality, clip, six), max(1, pixels // MOST_PIXELS)
@@ -72,7 +72,7 @@ def geometric_psf(
     energy = float(values.sum())
     if not energy:
         raise GeometryError("no ray reaches the sensor; {remedy}", remedy=remedy(lens, source, clip))
-    if blocks > 1:  # finer samples would show the single rays
+    if blocks > 1:  # finer samples would show individual rays
         values = np.kron(values, np.full((blocks, blocks), blocks**-2.0))
     radii, directions = GRIDS[quality]
     sampling = Message(
@@ -86,7 +86,7 @@ def geometric_psf(
 
 
 def remedy(lens: Lens, source: Source, clip: bool) -> Message:
-    """Return what lets light through again; a lens made for near objects needs a nearer source."""
+    """Return advice for a source without light; a lens designed for near objects needs a nearer source."""
     focus = focused_vergence(lens)
     if focus > max(TOO_FAR * float(vergence(source.depth_mm)), FARTHEST_FOCUS):
         return Message("this lens is for near objects, so choose a nearer depth")
@@ -98,9 +98,9 @@ def remedy(lens: Lens, source: Source, clip: bool) -> Message:
 
 
 def main_reach_um(lens: Lens, source: Source, clip: bool = False, six: Coefficients | None = None) -> float:
-    """Return the half width of the square about the chief ray that holds most of the light, and some room, µm.
+    """Return the half width of the square about the chief ray that contains most of the light with a margin, µm.
 
-    A fast lens throws a few rays ten times as far as the rest; a window as wide as they reach would show one dot.
+    In a fast lens a few rays land ten times as far away as the rest; a window for all of them would show one dot.
     """
     blur = _behind_mask(lens, source, _coarse_blur(lens, source, "preview", clip, six), six)
     out = np.maximum(np.abs(blur.x_um), np.abs(blur.y_um)).ravel()
@@ -114,9 +114,9 @@ def main_reach_um(lens: Lens, source: Source, clip: bool = False, six: Coefficie
 def ray_blur(
     lens: Lens, source: Source, quality: str = "settled", clip: bool = False, six: Coefficients | None = None
 ) -> RayBlur:
-    """Return where light lands, of exact rays interpolated between traced ones, or of the rays of ``six``.
+    """Return the blur of exact rays, interpolated between traced ones, or of the rays of ``six`` coefficients.
 
-    Between a ray that arrives and one that is lost, a cell's light fades in proportion to how near it is to each.
+    Between a ray that arrives and one that is lost, the light of cells is interpolated linearly.
     """
     if six:
         return _behind_mask(lens, source, _seidel_blur(six, GRIDS[quality]), six)
@@ -132,13 +132,13 @@ def ray_blur(
 
 
 def _coarse_blur(lens: Lens, source: Source, quality: str, clip: bool, six: Coefficients | None) -> RayBlur:
-    """Return the blur without the mask, by the traced rays alone."""
+    """Return the blur without the mask from the traced rays alone."""
     grid = TRACED[quality]
     return _seidel_blur(six, grid) if six else _lit(*_trace_grid(lens, source, grid, clip), not lens.misaligned)
 
 
 def _seidel_blur(c: Coefficients, grid: tuple[int, int]) -> RayBlur:
-    """Return where the rays of W land: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
+    """Return the landing points of the rays of W: −∇W·λ/(n′u′) (Welford 1986, §7.2)."""
     xi, eta, share = polar(*grid)
     square, focus = xi * xi + eta * eta, float(c.w20 + c.wd)
     along_xi = 4 * c.w40 * square * xi + 2 * c.w31 * xi * eta + 2 * focus * xi
@@ -148,16 +148,16 @@ def _seidel_blur(c: Coefficients, grid: tuple[int, int]) -> RayBlur:
 
 
 def _lit(x_um: np.ndarray, y_um: np.ndarray, light: np.ndarray, even: bool) -> RayBlur:
-    """Return the blur of cells whose unit share is lit like this."""
+    """Return the blur of cells with this light per unit share."""
     light = polar(*light.shape, not even)[2] * light
     return RayBlur(x_um, y_um, light / light.sum(), even)
 
 
 @lru_cache(maxsize=4)
 def _trace_grid(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -> Columns:
-    """Return where exact rays through the cells of a grid land, and the light of unit share sent through each.
+    """Return the landing points of exact rays through the cells of a grid, and their light per unit share.
 
-    A ray that cannot be aimed has none. Kept for the frame: the window's width asks for them first.
+    A ray that cannot be aimed has none. Cached, since the width of the window is computed from them first.
     """
     xi, eta, _ = polar(*grid, lens.misaligned)
     rays = pencil(lens, source, xi.ravel(), eta.ravel(), clip=clip, aim_error=SUM_AIM_ERROR)
@@ -171,7 +171,7 @@ def polar(radii: int, directions: int, whole: bool = False) -> Columns:
     """Return ξ, η and shares of cells even in ρ and θ of the half disc ξ > 0, (radii, directions), of unit sum.
 
     ``whole``: of the whole disc, in as many directions.
-    Rings of equal area would begin so far out that an evenly lit blur has a dark hole in its middle.
+    Rings of equal area would start so far out that a uniform blur would have a dark hole in its centre.
     """
     rho = ((np.arange(radii) + 0.5) / radii)[:, None]
     theta = (np.arange(directions) + 0.5) * (2 if whole else 1) * np.pi / directions
@@ -180,9 +180,9 @@ def polar(radii: int, directions: int, whole: bool = False) -> Columns:
 
 
 def _behind_mask(lens: Lens, source: Source, blur: RayBlur, six: Coefficients | None) -> RayBlur:
-    """Return the blur behind the mask in the stop, of both halves of the disc.
+    """Return the blur behind the pupil mask, for both halves of the disc.
 
-    Its phase turns the rays as it does paraxial ones: by −∇(path)/(n′u′).
+    Its phase deflects the rays like paraxial ones: by −∇(path)/(n′u′).
     """
     mask = mask_seen(lens, source)
     if mask.clear:
@@ -214,7 +214,7 @@ def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool =
 
 @lru_cache(maxsize=16)
 def passing(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool = False) -> np.ndarray:
-    """Return what share of the light passes a mask in each cell of the half disc, its left half for ``side`` −1."""
+    """Return the share of light that passes a mask in each cell of the half disc, the left half for ``side`` −1."""
     radii, directions = grid
     xi, eta, _ = polar(WITHIN * radii, WITHIN * directions, whole)
     light = mask.opens(side * xi, eta) * np.square(mask.amplitude(side * xi, eta))
@@ -222,14 +222,14 @@ def passing(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool = Fal
 
 
 def finely(values: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
-    """Return values of coarse polar cells on the cells of a finer grid, straight lines in ρ and θ."""
+    """Return values of coarse polar cells on the cells of a finer grid, linear in ρ and θ."""
     radii, directions = (_between(coarse, fine) for coarse, fine in zip(values.shape, grid, strict=True))
     found: np.ndarray = radii @ values @ directions.T
     return found
 
 
 def _of_passed(values: np.ndarray, passed: np.ndarray, grid: tuple[int, int]) -> np.ndarray:
-    """Return places as `finely`, of those rays about a cell that arrive alone; infinite where none does."""
+    """Return points as `finely`, from the neighbouring rays that arrive only; infinite if none does."""
     if passed.all():
         return finely(values, grid)
     part = finely(passed.astype(float), grid)
@@ -240,7 +240,7 @@ def _of_passed(values: np.ndarray, passed: np.ndarray, grid: tuple[int, int]) ->
 def _between(coarse: int, fine: int) -> np.ndarray:
     """Return the linear interpolation from ``coarse`` cell centres to ``fine`` ones.
 
-    Beyond the outermost centres the lines go on straight: ρ reaches the rim, where the farthest rays are.
+    Beyond the outermost centres they are extrapolated: ρ reaches the rim, where the farthest rays are.
     """
     known, wanted = ((np.arange(n) + 0.5) / n for n in (coarse, fine))
     left = np.clip(np.searchsorted(known, wanted) - 1, 0, coarse - 2)
@@ -253,10 +253,10 @@ def _between(coarse: int, fine: int) -> np.ndarray:
 def density(blur: RayBlur, pixels: int, pixel_um: float) -> np.ndarray:
     """Return the share of the light that falls on each pixel, (pixels, pixels).
 
-    Each ray is shared by the four pixels about its place, in proportion to how near it is to each, so that rays which
-    stand in a pattern of their own leave none in the picture (cloud in cell: Birdsall & Fuss 1969).
+    Each ray is distributed over the four pixels around it by bilinear weights, so that the regular pattern of the rays
+    leaves none in the picture (cloud in cell: Birdsall & Fuss 1969).
     """
-    middle, side = pixels // 2, pixels + 4  # room at the edges for what hangs over, and for what lies beyond
+    middle, side = pixels // 2, pixels + 4  # a margin for light beyond the edges
     places = blur.x_um, blur.y_um
     column, row = (np.clip(v / pixel_um, -middle - 1, middle + 1) + (middle + 1) for v in places)
     left, low = column.astype(np.intp), row.astype(np.intp)
@@ -266,14 +266,14 @@ def density(blur: RayBlur, pixels: int, pixel_um: float) -> np.ndarray:
         right = light * (column - left)
         counted += np.bincount((at + step).ravel(), (light - right).ravel(), side * side)
         counted += np.bincount((at + step + 1).ravel(), right.ravel(), side * side)
-    half = counted.reshape(side, side)[1 : pixels + 1, 1 : 2 * middle + 2]  # the chief ray's column in its middle
+    half = counted.reshape(side, side)[1 : pixels + 1, 1 : 2 * middle + 2]  # the chief ray in the middle of its column
     return ((half + half[:, ::-1]) / 2 if blur.even else half)[:, :pixels]
 
 
 def over_unaberrated(psf: Psf, na: float, mask: PupilMask) -> np.ndarray:
     """Return a ray density in units of the unaberrated peak, whose share of light on a sample is π(NA·pixel/λ)².
 
-    ``mask``: as the source sees it.
+    ``mask``: in the pupil coordinates of the source.
     """
     share = np.pi * (na * psf.pixel_um / psf.wavelength_um) ** 2
     spreading = 1.0 if mask.clear else throughput(mask).spreading  # a mask that dims the edge lowers its peak

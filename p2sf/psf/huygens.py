@@ -7,10 +7,10 @@ See handbook 5.5.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import partial
 from math import sqrt
 from time import perf_counter
-from typing import Literal
 
 import numpy as np
 
@@ -33,9 +33,9 @@ from p2sf.psf.smooth_pupil import (
     smooth_blur_um2,
 )
 from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil, rays_through
 from p2sf.raytrace.ray_field import Steepness, steepness
 from p2sf.raytrace.seen_mask import with_slopes
@@ -45,125 +45,132 @@ from p2sf.threads import for_each, one_blas_thread
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
-MOST_FOR_PEAK = 2**17  # for the peak alone, which is then looked for in the window only
-
-Amplitude = Literal["area", "radiometric"]
+MOST_FOR_PEAK = 2**17  # for the peak alone, which is otherwise sought only in the window
 
 
-@one_blas_thread
+@dataclass(frozen=True, eq=False)
+class RayPupil:
+    """The rays of a source that are summed as plane waves, and what each is given.
+
+    ``clip``: whether rims end them. ``areas``: the fit that gives areas over direction cosines, for the `radiometric`
+    amplitude: each ray has the root of its cell's area in the entrance pupil times that over direction cosines, which
+    conserves the energy of each cell. Without it a ray has the field of its cell's area, as in other programs.
+    """
+
+    lens: Lens
+    source: Source
+    clip: bool = False
+    areas: FittedPencil | None = None
+
+    @property
+    def whole(self) -> bool:
+        """Return whether they fill the pupil and are given its area."""
+        return not self.clip and self.areas is None
+
+    def first_counts(self, window: Window) -> Counts:
+        """Return the node counts to begin with."""
+        return first_counts(self.lens, self.source, window_reach_um(*window), self.clip)
+
+    def nodes(self, counts: Counts) -> ClearNodes:
+        """Return nodes up to where rays end: at the pupil's rim, at clear apertures, or where they miss a surface."""
+        return _nodes_of(self.lens, self.source, counts, self.clip)
+
+    def fields(self, rays: Rays) -> np.ndarray:
+        """Return the field of each ray."""
+        light = rays.amplitude if self.areas is None else rays.radiometric(self.areas.jacobian(rays.xi, rays.eta))
+        return rays.share * light
+
+
 def huygens_psf(
     lens: Lens,
     source: Source,
     pixels: int,
     pixel_um: float,
     tolerance: float | None = SETTLED_TOLERANCE,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
     clip: bool = False,
-    amplitude: Amplitude = "area",
+    watch: "Watch | None" = None,
+) -> Psf:
+    """Return the reference PSF, as `sum_rays` makes it of all rays of a source."""
+    return sum_rays(RayPupil(lens, source, clip), (pixels, pixel_um), tolerance, watch)
+
+
+@one_blas_thread
+def sum_rays(
+    pupil: RayPupil,
+    window: Window,
+    tolerance: float | None = SETTLED_TOLERANCE,
+    watch: "Watch | None" = None,
     quality: str = "settled",
 ) -> Psf:
-    """Return the reference PSF, its node count raised until two successive ones agree to ``tolerance``.
+    """Return the PSF of a pupil's rays, their count raised until two successive ones agree to ``tolerance``.
 
     The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
     are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as
-    the blur needs, for a preview of no guaranteed accuracy. ``progress`` is called with the
-    fraction done; ``cancelled`` is called between blocks, and True ends the work with `Cancelled`. ``amplitude``
-    "area" gives each ray the field of its cell's area in the entrance pupil, as other programs do; "radiometric" the
-    root of that times the cell's area over direction cosines, which conserves the energy of each cell. ``quality``: of
-    the search for the peak (`peak_of`). Threads
-    (`p2sf.threads`) share the rays, and the sum does not depend on their number. Raises
-    GeometryError where the chief ray, or every ray, fails. Where other rays fail, the pupil ends there, and the
-    radiometric amplitude is refused.
+    the blur needs, for a preview of no guaranteed accuracy. ``quality``: of the search for the peak (`peak_of`).
+    Threads (`p2sf.threads`) share the rays, and the sum does not depend on their number. Raises GeometryError where the
+    chief ray, or every ray, fails; where other rays fail, the pupil ends there, and the radiometric amplitude is
+    refused. `Cancelled` where the watch says so.
     """
-    started = perf_counter()
-    window = pixels, pixel_um
-    pupil = fit(lens, source) if amplitude == "radiometric" else None
+    started, watch = perf_counter(), watch or Watch()
+    pixel_um, lens, source = window[1], pupil.lens, pupil.source
     if tolerance is None:
-        found = one_pass(lens, source, window, clip, cancelled, pupil)
+        found = one_pass(pupil, window, watch)
         axis = centred_axis(*window)
         intensity = found.waves.intensity(axis, axis, np.float32)
-        sampling = sampling_of(lens, found, clip, Message("one pass in float32"))
-        error = EDGE_ERROR if clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
+        sampling = sampling_of(pupil, found, Message("one pass in float32"))
+        error = EDGE_ERROR if pupil.clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
         made = Origin("huygens", 0, _nodes(found.counts), sampling, started, None, error)
     else:
-        watch = _Watch(progress, cancelled)
-        found, intensity, reached, rays = _settle(lens, source, window, clip, tolerance, watch, pupil)
+        found, intensity, reached, rays = _settle(pupil, window, tolerance, watch)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
-        sampling = sampling_of(lens, found, clip, None if reached <= tolerance else short)
+        sampling = sampling_of(pupil, found, None if reached <= tolerance else short)
         made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
     blur = None
     if tolerance is not None and resolved(found.waves.spread, pixel_um):
-        blur = blur_um2(lens, source, clip, pupil)
-
-    def reaching(reach_um: float) -> Waves | None:
-        return waves_reaching(lens, source, reach_um, clip, pupil)
-
-    peak = peak_on_demand(intensity, pixel_um, found.waves, reaching, quality)
+        blur = blur_um2(pupil)
+    peak = peak_on_demand(intensity, pixel_um, found.waves, partial(waves_reaching, pupil), quality)
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
 
 
-def blur_um2(lens: Lens, source: Source, clip: bool = False, pupil: FittedPencil | None = None) -> float | None:
+def blur_um2(pupil: RayPupil) -> float | None:
     """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak; None where no fit of the rays is known."""
-    smooth = None if clip or pupil is not None else smooth_blur_um2(lens, source)
-    return smooth or pencil_blur(lens, source, clip, clip or all_reach(lens, source), pupil)
+    lens, source, clip = pupil.lens, pupil.source, pupil.clip
+    smooth = smooth_blur_um2(lens, source) if pupil.whole else None
+    return smooth or pencil_blur(lens, source, clip, clip or all_reach(lens, source), pupil.areas)
 
 
-def waves_reaching(
-    lens: Lens, source: Source, reach_um: float, clip: bool = False, pupil: FittedPencil | None = None
-) -> Waves | None:
+def waves_reaching(pupil: RayPupil, reach_um: float) -> Waves | None:
     """Return the plane waves of rays that carry the phase up to a distance from the chief ray; None of too many."""
     try:
-        counts = first_counts(lens, source, reach_um, clip)
+        counts = first_counts(pupil.lens, pupil.source, reach_um, pupil.clip)
     except SamplingError:
         return None
     if _nodes(counts) > MOST_FOR_PEAK:
         return None
-    if not clip and pupil is None:
-        found = interpolated_waves(lens, source, counts, reach_um)
+    if pupil.whole:
+        found = interpolated_waves(pupil.lens, pupil.source, counts, reach_um)
         if found is not None:
             return found.waves
-    return ray_waves(lens, source, counts, reach_um, clip, None, pupil).waves
+    return ray_waves(pupil, counts, reach_um).waves
 
 
-def _fields(rays: Rays, pupil: FittedPencil | None) -> np.ndarray:
-    """Return the field of each ray; of the `radiometric` amplitude, by the fit that gives areas over cosines."""
-    field = rays.amplitude if pupil is None else rays.radiometric(pupil.jacobian(rays.xi, rays.eta))
-    return rays.share * field
-
-
-def one_pass(
-    lens: Lens,
-    source: Source,
-    window: Window,
-    clip: bool,
-    cancelled: Callable[[], bool] | None = None,
-    pupil: FittedPencil | None = None,
-) -> RayWaves:
-    """Return the plane waves of as many rays as the blur and the window need; `Cancelled` where the caller says so."""
-    reach = window_reach_um(*window)
-    counts = first_counts(lens, source, reach, clip)
-    return ray_waves(lens, source, counts, reach, clip, _Watch(None, cancelled), pupil)
+def one_pass(pupil: RayPupil, window: Window, watch: "Watch | None" = None) -> RayWaves:
+    """Return the plane waves of as many rays as the blur and the window need; `Cancelled` where the watch says so."""
+    return ray_waves(pupil, pupil.first_counts(window), window_reach_um(*window), watch)
 
 
 def _settle(
-    lens: Lens,
-    source: Source,
-    window: Window,
-    clip: bool,
-    tolerance: float,
-    watch: "_Watch",
-    pupil: FittedPencil | None,
+    pupil: RayPupil, window: Window, tolerance: float, watch: "Watch"
 ) -> tuple[RayWaves, np.ndarray, float, int]:
     """Return (plane waves, their intensity, agreement, rays traced) once two successive node counts agree."""
     axis, reach = centred_axis(*window), window_reach_um(*window)
-    counts = first_counts(lens, source, reach, clip)
+    counts = pupil.first_counts(window)
     watch.expect(_nodes(counts) + _nodes(_raise_counts(counts)))
-    before = ray_waves(lens, source, counts, reach, clip, watch, pupil).waves.intensity(axis, axis)
+    before = ray_waves(pupil, counts, reach, watch).waves.intensity(axis, axis)
     rays = _nodes(counts)
     while True:
         counts = _raise_counts(counts)
-        found = ray_waves(lens, source, counts, reach, clip, watch, pupil)
+        found = ray_waves(pupil, counts, reach, watch)
         after = found.waves.intensity(axis, axis)
         rays += _nodes(counts)
         reached = float(np.linalg.norm(after - before) / np.linalg.norm(after))
@@ -213,7 +220,7 @@ def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool) -> Steep
     rays = rays_through(lens, source, nodes)
     weight = np.where(rays.passed, nodes.weight, 0.0)
     share = np.maximum(weight, 0.0) / np.maximum(weight, 0.0).sum()  # without holes, which have weights below 0
-    aside, up = 0.0 if nodes.even else float(share @ nodes.xi), float(share @ nodes.eta)
+    aside, up = float(nodes.domain.mean_across(share, nodes.xi)), float(share @ nodes.eta)
     middle = pencil(lens, source, [aside], [up])
     xi, eta = nodes.xi - aside, nodes.eta - up
     size = np.hypot(xi, eta)[rays.passed].max()
@@ -233,25 +240,14 @@ def _in_window(rays: Rays, xi: np.ndarray, eta: np.ndarray, reach_um: float) -> 
     return replace(steep, radial=float(radial) - reach, angular=float(angular) - reach)
 
 
-def ray_waves(
-    lens: Lens,
-    source: Source,
-    counts: Counts,
-    reach_um: float,
-    clip: bool,
-    watch: "_Watch | None" = None,
-    pupil: FittedPencil | None = None,
-) -> RayWaves:
-    """Return the plane waves of the rays through one set of nodes, which threads share.
-
-    ``pupil``: the fit that gives areas over direction cosines, for the radiometric amplitude.
-    """
-    nodes = _nodes_of(lens, source, counts, clip)
+def ray_waves(pupil: RayPupil, counts: Counts, reach_um: float, watch: "Watch | None" = None) -> RayWaves:
+    """Return the plane waves of the rays through one set of nodes, which threads share."""
+    nodes = pupil.nodes(counts)
     blocks: list[tuple[np.ndarray, ...]] = []
 
     def traced(some: ClearNodes) -> tuple[np.ndarray, ...]:
-        rays = rays_through(lens, source, some).arrived
-        field = _fields(rays, pupil)
+        rays = rays_through(pupil.lens, pupil.source, some).arrived
+        field = pupil.fields(rays)
         far = np.hypot(rays.x_um, rays.y_um)
         return pupil_amplitude(field, rays.phase), rays.fx, rays.fy, np.asarray(rays.share), field, far
 
@@ -264,7 +260,7 @@ def ray_waves(
     amplitude, fx, fy, share, field, far = (np.concatenate(column) for column in zip(*blocks, strict=True))
     # The field over the area is its mean, exactly 1 for an evenly filled pupil.
     amplitude /= field.sum() / share.sum()
-    waves = Waves(amplitude, fx, fy, nodes.even, float(far.max(initial=0.0)), reach_um)
+    waves = Waves(amplitude, fx, fy, nodes.domain.symmetric, float(far.max(initial=0.0)), reach_um)
     return RayWaves(waves, counts, nodes.xi.size - share.size, nodes.xi.size)
 
 
@@ -273,12 +269,12 @@ def _nodes_of(lens: Lens, source: Source, counts: Counts, clip: bool) -> ClearNo
     return pupil_nodes(lens, source, counts, clip, whole=clip or all_reach(lens, source))
 
 
-def sampling_of(lens: Lens, found: RayWaves, clip: bool, convergence: Message | None) -> Message:
-    """Return in words what was summed, and how it converged."""
+def sampling_of(pupil: RayPupil, found: RayWaves, convergence: Message | None) -> Message:
+    """Return a description of the sum and its convergence."""
     parts = [disc_words(found.counts)]
-    if clip:
+    if pupil.clip:
         parts.append(Message("clipped by the clear semi-diameters"))
-    if lens.aim == "stop":
+    if pupil.lens.aim == "stop":
         parts.append(Message("aimed at the real stop"))
     if found.lost:
         parts.append(Message("{lost} rays lost", lost=found.lost))
@@ -287,8 +283,8 @@ def sampling_of(lens: Lens, found: RayWaves, clip: bool, convergence: Message | 
     return Message("{parts}", parts=tuple(parts))
 
 
-class _Watch:
-    """Reports progress, and ends the work where the caller cancels it."""
+class Watch:
+    """Reports progress and ends the work if the caller cancels it."""
 
     def __init__(
         self,
@@ -303,7 +299,7 @@ class _Watch:
         self.expected += nodes
 
     def advance(self, nodes: int) -> None:
-        """Add work done; raise Cancelled where the caller has cancelled it."""
+        """Add work done; raise Cancelled if the caller has cancelled it."""
         self.finished += nodes
         if self.cancelled and self.cancelled():
             raise Cancelled("the reference was cancelled before it was done")
@@ -311,6 +307,6 @@ class _Watch:
             self.progress(min(self.finished / self.expected, 0.99))
 
     def finish(self) -> None:
-        """Report that all is done."""
+        """Report that all work is done."""
         if self.progress:
             self.progress(1.0)

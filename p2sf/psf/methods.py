@@ -1,10 +1,11 @@
-"""All methods behind one function, the error each is predicted to make, and the cheapest that is good enough.
+"""All methods behind one function, their predicted errors, and the choice of the cheapest that is accurate enough.
 
 How the error is predicted is described in `prediction`. See handbook 5.6.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 from math import inf
 from time import perf_counter
 
@@ -15,24 +16,24 @@ from p2sf.errors import GeometryError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
-from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, without_coefficients
+from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reason_against_coefficients
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
-from p2sf.psf.fitted import psf_of_fit
+from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
-from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.huygens import RayPupil, Watch, sum_rays
 from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import (
-    AIRY_RADIUS,
     WINDOW_AIRY_RADII,
     check_focus,
+    check_image,
     check_quality,
     check_samples,
     seidel_psf,
     suitable_pixel_um,
 )
-from p2sf.psf.seidel_stack import LARGEST_NODES
+from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
 from p2sf.psf.traced import MOST_NODES as MOST_TRACED
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMask
@@ -40,33 +41,35 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import (
     LEVELS,
     RESIDUAL_WAVES,
-    Judges,
+    CheckRays,
+    FittedPencil,
     behind_mask,
     fit,
     fit_rays,
-    judging_rays,
     level_rays,
     levels_for,
+    trace_check_rays,
 )
 from p2sf.raytrace.pencil import Rays, pencil, to_the_rim
-from p2sf.raytrace.ray_field import steepness
+from p2sf.raytrace.ray_field import AIRY_RADIUS, steepness
 from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import one_blas_thread
 
 AUTO = "auto"
-BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be asked of a choice
-PITCH_RINGS = 8  # of rays, to see how far light reaches
+BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
+PITCH_RINGS = 8  # of rays, to estimate the extent of the light
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
 
 
 @dataclass(frozen=True)
 class Choice:
-    """The method to use, its predicted 1 − R², how many numbers it needs (0: rays), and what that was decided on.
+    """The method to use, its predicted 1 − R², its number of coefficients (0: rays), and the basis of the decision.
 
     ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
-    the 1 − R² asked for; ``seidel_error`` and ``fitted_error``, that of ``fitted_numbers``, are predictions, None where
-    none was made.
+    the tolerated 1 − R²; ``seidel_error`` and ``fitted_error``, that of ``fitted_numbers``, are predictions, None where
+    none was made. ``fit``: the fit made for the choice, if the method would make the same.
     """
 
     method: str
@@ -78,6 +81,7 @@ class Choice:
     seidel_error: float | None = None
     fitted_error: float | None = None
     fitted_numbers: int = 0
+    fit: FittedPencil | None = field(default=None, repr=False, compare=False)
 
     @property
     def reason(self) -> Message:
@@ -89,7 +93,7 @@ class Choice:
 
     @property
     def against_a_fit(self) -> Message:
-        """Return why no fit will do."""
+        """Return why no fit suffices."""
         if self.lost_rays:
             return Message(
                 "{lost} of {rays} rays are lost, and a smooth pupil does not describe that",
@@ -107,44 +111,63 @@ Cancelled = Callable[[], bool]
 
 
 @dataclass(frozen=True)
+class PsfOptions:
+    """How a PSF is made whatever it is of: "settled" or a "preview", its least R² by ``auto``, and within rims or not.
+
+    A fit takes as many numbers as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters: exact
+    rays tell where rims are, whatever describes the pupil within them.
+    """
+
+    quality: str = "settled"
+    tolerance: float = 0.99
+    clip: bool = False
+
+
+USUAL = PsfOptions()
+
+
+@dataclass(frozen=True)
 class PsfRequest:
     """What a method is asked for: everything a PSF depends on; ``window`` is (samples a side, µm between samples).
 
     ``numbers``: of a fit, as many as ``tolerance`` asks for where None. ``converged``: whether the reference adds rays
     until two sums agree, or sums once. ``six``: coefficients in place of the lens's own, which
-    ``by_hand`` are altered so that no ray judges them.
+    ``by_hand`` are altered so that no ray checks them. ``fit``: of the method that fits, where it is known already.
     """
 
     lens: Lens
     source: Source
     method: str
     window: tuple[int, float]
-    quality: str = "settled"
-    tolerance: float = 0.99
-    clip: bool = False
+    options: PsfOptions = USUAL
     numbers: int | None = None
     converged: bool = True
     six: Coefficients | None = None
     by_hand: bool = False
+    fit: FittedPencil | None = None
 
 
 def _most_by_six(mask: PupilMask) -> float:
-    """Return the most nodes of six coefficients: in rows over a quarter of the pupil where nothing stands in it."""
+    """Return the largest number of nodes for six coefficients: in rows over a quarter of the pupil if it is clear."""
     return 2 * LARGEST_NODES if mask.clear else MOST_FITTED / 2
 
 
 @dataclass(frozen=True)
 class Method:
-    """A way to describe the pupil of a lens for a source, and to make a PSF from it.
+    """A description of the pupil of a lens for a source, and the computation of a PSF from it.
 
-    ``psf``: returns the PSF, and may poll whether it is cancelled. ``reason``: why `choose` takes it, None where it
-    never does. ``six``: whether six coefficients describe the pupil, and no rays. ``previewed``: whether it has a
-    "preview" that costs less. ``whole``: whether it describes the whole pupil, and knows no rims that clip it.
-    ``pupil``: whether figures of the pupil can be had of it. ``node_seconds``: of a node of a settled sum on one core,
-    the peak included, and ``most_nodes``: behind a mask, the mirror half of a pupil not counted.
+    ``words``: its name and description in the window. ``psf``: returns the PSF, and may poll whether it is cancelled.
+    ``reason``: why `choose` takes it, None if it never does. ``six``: whether six coefficients describe the pupil, and
+    no rays. ``previewed``: whether it has a "preview" that costs less. ``whole``: whether few numbers describe the
+    whole pupil, of which rims leave a part. ``pupil``: whether it provides figures of the pupil. ``node_seconds``:
+    of a node of a settled sum on one core, the peak included, and ``most_nodes``: behind a mask, the mirror half of a
+    pupil not counted. ``nodes``: how many a sum has whatever the rays do, of a method with a grid of its own; None
+    where that follows from blur and window. ``of_reference``: makes the PSF from that of the reference, where it takes
+    no other way.
     """
 
     name: str
+    words: Message
     psf: Callable[[PsfRequest, Cancelled | None], Psf]
     reason: Callable[[Choice], Message] | None
     six: bool = False
@@ -153,6 +176,8 @@ class Method:
     pupil: bool = True
     node_seconds: float = TABLE_SECONDS
     most_nodes: Callable[[PupilMask], float] = lambda mask: MOST_FITTED / 2
+    nodes: Callable[[PsfRequest], float] | None = None
+    of_reference: Callable[[Psf], Psf] | None = None
 
 
 def residual_for(tolerance: float) -> float:
@@ -165,29 +190,33 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     """Return the cheapest method whose predicted R² is at least ``tolerance``, without running the reference.
 
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
-    Raises GeometryError where the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
+    Raises GeometryError if the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
     """
     _check_tolerance(tolerance, BELOW_ONE)
     allowed = 1 - tolerance
     xi, eta, weight = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
     if not rays.passed.all():
-        # Only rays know an edge: neither six coefficients nor a fit do.
+        # Only rays represent an edge; six coefficients and fits do not.
         lost = int((~rays.passed).sum())
         return _by_rays(Choice("traced", EDGE_ERROR, 0, lost, xi.size, allowed), EDGE_ERROR)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     steep, mask = steepness(rays, xi, eta), mask_seen(lens, source)
-    judges = None if mask.clear else judging_rays(lens, source, mask)
-    seidel = _seidel_error(c, (xi, eta, weight), rays, judges, mask) if without_coefficients(lens) is None else inf
+    checks = None if mask.clear else trace_check_rays(lens, source, mask)
+    seidel = (
+        _seidel_error(c, (xi, eta, weight), rays, checks, mask) if reason_against_coefficients(lens) is None else inf
+    )
     tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
     if seidel <= allowed:
         return tried
     for level in levels_for(lens)[: len(QUICK_LEVELS)]:
         found = fit_rays(rays, level, level.rays, steep)
-        found = found if judges is None else behind_mask(found, judges)
+        found = found if checks is None else behind_mask(found, checks)
         fitted = predicted_error(found.error_waves, "fitted")
         if fitted <= allowed:
-            return replace(tried, method="fitted", predicted_error=fitted, numbers=level.numbers, fitted_error=fitted)
+            own = None if clip or checks is not None else found
+            tried = replace(tried, method="fitted", predicted_error=fitted, fitted_error=fitted, fit=own)
+            return replace(tried, numbers=level.numbers)
     return _by_rays(replace(tried, fitted_error=fitted, fitted_numbers=level.numbers), TRACED_ERROR)
 
 
@@ -197,18 +226,18 @@ def _check_tolerance(tolerance: float, largest: float = 1.0) -> None:
 
 
 def _by_rays(tried: Choice, error: float) -> Choice:
-    """Return `traced` where the error it makes is allowed, else the reference."""
+    """Return `traced` if its error is allowed, else the reference."""
     if error <= tried.allowed_error:
         return replace(tried, method="traced", predicted_error=error, numbers=0)
     return replace(tried, method="huygens", predicted_error=SETTLED_TOLERANCE**2, numbers=0)
 
 
 def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
-    """Return the predicted 1 − R² of six coefficients ``c``; infinite where they do not know what rays do.
+    """Return the predicted 1 − R² of six coefficients ``c``; infinite if they do not apply.
 
-    That is where rays are lost, and for a lens that `without_coefficients` names.
+    They do not if rays are lost, or for a lens refused by `reason_against_coefficients`.
     """
-    if without_coefficients(lens):
+    if reason_against_coefficients(lens):
         return inf
     xi, eta, weight = level_rays(levels_for(lens)[0])
     try:
@@ -218,22 +247,22 @@ def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
     if not rays.passed.all():
         return inf
     mask = mask_seen(lens, source)
-    judges = None if mask.clear else judging_rays(lens, source, mask)
-    return _seidel_error(c, (xi, eta, weight), rays, judges, mask)
+    checks = None if mask.clear else trace_check_rays(lens, source, mask)
+    return _seidel_error(c, (xi, eta, weight), rays, checks, mask)
 
 
 def _seidel_error(
     c: Coefficients,
     points: tuple[np.ndarray, np.ndarray, np.ndarray],
     data: Rays,
-    judges: Judges | None,
+    checks: CheckRays | None,
     mask: PupilMask,
 ) -> float:
-    """Return the predicted 1 − R² of six coefficients from rays, where there is a mask from those that pass it."""
-    # A narrow ring spreads its light so much more.
+    """Return the predicted 1 − R² of six coefficients from rays, behind a mask from those that pass it."""
+    # A narrow ring spreads its light more by this factor.
     spread = steepness(data, *points[:2]).light_um / (1 - mask.obscuration)
-    if judges is not None:
-        points, data = (judges.xi, judges.eta, judges.share), judges.data
+    if checks is not None:
+        points, data = (checks.xi, checks.eta, checks.share), checks.data
     return predicted_error(seidel_sigma(c, data, points, spread), "seidel")
 
 
@@ -244,27 +273,23 @@ def render(
     method: str = "auto",
     pixels: int = 64,
     pixel_um: float | None = None,
-    quality: str = "settled",
-    tolerance: float = 0.99,
-    clip: bool = False,
+    options: PsfOptions = USUAL,
 ) -> Psf:
-    """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ ``tolerance`` ("auto").
+    """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ the tolerance ("auto").
 
-    Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. A fit takes as many numbers
-    as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters; where a rim does clip, methods
-    that describe the whole pupil refuse it. Raises P2SFError: for an unknown method, no image, no rays, for
-    samples, a quality or a tolerance that cannot be.
+    Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. Raises P2SFError: for an
+    unknown method, without image or rays, and for impossible samples, quality or tolerance.
     """
     check_samples(pixels, pixel_um)
-    check_quality(quality)
-    _check_tolerance(tolerance)
+    check_quality(options.quality)
+    _check_tolerance(options.tolerance)
     if pixel_um is None:
         pixel_um = whole_pixel_um(lens, source, pixels)
-    asked = PsfRequest(lens, source, method, (pixels, pixel_um), quality, tolerance, clip)
+    asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
-    choice = choose(lens, source, tolerance, clip)
-    return psf_of(replace(asked, method=choice.method, numbers=choice.numbers))
+    choice = choose(lens, source, options.tolerance, options.clip)
+    return psf_of(replace(asked, method=choice.method, numbers=choice.numbers, fit=choice.fit))
 
 
 def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
@@ -289,19 +314,16 @@ def method_of(name: str) -> Method:
 
 
 def by_six(name: str) -> bool:
-    """Return whether six coefficients make the PSF of what is asked for by this name, whatever ``auto`` may choose."""
+    """Return whether a method of this name computes the PSF from six coefficients; False for ``auto``."""
     return any(method.six for method in METHODS if method.name == name)
 
 
 def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
     """Return the PSF of a request. ``cancelled`` is polled between blocks of rays and ends the work with `Cancelled`.
 
-    Raises P2SFError's kinds.
+    Raises subclasses of P2SFError.
     """
-    method = method_of(asked.method)
-    if asked.clip and method.whole:
-        check_unclipped(asked.lens, asked.source, method.name)
-    return method.psf(asked, cancelled)
+    return method_of(asked.method).psf(asked, cancelled)
 
 
 def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
@@ -309,49 +331,48 @@ def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     if c is None:
         check_seidel(lens)
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    psf = seidel_psf(c, *asked.window, asked.quality, mask=mask_seen(lens, source))
+    mask, nodes_of, started = mask_seen(lens, source), _nodes_within_rims(asked), perf_counter()
+    if nodes_of:
+        check_image(c)
+        psf = psf_of_fit(as_fit(c, mask), source.wavelength_um, asked.window, asked.options.quality, started, nodes_of)
+        psf = psf.with_fields(method="seidel", numbers=6)
+    else:
+        psf = seidel_psf(c, *asked.window, asked.options.quality, mask=mask)
     if asked.by_hand:
         return psf
-    psf = psf.with_fields(predicted_error=seidel_error(lens, source, c))
+    psf = psf.with_fields(predicted_error=seidel_error(lens, source, c) + EDGE_ERROR * bool(nodes_of))
     straight = Message(
         "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
     )
     return psf.with_fields(sampling=straight) if lens.misaligned else psf
 
 
+def _nodes_within_rims(asked: PsfRequest) -> NodesOf | None:
+    """Return the nodes of counts within rims, where these clip."""
+    return partial(pupil_nodes, asked.lens, asked.source, clip=True) if asked.options.clip else None
+
+
 def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     started = perf_counter()
-    found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.tolerance))
-    return psf_of_fit(found, asked.source.wavelength_um, asked.window, asked.quality, started)
+    found = asked.fit
+    if found is None:
+        found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.tolerance))
+    wavelength, quality = asked.source.wavelength_um, asked.options.quality
+    return psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
 
 
 def _by_traced_rays(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
-    return traced_psf(asked.lens, asked.source, *asked.window, asked.quality, asked.clip, cancelled)
+    return traced_psf(asked.lens, asked.source, *asked.window, asked.options.quality, asked.options.clip, cancelled)
 
 
 def _by_huygens(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
-    tolerance = SETTLED_TOLERANCE if asked.quality == "settled" and asked.converged else None
-    window, clip, quality = asked.window, asked.clip, asked.quality
-    return huygens_psf(asked.lens, asked.source, *window, tolerance, cancelled=cancelled, clip=clip, quality=quality)
+    tolerance = SETTLED_TOLERANCE if asked.options.quality == "settled" and asked.converged else None
+    pupil = RayPupil(asked.lens, asked.source, asked.options.clip)
+    return sum_rays(pupil, asked.window, tolerance, Watch(cancelled=cancelled), asked.options.quality)
 
 
 def _by_gaussian(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     return gaussian_psf(_by_huygens(asked, cancelled))
-
-
-def check_unclipped(lens: Lens, source: Source, method: str) -> None:
-    """Raise GeometryError where rims clip a pupil that this method describes as whole."""
-    xi, eta, _ = level_rays(levels_for(lens)[0])
-    lost = int((~pencil(lens, source, xi, eta, clip=True).passed).sum())
-    if lost:
-        raise GeometryError(
-            "rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or "
-            "leave {parameter} off",
-            parameter="clip",
-            lost=lost,
-            rays=xi.size,
-            method=method,
-        )
 
 
 def _six_suffice(choice: Choice) -> Message:
@@ -381,13 +402,44 @@ def _nothing_else_suffices(choice: Choice) -> Message:
     return Message("the reference itself, since {because}", because=choice.against_a_fit)
 
 
-SEIDEL = Method("seidel", _by_six, _six_suffice, six=True, previewed=True, whole=True, most_nodes=_most_by_six)
-FITTED = Method("fitted", _by_fit, _a_fit_suffices, previewed=True, whole=True)
-TRACED = Method("traced", _by_traced_rays, _rays_suffice, previewed=True, most_nodes=lambda mask: MOST_TRACED)
-HUYGENS = Method(
-    "huygens", _by_huygens, _nothing_else_suffices, node_seconds=RAY_SECONDS, most_nodes=lambda mask: MOST_RAYS
+SEIDEL = Method(
+    "seidel",
+    Message("seidel: six coefficients"),
+    _by_six,
+    _six_suffice,
+    six=True,
+    previewed=True,
+    whole=True,
+    most_nodes=_most_by_six,
 )
-GAUSSIAN = replace(HUYGENS, name="gaussian", psf=_by_gaussian, reason=None, pupil=False)
+FITTED = Method(
+    "fitted", Message("fitted: polynomial from real rays"), _by_fit, _a_fit_suffices, previewed=True, whole=True
+)
+TRACED = Method(
+    "traced",
+    Message("traced: exact wavefront"),
+    _by_traced_rays,
+    _rays_suffice,
+    previewed=True,
+    most_nodes=lambda mask: MOST_TRACED,
+)
+HUYGENS = Method(
+    "huygens",
+    Message("huygens: the reference sum"),
+    _by_huygens,
+    _nothing_else_suffices,
+    node_seconds=RAY_SECONDS,
+    most_nodes=lambda mask: MOST_RAYS,
+)
+GAUSSIAN = replace(
+    HUYGENS,
+    name="gaussian",
+    words=Message("gaussian: fitted to the reference"),
+    psf=_by_gaussian,
+    reason=None,
+    pupil=False,
+    of_reference=gaussian_psf,
+)
 METHODS = (GAUSSIAN, SEIDEL, FITTED, TRACED, HUYGENS)
 """From the cheapest description to the reference."""
 NAMES = tuple(method.name for method in METHODS)

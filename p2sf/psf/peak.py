@@ -1,14 +1,16 @@
-"""The peak of a continuous picture, which samples miss: its Strehl ratio, whatever the pixel and the window.
+"""The peak of a continuous picture between its samples, and so the Strehl ratio for any pixel and window.
 
 The intensity holds no frequency above 2s, s being the highest of the pupil's, and is not negative. If M is its maximum,
 it is at least M·cos²(2πs·d) at a distance d from there, d ≤ 1/(4s), since a function bounded by 1 follows a cosine at
-the fastest (Duffin & Schaeffer 1938, of 2I/M − 1). So a sample bounds how high the picture rises beside it,
-and Newton's method starts from the local maxima of the samples, highest first, until no other can lead higher. The
-search is complete but for three savings: a window with a dark border is not looked beyond (DARK), at most MOST_CLIMBS
-maxima are tried, and fewer where a climb is dear (MOST_TERMS).
+the fastest (Duffin & Schaeffer 1938, of 2I/M − 1). So a sample bounds the picture around it, and Newton's method starts
+from the local maxima of the samples, highest first, until no other can lead higher. The search is complete except for
+three savings: it stays inside a window with a dark border (DARK), tries at most MOST_CLIMBS maxima, and fewer if a
+climb is expensive (MOST_TERMS).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache, partial
 from math import ceil, cos, hypot, pi, sqrt
@@ -19,17 +21,33 @@ from p2sf.conventions import centred_axis
 from p2sf.psf.sums.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 
-FINE = 6  # samples per period of the pupil's highest frequency where the picture is looked at on a grid of its own
-ENOUGH_SAMPLES = 4  # of them that the samples of a picture need to serve instead
+FINE = 6  # samples per period of the pupil's highest frequency on a separate grid for the search
+ENOUGH_SAMPLES = 4  # of them that suffice if the samples of the picture are used instead
 MOST_SAMPLES = 512  # along a side of that grid
-BORDER = 1.5  # periods about the farthest ray where the peak may be
-DARK = 0.02  # of the brightest sample: a window with so dark a border holds the blur
+BORDER = 1.5  # periods around the farthest ray where the peak may be
+DARK = 0.02  # of the brightest sample: a window with so dark a border contains the blur
 MOST_CLIMBS = 16
 MOST_TERMS = 2**17  # waves times climbs, after the first: some tens of milliseconds
-MOST_IN_PREVIEW = 2**12  # waves to climb by in a preview, which else takes its best sample
+MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
 CLIMB_STEPS = 12  # of Newton's method
 ENOUGH = {"preview": 1e-3, "settled": 1e-6}  # of the peak: the next step gains about the square of it
 ROUNDING = 1e-9
+_later: ContextVar[bool] = ContextVar("later", default=False)
+
+
+@contextmanager
+def peaks_on_demand() -> Iterator[None]:
+    """Defer the search for the peaks of PSFs made within until they are read: it takes half of their time."""
+    before = _later.set(True)
+    try:
+        yield
+    finally:
+        _later.reset(before)
+
+
+def look_later() -> bool:
+    """Return whether this is within `peaks_on_demand`."""
+    return _later.get()
 
 
 @dataclass(frozen=True)
@@ -48,9 +66,9 @@ def peak_on_demand(
     reaching: Callable[[float], Waves | None],
     quality: str = "settled",
 ) -> Callable[[], Peak]:
-    """Return a function that returns `peak_of`; that of a "preview" is looked for when it is first called."""
+    """Return a function that returns `peak_of`; for a "preview", or if `look_later`, it searches when called."""
     find = partial(peak_of, intensity, pixel_um, waves, reaching, quality)
-    if quality == "preview" and waves.fx.size <= MOST_IN_PREVIEW:
+    if look_later() or (quality == "preview" and waves.fx.size <= MOST_IN_PREVIEW):
         return cache(find)
     found = find()
     return lambda: found
@@ -64,14 +82,14 @@ def peak_of(
     reaching: Callable[[float], Waves | None],
     quality: str = "settled",
 ) -> Peak:
-    """Return the peak of a picture, of which ``intensity`` (y, x) are samples in a window, by the pupil's own sum.
+    """Return the peak of a picture with samples ``intensity`` (y, x) in a window, by the sum over the pupil.
 
-    ``waves``: what was sampled. ``reaching`` returns waves that carry the phase up to a distance from the chief ray,
-    µm, or None where these are too many. The peak is looked for wherever rays land, also beside the window, unless
-    that has a dark border or it takes too many waves. A "preview" climbs from the best sample alone.
+    ``waves``: what was sampled. ``reaching`` returns waves that resolve the phase up to a distance from the chief ray,
+    µm, or None if these are too many. The peak is sought wherever rays land, also outside the window, unless the window
+    has a dark border or too many waves are needed. A "preview" climbs from the best sample only.
     """
     axis, brightest = centred_axis(intensity.shape[-1], pixel_um), sampled_peak(intensity, pixel_um)
-    if not waves.spread:  # a single wave, equally bright everywhere
+    if not waves.spread:  # a single wave has uniform intensity
         return brightest
     if quality == "preview":
         few = waves.fx.size <= MOST_IN_PREVIEW
@@ -126,7 +144,7 @@ def _border(intensity: np.ndarray) -> float:
 
 
 def _parabola_tops(intensity: np.ndarray, indices: np.ndarray) -> np.ndarray:
-    """Return the tops of parabolas through samples and their neighbours, and samples on the border as they are.
+    """Return the tops of parabolas through samples and their neighbours; samples on the border are unchanged.
 
     ``indices``: (n,) flat ones.
     """
@@ -144,9 +162,9 @@ def _parabola_tops(intensity: np.ndarray, indices: np.ndarray) -> np.ndarray:
 
 
 def _highest(waves: Waves, starts: list[tuple[float, float, float]]) -> Peak:
-    """Return the highest peak by climbing from each place that can lead higher, the most promising first.
+    """Return the highest peak by climbing from each point that can lead higher, the most promising first.
 
-    Of many waves only the most promising few places are tried.
+    With many waves only the most promising few points are tried.
     """
     highest = climb(waves, *starts[0][1:])
     for bound, x, y in starts[1 : max(1, MOST_TERMS // waves.fx.size)]:
@@ -158,7 +176,7 @@ def _highest(waves: Waves, starts: list[tuple[float, float, float]]) -> Peak:
 
 
 def climb(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:
-    """Return the maximum about a place; no step goes farther than half of what the pupil resolves."""
+    """Return the maximum near a point; no step exceeds half of the resolution of the pupil."""
     most = 1 / (8 * waves.spread)
     for _ in range(CLIMB_STEPS):
         value, step_x, step_y, gain = waves.near(x, y)

@@ -1,4 +1,4 @@
-"""From the plane waves of a pupil to its `Psf`: the sum over a window, the peak, the share of the light."""
+"""From the plane waves of a pupil to its `Psf`: the samples in a window, the peak, the share of light."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ Window = tuple[int, float]
 
 @dataclass(frozen=True)
 class Origin:
-    """How a PSF was made, for its labels; ``started`` is a `perf_counter` reading."""
+    """How a PSF was computed, for its labels; ``started`` is a `perf_counter` reading."""
 
     method: str
     numbers: int
@@ -56,7 +56,7 @@ def psf_from_intensity(
     """Return the PSF of an intensity in units of the unaberrated peak.
 
     ``blur_um2`` is the integral of that intensity over the whole plane, None if unknown. A sum of samples is an
-    integral only while the pitch is below half the period of the finest fringe; else the caller passes None. ``peak``
+    integral only if the pitch is below half the period of the finest fringe; otherwise the caller passes None. ``peak``
     returns that of the continuous intensity.
     """
     total = float(intensity.sum(dtype=float))
@@ -79,5 +79,5 @@ def psf_from_intensity(
 
 
 def resolved(spread: float, pixel_um: float) -> bool:
-    """Return whether samples this far apart follow the finest fringes, 2·spread cycles per µm."""
+    """Return whether samples at this distance resolve the finest fringes, 2·spread cycles per µm."""
     return 2 * spread * pixel_um <= 1

@@ -1,6 +1,7 @@
-"""The light that square pixels receive, for files that others read: a finer PSF, added up over each pixel.
+"""The light on square pixels, for exported files: a finer PSF summed over each pixel.
 
-Samples farther apart than λ/(4 NA) miss the rings between them, and none stands for the light around it (handbook 6.6).
+Samples farther apart than λ/(4 NA) miss the rings between them and do not represent the light around them (handbook
+6.6).
 """
 
 from collections.abc import Callable
@@ -13,8 +14,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.methods import AUTO, REFERENCE, method_of, render, whole_pixel_um
+from p2sf.psf.methods import AUTO, REFERENCE, USUAL, PsfOptions, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
@@ -23,11 +23,11 @@ from p2sf.raytrace.vignetting import pupil_nodes
 
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
 ROUNDING = 1e-9
-RAYS = 24, 96  # radii × directions that tell how much light lands in a window
+RAYS = 24, 96  # radii × directions for the share of light in a window
 
 
 def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray) -> np.ndarray:
-    """Return λ/(4 NA), µm, up to which samples hold all of a PSF.
+    """Return λ/(4 NA), µm, the largest pitch at which samples determine a PSF.
 
     An incoherent image holds no frequency above 2NA/λ (Goodman 2005, §6.3).
     """
@@ -38,11 +38,12 @@ def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray)
 def samples_across(pixels: int, pixel_um: float, finest_um: float, fewest: float = 1.0) -> int:
     """Return an odd number of samples across each pixel, within half of ``finest_um`` of each other; 1 for points.
 
-    Pixels up to ``finest_um`` wide are points, and where ``fewest`` is less than 1 only those up to that share of it.
+    Pixels up to ``finest_um`` wide are points; if ``fewest`` is less than 1, only those up to that share of it.
 
-    A sum over samples errs at the pixel's edges alone, by their pitch to the fourth power: in the middle of an Airy
-    pattern by 4e-3 with 5 samples at ``finest_um``, 3e-4 at half. So far apart they are where that takes more than
-    LARGEST a side, and at points where even this does, as where pixels are as narrow as ``finest_um``.
+    The error of the sum arises only at the edges of the pixel and is proportional to the fourth power of the pitch: in
+    the centre of an Airy pattern it is 4e-3 with 5 samples at ``finest_um``, 3e-4 at half. The coarser pitch is used if
+    the finer one takes more than LARGEST samples a side, and points if even that does, or if pixels are as narrow as
+    ``finest_um``.
     """
     ratio = pixel_um / finest_um * (1 - ROUNDING)
     counts = (max(3, ceil(2 * ratio) | 1), ceil(ratio) | 1) if ratio > fewest else ()
@@ -52,7 +53,7 @@ def samples_across(pixels: int, pixel_um: float, finest_um: float, fewest: float
 def fine_side(pixels: int, across: int) -> int:
     """Return the samples a side whose first ``pixels``·``across`` cover the pixels.
 
-    Sample N//2 is the chief ray in either grid, so an even number of pixels begins half a pixel lower.
+    Sample N//2 is the chief ray in either grid, so an even number of pixels starts half a pixel lower.
     """
     return pixels * across + (0 if pixels % 2 else across - 1)
 
@@ -72,18 +73,18 @@ def integrate(
     finest_um: float,
     wanted: bool | None = None,
 ) -> Psf:
-    """Return the PSF that ``render_at(samples, µm)`` makes, as light per pixel or as its samples.
+    """Return the PSF of ``render_at(samples, µm)`` as light per pixel or as its samples.
 
     ``wanted``: light per pixel (True), samples (False) or, if None, light where the pitch exceeds ``finest_um`` and
-    that takes at most LARGEST samples a side. Raises SamplingError where the light is wanted and takes more.
-    Samples so far apart that they add up to no share of the light take it from the light per pixel.
+    that takes at most LARGEST samples a side. Raises SamplingError if light is requested and takes more. If samples are
+    too far apart to give a share of the light, it is taken from the light per pixel.
     """
     check_samples(pixels, pixel_um)
     across = samples_across(pixels, pixel_um, finest_um, 0.0 if wanted else 1.0)
     if wanted and across == 1:
         raise SamplingError(
-            "{pixels} pixels of {pixel_um:g} µm take more than {most} samples a side to be integrated over; give "
-            "fewer or smaller pixels, or {parameter} False",
+            "the light on {pixels} pixels of {pixel_um:g} µm takes more than {most} samples a side; give fewer or "
+            "smaller pixels, or {parameter} False",
             pixels=pixels,
             pixel_um=pixel_um,
             most=LARGEST,
@@ -115,29 +116,26 @@ def render_integrated(
     method: str = "auto",
     pixels: int = 64,
     pixel_um: float | None = None,
-    tolerance: float = 0.99,
-    quality: str = "settled",
-    clip: bool = False,
+    options: PsfOptions = USUAL,
     wanted: bool | None = None,
 ) -> Psf:
-    """Return `methods.render`'s PSF as light per pixel or as samples, as `integrate` has it; P2SFError as both.
+    """Return the PSF of `methods.render` as light per pixel or as samples, by `integrate`; raises as both do.
 
-    Of a window too wide for a sum of waves the share of the light in it is that of rays.
+    In a window too wide for a sum of waves the share of light is that of rays.
     """
     check_samples(pixels, pixel_um)
-    if method != AUTO and not method_of(method).pupil:  # fitted to what pixels see
-        return gaussian_psf(
-            render_integrated(lens, source, REFERENCE, pixels, pixel_um, tolerance, quality, clip, wanted)
-        )
+    derived = None if method == AUTO else method_of(method).of_reference
+    if derived:  # fitted to what pixels see
+        return derived(render_integrated(lens, source, REFERENCE, pixels, pixel_um, options, wanted))
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     psf = integrate(
-        lambda count, pitch: render(lens, source, method, count, pitch, quality, tolerance, clip),
+        lambda count, pitch: render(lens, source, method, count, pitch, options),
         pixels,
         pixel_um or whole_pixel_um(lens, source, pixels),
         float(critical_pixel_um(c.wavelength_um, c.na)),
         wanted,
     )
-    return psf if psf.energy is not None else psf.with_fields(energy=light_of_rays(lens, source, psf, clip))
+    return psf if psf.energy is not None else psf.with_fields(energy=light_of_rays(lens, source, psf, options.clip))
 
 
 def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:

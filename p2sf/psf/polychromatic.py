@@ -1,4 +1,4 @@
-"""The colour PSF: one PSF per wavelength, added up where each lands, in CIE XYZ (handbook 9.1)."""
+"""The colour PSF: the sum of one PSF per wavelength at its position, in CIE XYZ (handbook 9.1)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ from p2sf.threads import one_blas_thread
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm
 MOST = 400
 PASSING = 6, 20  # nodes over the pupil, across which absorption changes slowly
-TRIED = 9  # wavelengths from which the width of a window is chosen
+TRIED = 9  # wavelengths that determine the width of a window
 
 Renderer = Callable[[Lens, Source, int, float], Psf]
 """A function that renders one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
@@ -37,9 +37,10 @@ Renderer = Callable[[Lens, Source, int, float], Psf]
 class ColourPsf:
     """X, Y, Z of the image of a point, ``xyz`` (y, x, 3), rows +y; sample N//2 is the chief ray of the source's colour.
 
-    Y sums to ``light_in_window``, the share of all light that falls into it; None where samples are too far apart to
-    tell, and then Y sums to an estimate. ``wavelengths_um`` were rendered by ``methods``; ``shift_um``: how far above
-    that of the source's colour each chief ray lands, ``aside_um``: how far to the right of it, 0 in a lens of symmetry.
+    Y sums to ``light_in_window``, the share of all light that falls into it; None if samples are too far apart to
+    determine it, and then Y sums to an estimate. ``wavelengths_um`` were rendered by ``methods``; ``shift_um``: height
+    of each chief ray above that of the source's colour, ``aside_um``: its distance to the right, 0 for a symmetric
+    lens.
     """
 
     xyz: np.ndarray
@@ -75,8 +76,8 @@ def colour_psf(
     """Return the PSF of a point with this spectrum over (pixels, µm per pixel), centred on the source's own wavelength.
 
     ``method``: the name of a method, or a function that renders one PSF. The PSF of each wavelength is shifted to where
-    its chief ray lands (lateral colour), by linear interpolation, which keeps light and sign. Raises RequestError for
-    a count out of range, GlassError for a line outside the data of a glass.
+    its chief ray lands (lateral colour), by linear interpolation, which keeps light and sign. Raises RequestError for a
+    count outside its range, GlassError for a line outside the data of a glass.
     """
     started = perf_counter()
     if not 1 <= count <= MOST:
@@ -99,7 +100,7 @@ def colour_psf(
 def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: int, stop: Stop | None = None) -> float:
     """Return the pitch at which the window shows the PSF of every colour, lateral colour included, µm.
 
-    Raises GeometryError where the image of the source's own colour lies at infinity.
+    Raises GeometryError if the image of the source's own colour lies at infinity.
     """
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
     check_focus(own)
@@ -118,7 +119,7 @@ def by_method(method: str) -> Renderer:
 
 
 def bands_through(lens: Lens, source: Source, spectrum: Spectrum, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the `bands` of a spectrum within the data of all glasses, weighted by what media pass of each, ΣY = 1."""
+    """Return the `bands` of a spectrum within the data of all glasses, weighted by transmission, ΣY = 1."""
     known = lens_range_um(lens)
     waves, weights = bands(spectrum, count, *((known,) if known else ()))
     if any(lens.absorbs):
@@ -128,7 +129,7 @@ def bands_through(lens: Lens, source: Source, spectrum: Spectrum, count: int) ->
 
 
 def _passing_share(lens: Lens, source: Source) -> float:
-    """Return the share of the light that enters the pupil which surfaces and media pass."""
+    """Return the transmission of surfaces and media for the light that enters the pupil."""
     nodes = pupil_nodes(lens, source, PASSING)
     rays = rays_through(lens, source, nodes)
     light, entering = rays.share * rays.light, rays.share * rays.launch * np.square(rays.mask)
@@ -138,8 +139,7 @@ def _passing_share(lens: Lens, source: Source) -> float:
 def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
     """Return the share of all its light that the PSF of each wavelength has in the window.
 
-    All by one rule, so that no wavelength is weighed unlike the next: ``energy`` where every PSF has it, else
-    `estimated_share`.
+    All by one rule, so that wavelengths are weighted alike: ``energy`` if every PSF has it, else `estimated_share`.
     """
     known = [float(psf.energy) for psf in made if psf.energy is not None]
     if len(known) == len(made):
@@ -150,9 +150,9 @@ def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
 
 
 def estimated_share(psf: Psf, na: float, spreading: float = 1.0) -> float:
-    """Return Σ samples·π(NA·pixel/λ)² as `seidel.energy_fraction` does, also where samples are too far apart for it.
+    """Return Σ samples·π(NA·pixel/λ)² as `seidel.energy_fraction` does, even if samples are too far apart for it.
 
-    ``spreading``: that of the mask in the stop (`mask_nodes.Throughput`).
+    ``spreading``: that of the pupil mask (`mask_nodes.Throughput`).
     """
     units = psf.over_unaberrated
     total = np.nan if units is None else float(units.sum())
@@ -162,15 +162,15 @@ def estimated_share(psf: Psf, na: float, spreading: float = 1.0) -> float:
 
 
 def chief_shifts_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:
-    """Return how far above that of the source the exact chief ray of each wavelength lands, µm: lateral colour."""
+    """Return the height of the exact chief ray of each wavelength above that of the source, µm: lateral colour."""
     shift: np.ndarray = chief_places_um(lens, source, wavelengths_um)[1]
     return shift
 
 
 def chief_places_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np.ndarray:
-    """Return how far beside and above that of the source the chief ray of each wavelength lands, (2, wavelengths) µm.
+    """Return x and y of the chief ray of each wavelength relative to that of the source, (2, wavelengths) µm.
 
-    In the axes of the source's image: of a lens of symmetry none lands beside it.
+    In the axes of the source's image: in a symmetric lens x is 0.
     """
     waves = np.append(np.asarray(wavelengths_um, dtype=float), source.wavelength_um)
     every = Sources(source.depth_mm, source.field_slope, waves)  # one trace for all wavelengths
@@ -181,7 +181,7 @@ def chief_places_um(lens: Lens, source: Source, wavelengths_um: ArrayLike) -> np
 
 
 def shifted_up(values: np.ndarray, rows: float) -> np.ndarray:
-    """Return samples moved up by a number of rows, fractions linearly interpolated; what leaves the window is lost."""
+    """Return samples shifted up by a number of rows, by linear interpolation; light that leaves the window is lost."""
     whole = int(np.floor(rows))
     part = rows - whole
     return (1 - part) * _move_rows(values, whole) + (part * _move_rows(values, whole + 1) if part else 0.0)
@@ -203,7 +203,7 @@ def screen_rgb(found: ColourPsf) -> np.ndarray:
 
 
 def faint_rgb(found: ColourPsf, stretch: Callable[[np.ndarray], np.ndarray] = np.sqrt) -> np.ndarray:
-    """Return linear sRGB as `screen_rgb` does, with the brightest channel of each sample stretched, its hue kept."""
+    """Return linear sRGB as `screen_rgb` does, with the brightest channel of each sample stretched at constant hue."""
     rgb = screen_rgb(found)
     top = rgb.max(-1, keepdims=True)
     stretched: np.ndarray = rgb * np.divide(stretch(top), top, out=np.zeros_like(top), where=top > 0)
@@ -211,7 +211,7 @@ def faint_rgb(found: ColourPsf, stretch: Callable[[np.ndarray], np.ndarray] = np
 
 
 def record(found: ColourPsf) -> dict:
-    """Return all that a colour PSF holds but the samples, by name."""
+    """Return all data of a colour PSF except the samples, by name."""
     return {
         "spectrum": found.spectrum,
         "pixel_um": found.pixel_um,

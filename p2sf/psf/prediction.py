@@ -1,14 +1,14 @@
-"""What error a method is predicted to make, without a reference (handbook 5.6).
+"""Prediction of the error of a method without a reference (handbook 5.6).
 
-Where two descriptions of the same ray differ by a phase e(ray), the fields differ by 2πe and 1 − R² is of the order
+If two descriptions of the same ray differ by a phase e(ray), the fields differ by 2πe and 1 − R² is of the order
 (2πσ)², σ the RMS of e over the pupil. For a ray that lands at x,
 
     e = Δw + Δf·x,
 
-Δw the difference of phase and Δf of spatial frequency: for `seidel` against the traced rays themselves (higher
-orders and the departure of the pupil map), for `fitted` on rays that took no part in the fit. Diffraction spreads a
-ray's light about x, by the Airy radius or by blur/√(Fresnel number), and Δf counts there too. How far 1 − R² can exceed
-(2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers that.
+Δw the difference of phase and Δf of spatial frequency: for `seidel` against the traced rays themselves (higher orders
+and the departure of the pupil map), for `fitted` on rays that were held out of the fit. Diffraction spreads a ray's
+light about x, by the Airy radius or by blur/√(Fresnel number), and Δf acts there too. The largest ratio of 1 − R² to
+(2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers it.
 """
 
 import numpy as np
@@ -21,10 +21,10 @@ from p2sf.raytrace.pencil import Rays
 # Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
-EDGE_ERROR = 1e-4  # over a pupil that ends at rims or where rays are lost (`traced.FALLBACK_TOLERANCE`)
+EDGE_ERROR = 1e-4  # over a pupil bounded by rims or lost rays (`traced.FALLBACK_TOLERANCE`)
 CAUTION = 1e-3  # 1 − R² above which a predicted error is pointed out
 
-USELESS = 1.0  # 1 − R² from which on an estimate for small phases tells only that PSFs are not alike
+USELESS = 1.0  # 1 − R² above which an estimate for small phases only shows that the PSFs differ
 TOO_FAR = Message("none: too far from exact rays to predict how far")
 
 
@@ -48,7 +48,7 @@ def seidel_sigma(
     own = slice(0, weight.size)
     variance = weight @ (error[own] - weight @ error[own]) ** 2
     departure = weight @ (miss_x[own] ** 2 + miss_y[own] ** 2)
-    # The six coefficients describe an even pupil; an error of the amplitude acts as a phase of 1/2π of it.
+    # The six coefficients describe a uniform pupil; an amplitude error acts as a phase of 1/2π of it.
     amplitude = rays.amplitude[own] / (weight @ rays.amplitude[own] / weight.sum())
     uneven = weight @ (amplitude - 1) ** 2 / (2 * np.pi) ** 2
     return float(np.sqrt(variance + departure * spread**2 + uneven))

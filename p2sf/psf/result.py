@@ -3,26 +3,34 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, Generic, TypeVar, overload
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.conventions import NM_PER_UM, centred_axis
 from p2sf.errors import P2SFWarning
 from p2sf.messages import Message, ParameterName
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from p2sf import Energy, LineSpread, Mtf
+
 UNSTATED = Message("")
-LEAST_LIGHT = 0.9  # share of all light below which a window cuts a PSF off, and this is said
-IN_WINDOW = "light in the window"  # what `Psf.energy` is called wherever it is shown, and that figures may be shares of
+LEAST_LIGHT = 0.9  # share of all light below which a warning says that the window cuts off the PSF
+IN_WINDOW = "light in the window"  # name of `Psf.energy` wherever it is shown, also as the reference of other figures
 
 Value = TypeVar("Value")
 Figure = float | np.ndarray | None
 
 
 class OnDemand(Generic[Value]):
-    """A field of `Psf`, None by default, that may be given as a function without arguments: its first reader calls it.
+    """A field of `Psf`, None by default, that may be given as a function without arguments, called on first access.
 
-    A picture that is dragged shows few of its figures, and some take as long as the picture.
+    During dragging few figures of a picture are shown, and some take as long as the picture.
     """
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -64,32 +72,32 @@ class Psf:
     wavelength_um : float or numpy.ndarray
         Wavelength, µm.
     method : str
-        The method that made it.
+        The method that computed it.
     strehl : float or numpy.ndarray or None
-        Peak of the continuous picture, between samples too and of no pixel's width, over the unaberrated peak of the
-        same pupil; None if the method has no pupil. It is looked for wherever rays land, outside the window too,
-        unless that takes too many pupil samples: of a very wide blur only in the window.
+        Peak of the continuous picture, also between samples and not integrated over pixels, divided by the unaberrated
+        peak of the same pupil; None if the method has no pupil. It is sought wherever rays land, also outside the
+        window, unless that takes too many pupil samples: for a very wide blur only in the window.
     energy : float or numpy.ndarray or None
-        Share of all light that falls into the window, though ``values`` have unit sum; None if it is not known.
+        Share of all light that falls into the window, although ``values`` have unit sum; None if unknown.
     numbers : int
-        How many coefficients describe it.
+        Number of coefficients that describe it.
     rays : int
-        How many rays were traced.
+        Number of rays traced.
     sampling : Message
-        Which grid was used.
+        The grid used.
     seconds : float
-        How long it took.
+        Computing time.
     tolerance : float or None
         Bound on the relative L2 error of the method's own sum in the window; None if it promises none.
     predicted_error : float or None
-        Predicted 1 − R² of the method against the reference, at these settings: what its description of the pupil
-        misses, which ``tolerance`` does not include. None if no rays were traced from which to tell.
+        Predicted 1 − R² of the method against the reference, at these settings: due to its description of the pupil,
+        which ``tolerance`` does not include. None if no rays were traced to predict it.
     azimuth_deg : float
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
     integrated : bool
         Whether a sample is the light on a whole pixel; if not, it is the intensity at a point.
     peak_um : tuple or numpy.ndarray or None
-        Where that peak is: x and y from the chief ray, µm, of a stack (…, 2).
+        Position of that peak: x and y from the chief ray, µm; (…, 2) for a stack.
     sum_over_peak : float or numpy.ndarray or None
         Sum of the samples in units of the unaberrated peak.
     """
@@ -112,7 +120,7 @@ class Psf:
     sum_over_peak: float | np.ndarray | None = None
 
     def with_fields(self, **values: Any) -> "Psf":
-        """Return the same PSF but for these fields; figures not worked out yet stay so, unlike with `replace`."""
+        """Return the same PSF with these fields replaced; unlike `replace` it does not evaluate deferred figures."""
         own = {name.removeprefix("_"): value for name, value in vars(self).items()}
         return Psf(**own | values)
 
@@ -124,7 +132,7 @@ class Psf:
         """Return the samples in units of the unaberrated peak; None if the method has no pupil."""
         if self.sum_over_peak is not None:
             scale = np.asarray(self.sum_over_peak)[..., None, None]
-        elif self.strehl is not None:  # of a file that does not state the sum
+        elif self.strehl is not None:  # from a file that does not state the sum
             peak = self.values.max((-2, -1), keepdims=True)
             scale = np.asarray(self.strehl)[..., None, None] / np.where(peak > 0, peak, 1.0)
         else:
@@ -134,7 +142,7 @@ class Psf:
 
     @property
     def caution(self) -> Message | None:
-        """Return a warning where the window leaves out much of the light, None where it does not."""
+        """Return a warning if the window misses much of the light, else None."""
         least = 1.0 if self.energy is None or not np.size(self.energy) else float(np.min(self.energy))
         if least >= LEAST_LIGHT:
             return None
@@ -168,6 +176,44 @@ class Psf:
             parts.append(f"{100 * self.energy:.3g} % of the {IN_WINDOW}")
         return f"<Psf: {', '.join(parts)}>"
 
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:
+        return np.array(self.values, dtype, copy=copy)
+
+    def mtf(self, frequency_per_mm: ArrayLike | None = None) -> "Mtf":
+        """Return the contrast at frequencies, cycles per mm, by the samples; see `p2sf.mtf_of_psf`."""
+        from p2sf import mtf_of_psf
+
+        return mtf_of_psf(self, frequency_per_mm)
+
+    def encircled_energy(self, radius_um: ArrayLike | None = None) -> "Energy":
+        """Return the share of all light within radii of the centroid, µm, by the samples; see `p2sf.energy_of_psf`."""
+        from p2sf import energy_of_psf
+
+        return energy_of_psf(self, radius_um)
+
+    def line_spread(self, position_um: ArrayLike | None = None) -> "LineSpread":
+        """Return the images of a line and an edge at distances, µm, by the samples; see `p2sf.line_spread_of_psf`."""
+        from p2sf import line_spread_of_psf
+
+        return line_spread_of_psf(self, position_um)
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the PSF on axes of matplotlib, new ones by default, and return them; see `p2sf.draw_psf`."""
+        from p2sf import draw_psf
+
+        if axes is None:
+            from matplotlib import pyplot
+
+            axes = pyplot.subplots(layout="constrained")[1]
+        draw_psf(axes, self)
+        return axes
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the PSF to a file, .npz, .tiff, .csv or .png by its ending; see `p2sf.write_psf`."""
+        from p2sf import write_psf
+
+        return write_psf(self, path)
+
     def _repr_png_(self) -> bytes | None:
         if self.values.ndim != 2:
             return None
@@ -181,7 +227,7 @@ class Psf:
 
 
 def warn_of_window(psf: Psf, stacklevel: int = 3) -> Psf:
-    """Return a PSF for a script to use, after a `P2SFWarning` where its window cuts it off."""
+    """Return a PSF for a script, after a `P2SFWarning` if its window cuts it off."""
     if psf.caution:
         warnings.warn(str(psf.caution), P2SFWarning, stacklevel=stacklevel)
     return psf

@@ -13,7 +13,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
-from p2sf.psf.peak import peak_of, sampled_peak
+from p2sf.psf.peak import look_later, peak_of, sampled_peak
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
@@ -23,15 +23,15 @@ from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
 from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
 from p2sf.raytrace.fit import FittedPencil
+from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.threads import one_blas_thread
 
-AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π, times λ/NA
 WINDOW_AIRY_RADII = 5
-LARGEST_SIDE = 2**12  # samples along each side: a picture of 128 MiB, and a few of them while it is summed
+LARGEST_SIDE = 2**12  # samples along each side: a picture of 128 MiB, and several of them during the sum
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
 LARGEST_FFT = 4096
-MOST_SEARCHED = 16  # PSFs of a stack whose peaks are looked for everywhere; of more, about the brightest sample
+MOST_SEARCHED = 16  # PSFs of a stack whose peaks are sought everywhere; for more, only near the brightest sample
 
 
 @one_blas_thread
@@ -46,15 +46,14 @@ def seidel_psf(
 ) -> Psf:
     """Return the PSF of the six coefficients over a uniform circular pupil, |FT{exp(i2πW)}|² (Pieroni et al. 2015).
 
-    ``mask``: what else stands in the pupil, in the coordinates of the source (`raytrace.seen_mask`); ``sampling`` "fft"
-    knows none.
+    ``mask``: the pupil mask in the coordinates of the source (`raytrace.seen_mask`); ``sampling`` "fft" supports none.
 
-    Coefficients of any shape give a stack (…, pixels, pixels) at one pitch; without ``pixel_um`` the one that
-    shows the widest of them. ``quality``: "settled" keeps a relative L2 error of 1e-4, "preview" is a 128² grid
-    for interactive use. ``sampling``: "mdft" takes any size and pitch, "fft" is the paper's padded FFT for even sizes.
-    ``dtype``: float32 or float64, by default float64 settled and float32 preview. Threads
-    (`p2sf.threads`) share a large stack, whose values do not depend on their number. Raises GeometryError for an
-    image at infinity, SamplingError for a grid that cannot be computed.
+    Coefficients of any shape give a stack (…, pixels, pixels) at one pitch; by default the one that shows the widest of
+    them. ``quality``: "settled" keeps a relative L2 error of 1e-4, "preview" is a 128² grid for interactive use.
+    ``sampling``: "mdft" takes any size and pitch, "fft" is the paper's padded FFT for even sizes. ``dtype``: float32 or
+    float64, by default float64 settled and float32 preview. Threads (`p2sf.threads`) share a large stack, whose values
+    do not depend on their number. Raises GeometryError for an image at infinity, SamplingError for a grid that cannot
+    be computed.
     """
     start = perf_counter()
     _check_options(quality, sampling)
@@ -62,7 +61,7 @@ def seidel_psf(
     pixel_um = check_window(coefficients, pixels, pixel_um)
     if sampling == "fft":
         if not mask.clear:
-            raise SamplingError("an FFT of square samples shows no edges of a mask; use mdft")
+            raise SamplingError("an FFT of square samples does not resolve the edges of a mask; use mdft")
         stack = _by_fft(coefficients, pixels, pixel_um, quality)
     else:
         dtype = dtype or (np.float32 if quality == "preview" else np.float64)
@@ -74,7 +73,7 @@ def seidel_psf(
 def plain_intensity(coefficients: Coefficients, pixels: int, pixel_um: float) -> np.ndarray:
     """Return |mean over the disc of exp(i2πW)·exp(−i2πn'u'(ξx + ηy)/λ)|², the definition, of one PSF.
 
-    The formula that `_seidel_sum` is tested against: polar nodes, one plane wave each, float64; (pixels, pixels).
+    The formula against which `_seidel_sum` is tested: polar nodes, one plane wave each, float64; (pixels, pixels).
     """
     slope, twist = (float(x) for x in steepest_polar(coefficients))
     scale = wave_number(coefficients)
@@ -99,7 +98,7 @@ def _by_fft(coefficients: Coefficients, pixels: int, pixel_um: float, quality: s
 def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str = "preview") -> int:
     """Return the paper's NPUPIL: at least 2·NPSF, its period holds blur and window, and the rim is fine enough.
 
-    Raises SamplingError where that is more than LARGEST_FFT.
+    Raises SamplingError if that exceeds LARGEST_FFT.
     """
     scale = np.abs(wave_number(coefficients)) * pixel_um
     blur = float(np.max(steepest_slope(coefficients) / scale))
@@ -143,8 +142,8 @@ def _result(
         return float(share) if single and share is not None else share
 
     peaks = cache(partial(_peaks, coefficients, stack, pixel_um, mask, quality))
-    if quality == "settled" and prod(stack.total.shape) <= MOST_SEARCHED:
-        peaks()  # now, and not when it is first read
+    if quality == "settled" and prod(stack.total.shape) <= MOST_SEARCHED and not look_later():
+        peaks()  # raised now, not on first access
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
@@ -175,7 +174,7 @@ def _peaks(
     for one, plane, total in zip(each_of(coefficients), planes, totals, strict=True):
         reaching = partial(_waves_reaching, one, as_fit(one, mask))
         waves = reaching(reach_um)
-        if waves is None:  # of so many waves, the brightest sample
+        if waves is None:  # with so many waves, the brightest sample
             peak = sampled_peak(plane * total, pixel_um)
         else:
             peak = peak_of(plane * total, pixel_um, waves, reaching, quality)
@@ -185,7 +184,7 @@ def _peaks(
 
 
 def _waves_reaching(c: Coefficients, fitted: FittedPencil, reach_um: float) -> Waves | None:
-    """Return `fitted.waves_reaching` of six coefficients, by W itself where no mask stands in the pupil."""
+    """Return `fitted.waves_reaching` of six coefficients, by W itself if there is no mask."""
     counts = counts_for(fitted.steepness, reach_um)
     if not fitted.mask.clear or prod(counts) > MOST_FOR_PEAK:
         return waves_reaching(fitted, reach_um)
@@ -201,8 +200,8 @@ def energy_fraction(
     """Return the fraction of all light in a window whose samples, in units of the unaberrated peak, sum to ``total``.
 
     The field is the transform of a disc of radius NA/λ and amplitude 1/(π(NA/λ)²), so by Parseval all the light is
-    1/(π(NA/λ)²), whatever W: a sample of 1 is π(NA·pixel/λ)² of it. None where the pitch is above λ/(2 NA), since
-    the sum of samples is then no integral. ``spreading``: how much larger all the light of a mask is
+    1/(π(NA/λ)²), whatever W: a sample of 1 is π(NA·pixel/λ)² of it. None if the pitch exceeds λ/(2 NA), since the sum
+    of samples is then not an integral. ``spreading``: the factor on all the light due to a mask
     (`mask_nodes.Throughput`).
     """
     cycles = np.abs(wave_number(coefficients)) * pixel_um
@@ -215,7 +214,7 @@ def energy_fraction(
 def suitable_pixel_um(coefficients: Coefficients, pixels: int = 64) -> np.ndarray:
     """Return the pitch at which the window shows the whole PSF, µm, shape of the coefficients.
 
-    Half a window holds the farthest ray, at |∇W|λ/NA, and five Airy radii for diffraction.
+    Half a window contains the farthest ray, at |∇W|λ/NA, and five Airy radii for diffraction.
     """
     check_image(coefficients)
     blur = steepest_slope(coefficients) + WINDOW_AIRY_RADII * AIRY_RADIUS
@@ -224,7 +223,7 @@ def suitable_pixel_um(coefficients: Coefficients, pixels: int = 64) -> np.ndarra
 
 
 def check_image(coefficients: Coefficients) -> None:
-    """Raise GeometryError where there is no image at a finite distance, or a coefficient is not a number."""
+    """Raise GeometryError if there is no image at a finite distance, or a coefficient is not a number."""
     c = coefficients
     check_focus(c)
     if anywhere(~np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope)):
@@ -237,7 +236,7 @@ def check_image(coefficients: Coefficients) -> None:
 
 
 def check_focus(coefficients: Coefficients) -> None:
-    """Raise GeometryError where there is no image at a finite distance."""
+    """Raise GeometryError if there is no image at a finite distance."""
     if anywhere(np.equal(coefficients.reduced_slope, 0)):
         raise GeometryError(
             "the image of this object lies at infinity (NA 0), so the sensor contains no PSF; move the object or "
@@ -251,7 +250,7 @@ def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None
     count = np.broadcast(*vars(coefficients).values()).size * int(pixels) ** 2
     if count > LARGEST_SAMPLES:
         raise SamplingError(
-            "{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs",
+            "{count:.3g} PSF samples exceed {most:.3g}; choose fewer pixels or fewer PSFs",
             count=count,
             most=LARGEST_SAMPLES,
         )
@@ -263,7 +262,7 @@ def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None
 
 
 def check_samples(pixels: int, pixel_um: float | None) -> None:
-    """Raise SamplingError for a count or a pitch that no samples can have; a pitch of None passes."""
+    """Raise SamplingError for an impossible count or pitch; a pitch of None passes."""
     if isinstance(pixels, bool) or not isinstance(pixels, int | np.integer) or pixels < 1:
         raise SamplingError("a PSF of {pixels} samples; give a whole number from 1", pixels=pixels)
     if pixels > LARGEST_SIDE:
@@ -275,7 +274,7 @@ def check_samples(pixels: int, pixel_um: float | None) -> None:
 
 
 def check_quality(quality: str) -> None:
-    """Raise SamplingError for a quality that is none."""
+    """Raise SamplingError for an unknown quality."""
     if quality not in ("settled", "preview"):
         raise SamplingError('quality "{quality}" is unknown; choose "settled" or "preview"', quality=quality)
 

@@ -1,8 +1,8 @@
 """Many PSFs at once, each on about as many pupil samples as its own phase needs.
 
-One PSF of steep phase must not slow down a whole stack: PSFs of one n'u'/λ are sorted by how steep their phase is
-and summed in batches, on the samples that the steepest of a batch needs. A batch shares a kernel, which costs as
-much as several PSFs, so smaller batches would save less than they cost.
+One PSF of steep phase must not slow down a whole stack: PSFs of one n'u'/λ are sorted by the steepness of their phase
+and summed in batches, on the samples required by the steepest of a batch. A batch shares a kernel, which costs as much
+as several PSFs, so smaller batches would save less than they cost.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -43,11 +43,11 @@ from p2sf.threads import map_threads, one_blas_thread, threads_or_default
 
 PREVIEW_GRID = 128
 LARGEST_NODES = 2**25  # of a quarter pupil: some 3000 waves of slope, seconds of work
-SORTED_AT_ONCE = 512  # PSFs whose slopes are found together, which takes some mebibytes
+SORTED_AT_ONCE = 512  # PSFs whose slopes are computed together, which takes some mebibytes
 NODES_TOGETHER = 2**18  # nodes of quarter pupils that a thread sums at a time: some 5 ms of work
-MOST_IN_ROWS = 2**24  # nodes of a quarter pupil times pixels of a side: beyond, rows are the slower sum
+MOST_IN_ROWS = 2**24  # nodes of a quarter pupil times pixels of a side: beyond, a sum by rows is slower
 MOST_ONE_BY_ONE = 2**23  # of the whole disc: beyond, only rows do
-SEIDEL_LEVEL = Level(PupilBasis(4, 1), 0, 0)  # of a fit that says what six coefficients do
+SEIDEL_LEVEL = Level(PupilBasis(4, 1), 0, 0)  # order of a fit equivalent to six coefficients
 
 Part = tuple[slice | np.ndarray, RowNodes]
 """Indices of PSFs that are summed together, and their nodes."""
@@ -95,9 +95,9 @@ def stack_of(
             taken.append(rows)
         return max(taken, key=_size)
 
-    if steep:  # sharing it out would take a tenth of its time
+    if steep:  # distributing it would take a tenth of its time
         if threads is not None:
-            threads_or_default(threads)  # refuses a number that is none
+            threads_or_default(threads)  # refuses an invalid number of threads
         with one_blas_thread:
             used = [fill([(slice(None), _rows(*steep, quality))])]
     else:
@@ -111,13 +111,13 @@ def stack_of(
 
 
 def _steepness(terms: np.ndarray, pixels: int, pixel_um: float, quality: str) -> tuple[np.ndarray, float]:
-    """Return the steepest phase of one PSF as `_slopes` has it, and the waves at the window's corner."""
+    """Return the steepest phase of one PSF as `_slopes` does, and the waves at the window's corner."""
     reach = corner_reach(abs(float(terms[0, 4])), pixels, pixel_um)
     return _slopes(terms[:, :4], reach, quality)[0], reach
 
 
 def _too_steep(slopes: np.ndarray, reach: float, pixels: int) -> bool:
-    """Return whether one PSF takes so many products that a non-uniform FFT is faster."""
+    """Return whether one PSF needs so many products that a non-uniform FFT is faster."""
     if slopes.size == 1 and _grid_samples(float(slopes[0]), reach) <= PREVIEW_GRID:
         return False
     rows, columns = chords_for(slopes[0], slopes[-1], reach, reach / sqrt(2))
@@ -187,7 +187,7 @@ def _size(rows: RowNodes) -> int:
 
 
 def _shares(parts: Iterable[Part]) -> Iterator[list[Part]]:
-    """Yield parts together, as many as make it worth while to hand them to a thread."""
+    """Yield parts in groups large enough to be worth a thread."""
     share, nodes = [], 0
     for some, rows in parts:
         share.append((some, rows))

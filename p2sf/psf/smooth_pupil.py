@@ -1,7 +1,7 @@
-"""A whole pupil from some hundred rays: what they tell of it is smooth, though the field is not.
+"""A whole pupil interpolated from some hundred rays: their data are smooth over it, although the field is not.
 
-A coarse pencil says how steep the phase is and whether all rays arrive. Where they do, and no mask has edges, phase,
-direction and light at any nodes follow from it by interpolation; rays on its rim, left out of it, tell how well.
+A coarse pencil gives the steepness of the phase and shows whether all rays arrive. If they do, and no mask has edges,
+phase, direction and light at any nodes are interpolated from it; held-out rays on the rim give the accuracy.
 """
 
 from dataclasses import dataclass
@@ -12,21 +12,21 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.sums.plane_waves import Counts, Waves, pupil_amplitude
-from p2sf.pupil.basis import PupilDomain
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.interpolation import interpolate_pupil, on_disc
 from p2sf.pupil.quadrature import disc_axes, disc_nodes
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 
 PROBE = 12, 36
-COARSE = PROBE, (20, 64)  # radii and directions of the pencils that others are interpolated from
-CLOSE = 2e-4  # waves, at the rim, where an interpolation errs most: 1 − R² below 1e-6
+COARSE = PROBE, (20, 64)  # radii and directions of the pencils used for interpolation
+CLOSE = 2e-4  # waves at the rim, where the error of interpolation is largest: 1 − R² below 1e-6
 STEP = 1e-4  # of the pupil radius and of a radian, for differences: errors of 1e-8, of round-off 1e-11
 
 
 @dataclass(frozen=True)
 class RayWaves:
-    """Plane waves of exact rays, the counts of their nodes, and how many rays were lost and traced."""
+    """Plane waves of exact rays, their node counts, and the numbers of rays lost and traced."""
 
     waves: Waves
     counts: Counts
@@ -48,20 +48,20 @@ def rim_angles(counts: Counts) -> np.ndarray:
 
 @lru_cache(maxsize=16)
 def all_reach(lens: Lens, source: Source) -> bool:
-    """Return whether rays all over the pupil, its rim included, reach the sensor, whatever the clear apertures."""
+    """Return whether rays over the whole pupil and its rim reach the sensor, disregarding clear apertures."""
     return bool(coarse_pencil(lens, source, PROBE).passed.all())
 
 
 @lru_cache(maxsize=4)
 def coarse_pencil(lens: Lens, source: Source, counts: Counts) -> Rays:
-    """Return the coarse pencil, which says both how steep the phase is and whether all rays reach the sensor."""
+    """Return the coarse pencil, which gives the steepness of the phase and shows whether all rays arrive."""
     return pencil(lens, source, *coarse_points(lens.pupil_domain, counts))
 
 
 def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: float) -> RayWaves | None:
     """Return the plane waves of nodes over the whole pupil, interpolated from a coarse pencil of exact rays.
 
-    None behind a mask, where rays are lost, and where no such pencil tells enough.
+    None behind a mask, if rays are lost, and if no such pencil is accurate enough.
     """
     found = _smooth(lens, source, reach_um)
     if found is None:
@@ -71,7 +71,9 @@ def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: flo
     nodes = lens.pupil_domain.nodes(counts)
     amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
     rays = coarse_pencil(lens, source, coarse)
-    return RayWaves(Waves(amplitude, fx, fy, nodes.even, _farthest_um(rays), reach_um), counts, 0, rays.phase.size)
+    return RayWaves(
+        Waves(amplitude, fx, fy, nodes.domain.symmetric, _farthest_um(rays), reach_um), counts, 0, rays.phase.size
+    )
 
 
 def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
@@ -95,7 +97,7 @@ def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
 
 
 def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.ndarray] | None:
-    """Return the counts of the first pencil that tells enough; phase, fx, fy and amplitude at its nodes, (4, nodes)."""
+    """Return the counts of the first sufficient pencil; phase, fx, fy and amplitude at its nodes, (4, nodes)."""
     if not mask_seen(lens, source).clear:
         return None
     domain = lens.pupil_domain

@@ -1,8 +1,8 @@
 """The `traced` method: exact rays in one pass (handbook 5.4).
 
-Phase, direction and light of the rays are smooth over the pupil though the field is not: some hundreds of rays give by
-interpolation as many plane waves as blur and window need. Rays on the rim, left out of it, tell whether that holds;
-where it does not, and behind a mask, all are traced.
+Phase, direction and light of the rays are smooth over the pupil although the field is not: some hundreds of rays give
+by interpolation as many plane waves as blur and window require. Held-out rays on the rim check this; if it fails, and
+behind a mask, all rays are traced.
 """
 
 from collections.abc import Callable
@@ -14,11 +14,13 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import (
+    RayPupil,
+    Watch,
     blur_um2,
     first_counts,
-    huygens_psf,
     one_pass,
     sampling_of,
+    sum_rays,
     waves_reaching,
 )
 from p2sf.psf.picture import Origin, psf_of_waves, resolved
@@ -30,7 +32,7 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.threads import one_blas_thread
 
 MOST_NODES = 2**23  # radii × directions / 2: some seconds of work
-EDGE_TOLERANCE = 3e-3  # relative L2 where the pupil ends at rims or at lost rays: R² to 1e-5
+EDGE_TOLERANCE = 3e-3  # relative L2 for a pupil bounded by rims or lost rays: R² to 1e-5
 
 
 @one_blas_thread
@@ -45,28 +47,29 @@ def traced_psf(
 ) -> Psf:
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" in float32.
 
-    Where rays are lost or clipped, the pupil's outline is known less well than its inside, and rays are added until two
+    If rays are lost or clipped, the outline of the pupil is less accurate than its inside, and rays are added until two
     passes agree to EDGE_TOLERANCE: ``cancelled`` is called between blocks of them (`Cancelled`). Raises GeometryError
-    where the chief ray does not reach the sensor, SamplingError for a window no rays can carry.
+    if the chief ray does not reach the sensor, SamplingError for a window that needs too many rays.
     """
     started, settled = perf_counter(), quality == "settled"
+    pupil, window = RayPupil(lens, source, clip), (pixels, pixel_um)
     if clip or not all_reach(lens, source):
         tolerance = EDGE_TOLERANCE if settled else None
-        found = huygens_psf(lens, source, pixels, pixel_um, tolerance, None, cancelled, clip)
+        found = sum_rays(pupil, window, tolerance, Watch(cancelled=cancelled))
         return replace(found, method="traced", predicted_error=EDGE_ERROR)
-    window, reach = (pixels, pixel_um), window_reach_um(pixels, pixel_um)
+    reach = window_reach_um(*window)
     counts = first_counts(lens, source, reach, clip, MOST_NODES)
-    rays = interpolated_waves(lens, source, counts, reach) or one_pass(lens, source, window, clip, cancelled)
+    rays = interpolated_waves(lens, source, counts, reach) or one_pass(pupil, window, Watch(cancelled=cancelled))
     precision = "float64" if settled else "float32"
     made = Origin(
         "traced",
         0,
         rays.traced,
-        Message("{nodes}, {precision}", nodes=sampling_of(lens, rays, clip, None), precision=precision),
+        Message("{nodes}, {precision}", nodes=sampling_of(pupil, rays, None), precision=precision),
         started,
         SETTLED_TOLERANCE if settled else None,
         TRACED_ERROR,
     )
-    blur = blur_um2(lens, source) if resolved(rays.waves.spread, pixel_um) else None
-    reaching = partial(waves_reaching, lens, source)
+    blur = blur_um2(pupil) if resolved(rays.waves.spread, pixel_um) else None
+    reaching = partial(waves_reaching, pupil)
     return psf_of_waves(rays.waves, window, source.wavelength_um, blur, made, reaching, quality)

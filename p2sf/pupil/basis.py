@@ -1,142 +1,32 @@
-"""Which polynomials describe a pupil, and over which part of the disc they have to be known (handbook 5.3).
+"""The polynomials that describe a pupil, and the part of the disc over which they must be known (handbook 5.3).
 
-A field along η leaves phase, fy and amplitude even in ξ, and fx odd, so that half the disc tells everything. Without
-that symmetry each of them has the terms of the other kind as well, behind its own, and the whole disc is needed.
-Whoever uses a basis need not ask which it is: a symmetric one has fewer terms and fewer nodes.
+For a field along η phase, fy and amplitude are even in ξ and fx is odd, so that half the disc suffices. Without that
+symmetry each of them has the terms of the other parity as well, behind its own, and the whole disc is needed. Users of
+a basis need not distinguish the two: a symmetric basis has fewer terms and fewer nodes.
 """
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import ClassVar, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import write_protect
+from p2sf.pupil.domain import HALF, ClearNodes, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
-from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.zernike import basis, columns, evaluate, gradient, terms
 
 Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
-Kinds: TypeAlias = tuple[np.ndarray, np.ndarray]  # what belongs to the terms even in ξ, and to the odd ones
-
-# Rays held out of a fit to test it, on the rim, where a polynomial deviates first: (ξ, η), and angles from +η to +ξ.
-HELD_OUT = np.array([[0.0, 0.0, 1.0, 0.6], [1.0, -1.0, 0.0, 0.8]])
-HELD_OUT_AROUND_DEG = np.array([0.0, 80.0, 170.0, 260.0])
-RING_POWER = 1.3  # of a ring's radius: with 60 rays the terms of degree 8 have a condition number of 3
-
-
-@dataclass(frozen=True)
-class PupilDomain:
-    """The part of the disc that tells everything of a pupil: the half ξ > 0 where that is symmetric about η.
-
-    ``halves``: the signs of ξ of the half discs that belong to it. ``images``: those for which a point of it stands.
-    """
-
-    symmetric: ClassVar = True
-    halves: ClassVar[tuple[int, ...]] = (1,)
-    images: ClassVar[tuple[int, ...]] = (1, -1)
-
-    def parities(self, odd: bool) -> tuple[bool, ...]:
-        """Return whether terms are odd in ξ: those of a function that is so by symmetry, then any that it forbids."""
-        return (odd, not odd)[: len(self.halves)]
-
-    def points(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return points of the half disc ξ ≥ 0, and behind them their mirror images that belong to the domain too."""
-        return np.concatenate([half * xi for half in self.halves]), np.tile(eta, len(self.halves))
-
-    def nodes(self, counts: tuple[int, int]) -> ClearNodes:
-        """Return the nodes of (radial, angular) ``counts``."""
-        half = disc_nodes(*counts)
-        return self.over(ClearNodes(half.xi, half.eta, half.weight, 1.0))
-
-    @property
-    def turn(self) -> float:
-        """Return the angle that its directions from the middle go over, radians from +η towards +ξ."""
-        return np.pi * len(self.halves)
-
-    def directions(self, count: int) -> np.ndarray:
-        """Return ``count`` even directions to half a turn, the first half a step from +η, radians."""
-        return (np.arange(count * len(self.halves)) + 0.5) * (np.pi / count)
-
-    def neighbours(self, theta: np.ndarray) -> np.ndarray:
-        """Return directions each of which is next to the one before; all around the first comes last once more."""
-        return theta
-
-    def between(self, corners: list[float]) -> tuple[float, ...]:
-        """Return the ends of the intervals of direction between corners, ascending and over its whole turn."""
-        return 0.0, *corners, np.pi
-
-    def middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[float, float]:
-        """Return the middle of points all over the disc: of a symmetric pupil on the line ξ = 0."""
-        return 0.0, float(eta.mean())
-
-    def over(self, nodes: ClearNodes) -> ClearNodes:
-        """Return nodes that are known over half the disc, or over all of it, over the domain."""
-        return nodes
-
-    def sampling_rays(self, radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return ξ and η of radii × directions rays for a fit and of those held out, and the former's area weights."""
-        nodes = disc_nodes(radii, 2 * directions)
-        return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
-
-
-@dataclass(frozen=True)
-class WholeDisc(PupilDomain):
-    """The domain of a pupil without symmetry."""
-
-    symmetric: ClassVar = False
-    halves: ClassVar[tuple[int, ...]] = (1, -1)
-    images: ClassVar[tuple[int, ...]] = (1,)
-
-    def neighbours(self, theta: np.ndarray) -> np.ndarray:
-        """Return the directions, and the first once more."""
-        return np.append(theta, theta[0] + self.turn)
-
-    def between(self, corners: list[float]) -> tuple[float, ...]:
-        """Return the corners, once around."""
-        return (*corners, corners[0] + self.turn) if corners else (0.0, self.turn)
-
-    def middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[float, float]:
-        """Return the middle of points, wherever it lies."""
-        return float(xi.mean()), float(eta.mean())
-
-    def over(self, nodes: ClearNodes) -> ClearNodes:
-        """Return nodes over the whole disc."""
-        return nodes.unfolded()
-
-    def sampling_rays(self, radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return rays: on every ring as many as the harmonics need that are not small there.
-
-        A term ρⁿ·cos mθ has n ≥ m, so that near the middle few directions do, while on the rim a polynomial of degree n
-        takes 2n + 1. With as many on all rings, the same number of rays tells some terms apart by rounding alone.
-        """
-        square, weight = gauss_legendre(radii)
-        rho, held = np.sqrt((1 + square) / 2), np.deg2rad(HELD_OUT_AROUND_DEG)
-        counts = ring_counts(rho, radii * directions)
-        angle = np.concatenate([(np.arange(count) + 0.25) * (2 * np.pi / count) for count in counts])
-        radius, share = np.repeat(rho, counts), np.repeat(weight / 2 / counts, counts)
-        xi, eta = radius * np.sin(angle), radius * np.cos(angle)
-        return np.append(xi, np.sin(held)), np.append(eta, np.cos(held)), share
-
-
-HALF, WHOLE = PupilDomain(), WholeDisc()
-
-
-def ring_counts(rho: np.ndarray, total: int) -> np.ndarray:
-    """Return how many of all rays are on each ring, in proportion to a power of its radius."""
-    part = rho**RING_POWER
-    counts: np.ndarray = np.maximum(1, np.rint(total * part / part.sum())).astype(int)
-    counts[-1] += total - int(counts.sum())
-    return counts
+Kinds: TypeAlias = tuple[np.ndarray, np.ndarray]  # values for the terms even in ξ and for the odd ones
 
 
 @dataclass(frozen=True)
 class Terms:
     """The polynomials of `zernike` up to an order that describe one function over the pupil.
 
-    ``parities``: whether they are odd in ξ, those of one parity behind those of the other.
+    ``parities``: whether terms are odd in ξ, one group behind the other.
     """
 
     order: int
@@ -144,12 +34,12 @@ class Terms:
 
     @cached_property
     def counts(self) -> tuple[int, ...]:
-        """Return how many terms there are of each parity."""
+        """Return the number of terms of each parity."""
         return tuple(len(terms(self.order, odd)) for odd in self.parities)
 
     @cached_property
     def count(self) -> int:
-        """Return how many terms there are."""
+        """Return the number of terms."""
         return sum(self.counts)
 
     @property
@@ -173,7 +63,7 @@ class Terms:
         return tuple(zip(self.parities, slices, strict=True))
 
     def of(self, kinds: Kinds) -> np.ndarray:
-        """Return the values of the terms, (…, terms, points), among those of all even and of all odd ones."""
+        """Return the values of these terms, (…, terms, points), selected from those of all even and all odd ones."""
         found = [kinds[odd][..., :count, :] for odd, count in zip(self.parities, self.counts, strict=True)]
         return found[0] if len(found) == 1 else np.concatenate(found, axis=-2)
 
@@ -203,9 +93,9 @@ class Terms:
         return np.concatenate(parts, axis=-1)
 
     def turned(self, coefficients: np.ndarray, angles: np.ndarray) -> Kinds:
-        """Return the even and the odd coefficients, (…, terms), of functions turned by ``angles``, (…), from +η to +ξ.
+        """Return even and odd coefficients, (…, terms), of functions rotated by ``angles``, (…), from +η to +ξ.
 
-        An angle about the pupil becomes θ − angle, which mixes every cos mθ with its sin mθ; there is no interpolation.
+        θ becomes θ − angle, which mixes each cos mθ with its sin mθ; nothing is interpolated.
         """
         harmonic, paired = _harmonics(self.order)
         phases = np.multiply.outer(angles, harmonic)
@@ -227,7 +117,7 @@ class Terms:
 
 @lru_cache(maxsize=32)
 def _harmonics(order: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return m of every even term, and the places of those with m > 0: the odd terms are these, in the same order."""
+    """Return m of every even term, and the indices of those with m > 0, which the odd terms match in the same order."""
     harmonic = np.array([m for _, m in terms(order)])
     return write_protect(harmonic), write_protect(np.flatnonzero(harmonic))
 
@@ -236,7 +126,7 @@ CONSTANT = Terms(0, (False,))
 
 
 class PupilValues(NamedTuple):
-    """The terms of phase, fx and fy, or one of their slopes, each (terms, points); the amplitude has those of fy."""
+    """The terms of phase, fx and fy, or one of their slopes, each (terms, points); the amplitude shares those of fy."""
 
     phase: np.ndarray
     fx: np.ndarray
@@ -288,7 +178,7 @@ class PupilBasis:
 
 @dataclass(frozen=True, eq=False)
 class BasisAtNodes:
-    """A basis at nodes over what a mask leaves open of its domain."""
+    """A basis at nodes over the part of its domain that a mask leaves open."""
 
     basis: PupilBasis
     nodes: ClearNodes
@@ -306,7 +196,7 @@ class BasisAtNodes:
 
 @lru_cache(maxsize=24)
 def at_nodes(basis: PupilBasis, counts: tuple[int, int], mask: PupilMask = CLEAR) -> BasisAtNodes:
-    """Return a basis at the nodes of (radial, angular) ``counts``, which is kept with its terms."""
+    """Return a basis at the nodes of (radial, angular) ``counts``; it is cached with its terms."""
     return BasisAtNodes(basis, basis.domain.over(mask_nodes(mask, *counts)))
 
 

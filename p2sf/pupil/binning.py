@@ -14,7 +14,8 @@ def _edge_sums(light: np.ndarray, size: int, samples: int) -> np.ndarray:
     """Return sums over samples in the middle of equal steps, (…, pixels · samples, columns) → (…, pixels, columns).
 
     The midpoint rule errs by h²/24 of the slope's change from edge to edge (Abramowitz & Stegun 1964, 25.4.2 over half
-    steps). The slope at an edge comes from the samples on either side: both pixels use the same, no light is lost.
+    steps). The slope at an edge is taken from the samples on either side: both pixels use the same, so no light is
+    lost.
     """
     light = light.reshape(*light.shape[:-2], size, samples, -1)
     sums: np.ndarray = light.sum(-2)

@@ -1,6 +1,6 @@
-"""From few nodes of the disc to any others: a smooth function as polynomials in ρ² times harmonics of the angle.
+"""Interpolation from few nodes of the disc to others: polynomials in ρ² times harmonics of the angle.
 
-f(ρ, θ) = Σ_m f_m(ρ)·cos(mθ), or of sin(mθ) where it is odd in ξ; f_m is even in ρ for even m and odd for odd m, so that
+f(ρ, θ) = Σ_m f_m(ρ)·cos(mθ), or with sin(mθ) if it is odd in ξ; f_m is even in ρ for even m and odd for odd m, so that
 f_m(ρ)/ρ^(m mod 2) is a polynomial in ρ². Gauss–Legendre nodes in ρ² and evenly spaced angles determine as many of both
 as there are nodes, and converge geometrically (Boyd 2001, §18.5).
 """
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from p2sf.conventions import write_protect
-from p2sf.pupil.basis import PupilDomain
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.quadrature import disc_axes, gauss_legendre
 
 ODD = (False, True, False, False)  # phase, fx, fy and amplitude in ξ, by symmetry
@@ -26,7 +26,7 @@ def interpolate(
     """
     up, across = _matrices(counts, rho.tobytes(), theta.tobytes(), odd)
     grid = values.reshape(*values.shape[:-1], counts[0], counts[1] // 2)
-    # Of even harmonics and of odd ones apart, side by side in ``across`` and in ``up``.
+    # Even and odd harmonics separately, side by side in ``across`` and in ``up``.
     even, odd_ones = np.split(grid @ across, 2, axis=-1)
     found: np.ndarray = up @ np.concatenate([even, odd_ones], axis=-2)
     return found.reshape(*values.shape[:-1], -1)
@@ -37,7 +37,7 @@ def interpolate_pupil(
 ) -> np.ndarray:
     """Return phase, fx, fy and amplitude, (4, points), at radii × angles from those at coarse nodes, (4, nodes).
 
-    The nodes are those of a domain, half after half; the points are on the half ξ > 0, and mirrored on each other one.
+    The nodes are those of a domain, half after half; the points are on the half ξ > 0 and are mirrored for the other.
     """
     sides = values.reshape(4, len(domain.halves), -1)
     found = np.zeros((4, len(domain.halves), radius.size * theta.size))
@@ -72,7 +72,7 @@ def _matrices(counts: tuple[int, int], radii: bytes, angles: bytes, odd: bool) -
 
 @lru_cache(maxsize=8)
 def _harmonics(angular: int, odd: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the matrix (angles, harmonics) that takes values over half a turn to their harmonics, and those."""
+    """Return the matrix (angles, harmonics) from values over half a turn to their harmonics, and the harmonics."""
     half = angular // 2
     theta = (np.arange(half) + 0.5) * (np.pi / half)
     number = np.arange(1, half + 1) if odd else np.arange(half)

@@ -1,7 +1,7 @@
-"""The pupil function A(ξ, η): what of the stop's disc is open, how much light passes there, and which phase it gets.
+"""The pupil function A(ξ, η): the open part of the stop, its transmission and its phase.
 
-All is stated in stop coordinates: (ξ, η) on the unit disc of the stop's rim, angles from +η towards +ξ, as azimuths of
-sources are. Phases are path lengths in µm, so that the wavelength scales them.
+All quantities are in stop coordinates: (ξ, η) on the unit disc of the stop's rim, angles from +η towards +ξ, as
+azimuths of sources are. Phases are path lengths in µm, so that the wavelength scales them.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_fields, real_array
 from p2sf.conventions import FloatOrArray, write_protect
 from p2sf.errors import RequestError
-from p2sf.parameters import LONGEST_PATH_UM, OF_THE_MASK, check_between, check_finite, check_values
+from p2sf.parameters import LONGEST_PATH_UM, MASK_PARAMETERS, check_between, check_finite, check_values
+from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
 
 if TYPE_CHECKING:
@@ -25,16 +26,16 @@ if TYPE_CHECKING:
 
 FEWEST_CELLS, MOST_CELLS, SAMPLED = 4, 1024, 129
 SAME_ANGLE_DEG = 1e-9
-SAME_PLACE = 1e-12  # of the rim's radius: less is rounding
-EDGE_HARMONICS = 0.5  # waves of slope that an amplitude's slope of 1 per radius counts as
-PROBE = 65  # points across the pupil where slopes are looked for
+SAME_PLACE = 1e-12  # of the rim's radius: smaller values are rounding
+EDGE_HARMONICS = 0.5  # phase slope in waves equivalent to an amplitude slope of 1 per radius
+PROBE = 65  # points across the pupil at which slopes are evaluated
 
 
 class PupilMap:
     """A phase or an amplitude over the stop as samples, with a cubic spline through them (Dierckx 1993, ch. 5).
 
     ``values``: (size, size) at cell centres (2k + 1 − size)/size of the rim's radius, rows towards +η, columns
-    towards +ξ; cells outside the disc count too, where they shape the spline beside the rim. Frozen and hashable.
+    towards +ξ; cells outside the disc matter too, since they shape the spline near the rim. Frozen and hashable.
     """
 
     def __init__(self, values: ArrayLike):
@@ -47,13 +48,13 @@ class PupilMap:
                 high=MOST_CELLS,
             )
         if not np.isfinite(table).all():
-            raise RequestError("a map of the pupil has cells that are no finite numbers; give every cell one")
+            raise RequestError("a map of the pupil has cells that are not finite; give every cell a finite number")
         self.values = write_protect(table)
         self._digest = sha256(table.tobytes()).digest()
 
     @classmethod
     def sampled(cls, function: Callable[[np.ndarray, np.ndarray], ArrayLike], size: int = SAMPLED) -> "PupilMap":
-        """Return the map of a function of (ξ, η), sampled once, also a little outside the disc: |ξ|, |η| < 1."""
+        """Return the map of a function of (ξ, η), which is called once for the whole square |ξ|, |η| < 1."""
         centre = (2 * np.arange(size) + 1 - size) / size
         xi, eta = np.meshgrid(centre, centre)
         return cls(np.broadcast_to(real_array("function", function(xi, eta)), xi.shape))
@@ -84,14 +85,14 @@ class PupilMap:
         return RectBivariateSpline(centre, centre, self.values)
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return the spline at points of any shape; beyond the outermost cells' centres it stays as it is there."""
+        """Return the spline at points of any shape; beyond the centres of the outermost cells it stays constant."""
         values: np.ndarray = self._spline.ev(eta, xi)
         return values
 
 
 @dataclass(frozen=True)
 class PupilMask:
-    """What stands in the stop: all parts apply at once, and the default is the clear disc.
+    """The pupil mask in the stop: all parts apply together, and the default is the clear disc.
 
     Parameters
     ----------
@@ -110,26 +111,26 @@ class PupilMask:
     blade_angle_deg : float
         Direction of the first corner, degrees from +η towards +ξ.
     apodisation : float
-        Radius where the amplitude has fallen to 1/e and the intensity to 1/e², as a share of the rim's; inf for none.
+        Radius at which the amplitude is 1/e and the intensity 1/e², as a share of the rim's; inf for none.
     apodisation_power : int
         2 for a Gaussian, exp(−(ρ/width)²), a larger even number for a super-Gaussian.
     zernike_um : tuple of float
-        Optical path added, µm RMS, by Noll's terms from the first (Noll 1976).
+        Added optical path by Noll's terms from the first, µm RMS (Noll 1976).
     cubic_um : float
-        α of the path α(ξ³ + η³) added, µm: the cubic phase plate for extended depth of field (Dowski & Cathey 1995).
+        α of the added path α(ξ³ + η³), µm: the cubic phase plate for extended depth of field (Dowski & Cathey 1995).
     phase_map : PupilMap, optional
-        More path, µm.
+        Additional path, µm.
     amplitude_map : PupilMap, optional
-        Amplitude let through, as a factor.
+        Transmitted amplitude, as a factor.
     turn_deg : float
-        The whole mask turned, degrees from +η towards +ξ.
+        Rotation of the whole mask, degrees from +η towards +ξ.
     obscuration_x, obscuration_y : float
-        Where the middle of the dark disc stands in ξ and η, shares of the rim's radius; all of it lies within the rim.
+        Centre of the dark disc in ξ and η, as shares of the rim's radius; the whole disc must lie within the rim.
 
     Raises
     ------
     RequestError
-        For a value that cannot be.
+        For an impossible value.
     """
 
     obscuration: float = 0.0
@@ -151,7 +152,7 @@ class PupilMask:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        check_values(self, OF_THE_MASK)
+        check_values(self, MASK_PARAMETERS)
         _check_within(self.obscuration, self.obscuration_x, self.obscuration_y)
         for value in self.zernike_um:
             check_between("zernike_um", value, -LONGEST_PATH_UM, LONGEST_PATH_UM)
@@ -181,7 +182,7 @@ class PupilMask:
 
     @property
     def edged(self) -> bool:
-        """Return whether something dark with a hard edge stands in the disc."""
+        """Return whether the mask has hard edges within the disc."""
         return bool(self.obscured or self.spider or self.iris)
 
     @property
@@ -191,7 +192,7 @@ class PupilMask:
 
     @cached_property
     def disc(self) -> "Disc":
-        """Return the obscuration where it stands, of radius 0 in the middle where there is none."""
+        """Return the obscuration, of radius 0 at the centre if there is none."""
         if not self.obscured:
             return Disc(0.0, 0.0, 0.0)
         place = np.array(self.obscuration_x), np.array(self.obscuration_y)
@@ -205,17 +206,17 @@ class PupilMask:
 
     @property
     def iris(self) -> bool:
-        """Return whether there are blades that do not make a circle."""
+        """Return whether there are blades that do not form a circle."""
         return bool(self.blades and self.roundness < 1)
 
     @property
     def annular(self) -> bool:
-        """Return whether all that stands in the stop is an obscuration, so that the pupil is a ring."""
+        """Return whether the mask is only a central obscuration, so that the pupil is a ring."""
         return self.obscured and self.round and not (self.iris or self.shaded or self.phased)
 
     @property
     def shaded(self) -> bool:
-        """Return whether the open part lets light through unevenly."""
+        """Return whether the transmission of the open part varies."""
         return self.apodisation < inf or self.amplitude_map is not None
 
     @property
@@ -238,9 +239,14 @@ class PupilMask:
             and all(term.m == 0 or (upright and term.even) for term in terms)
         )
 
+    @property
+    def domain(self) -> PupilDomain:
+        """Return the part of the disc that determines the whole mask."""
+        return HALF if self.even else WHOLE
+
     @cached_property
     def round(self) -> bool:
-        """Return whether the mask looks alike from every azimuth."""
+        """Return whether the mask is rotationally symmetric."""
         terms = [t for t, waves in zip(_terms(len(self.zernike_um)), self.zernike_um, strict=True) if waves]
         maps = self.phase_map is not None or self.amplitude_map is not None
         straight = self.spider or self.iris or self.cubic_um or maps
@@ -253,12 +259,20 @@ class PupilMask:
 
     @cached_property
     def round_part(self) -> "PupilMask":
-        """Return what of the mask every azimuth sees alike, without its phase: a central obscuration, apodisation."""
+        """Return the rotationally symmetric part of the mask without its phase: a central obscuration, apodisation."""
         middle = self.obscuration if self.disc.centred else 0.0
         return replace(self.without_phase(), vanes=0, blades=0, amplitude_map=None, obscuration=middle)
 
+    @cached_property
+    def without_vanes(self) -> "PupilMask":
+        """Return the mask without its vanes, for what takes few points or one line of the pupil.
+
+        So thin are they that they cover hardly any of its area, but all of a line that lies along one.
+        """
+        return replace(self, vanes=0) if self.vanes else self
+
     def turned(self, angle_deg: float) -> "PupilMask":
-        """Return the mask turned, degrees from +η towards +ξ; the same object where that makes no difference."""
+        """Return the mask rotated by an angle, degrees from +η towards +ξ; the same object if it is unchanged."""
         return self if self.round or not angle_deg else replace(self, turn_deg=self.turn_deg + angle_deg)
 
     def without_phase(self) -> "PupilMask":
@@ -277,7 +291,7 @@ class PupilMask:
         return path if self.phase_map is None else path + self.phase_map.at(xi, eta)
 
     def amplitude(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return the amplitude that passes at points of the open part, of any shape."""
+        """Return the transmitted amplitude at points of the open part, of any shape."""
         amplitude = np.ones(np.shape(xi))
         if self.apodisation < inf:
             square = np.square(xi / self.apodisation) + np.square(eta / self.apodisation)
@@ -287,7 +301,7 @@ class PupilMask:
         return amplitude
 
     def opens(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return which points of the disc no obscuration, vane or blade covers, bool."""
+        """Return which points of the disc are not covered by obscuration, vanes or blades, bool."""
         xi, eta = np.asarray(xi, float), np.asarray(eta, float)
         open_: np.ndarray = self.disc.depth(xi, eta) <= 0
         for edge in self.edges:
@@ -312,7 +326,7 @@ class PupilMask:
 
     @property
     def edges(self) -> "tuple[BladeEdge, ...]":
-        """Return the edges of the blades; none for a round stop."""
+        """Return the edges of the blades; empty for a round stop."""
         return tuple(BladeEdge(angle + pi / self.blades, self.blades, self.roundness) for angle in self.corner_angles)
 
 
@@ -326,20 +340,20 @@ class Disc:
 
     @property
     def centred(self) -> bool:
-        """Return whether it stands in the middle of the stop."""
+        """Return whether it is centred on the stop."""
         return not (self.xi or self.eta)
 
     def depth(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return how far inside the disc points lie, negative outside."""
+        """Return the depth of points inside the disc, negative outside."""
         depth: np.ndarray = self.radius - np.hypot(xi - self.xi, eta - self.eta)
         return depth
 
     def chord(
         self, xi: np.ndarray, eta: np.ndarray, sine: FloatOrArray, cosine: FloatOrArray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return where lines from points enter the disc and leave it, along the directions (sine, cosine).
+        """Return the distances at which lines from points enter and leave the disc along the directions (sine, cosine).
 
-        Where a line passes the disc both are its nearest point.
+        For a line that misses the disc both are that of its nearest point.
         """
         across, up = xi - self.xi, eta - self.eta
         along = across * sine + up * cosine
@@ -347,7 +361,7 @@ class Disc:
         return -half - along, half - along
 
     def outline(self, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return ξ and η of its edge in directions from its middle, radians from +η towards +ξ."""
+        """Return ξ and η of its edge in directions from its centre, radians from +η towards +ξ."""
         return self.xi + self.radius * np.sin(theta), self.eta + self.radius * np.cos(theta)
 
 
@@ -355,8 +369,8 @@ class Disc:
 class BladeEdge:
     """The edge of one blade, a straight line or an arc of curvature ``roundness`` through two corners on the rim.
 
-    ``angle`` of its middle, radians from +η towards +ξ. Inside of it, with n the direction of its middle, d and c the
-    distance and the half length of its chord and m = √(1 − κ²c²), κ(|p|² + d² − c²)/2 − (κd − m)p·n − dm ≤ 0: the disc
+    ``angle``: that of its middle, radians from +η towards +ξ. Inside it, with n the direction of its middle, d and c
+    the distance and half length of its chord and m = √(1 − κ²c²), κ(|p|² + d² − c²)/2 − (κd − m)p·n − dm ≤ 0: the disc
     of radius 1/κ through both corners, which is the half plane p·n ≤ d where κ = 0.
     """
 
@@ -371,7 +385,7 @@ class BladeEdge:
         return kappa / 2, kappa * distance - m, kappa / 2 * (distance**2 - half**2) - distance * m
 
     def depth(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return how far inside the edge points lie, negative outside: to first order, beside the edge."""
+        """Return the depth of points inside the edge, negative outside: to first order near the edge."""
         square, linear, constant = self._numbers()
         across = xi * sin(self.angle) + eta * cos(self.angle)
         depth: np.ndarray = linear * across - square * (xi * xi + eta * eta) - constant
@@ -382,9 +396,9 @@ class BladeEdge:
         return self.depth(xi, eta) >= 0
 
     def distance(self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
-        """Return how far inner points (ξ, η) lie from the edge along the directions (sine, cosine); inf where it goes.
+        """Return the distance of inner points (ξ, η) from the edge along the directions (sine, cosine), inf if none.
 
-        The larger root of a quadratic equation, written so that nothing cancels where the edge is nearly straight.
+        The larger root of a quadratic equation, written without cancellation for a nearly straight edge.
         """
         square, linear, constant = self._numbers()
         normal_xi, normal_eta = sin(self.angle), cos(self.angle)
@@ -401,10 +415,10 @@ class BladeEdge:
         return sin(pi / self.blades)
 
     def points(self, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Return ξ and η of the edge where its chord is ``place`` from its middle, towards larger angles, and slopes.
+        """Return ξ and η of the edge above the point of its chord at ``place`` from the middle towards larger angles.
 
-        The slopes are those of ξ and η with ``place``. The edge stands κ(c² − u²)/(√(1 − κ²u²) + √(1 − κ²c²)) above
-        its chord, which is the difference of both roots over κ.
+        Also returns their derivatives with respect to ``place``. The edge lies κ(c² − u²)/(√(1 − κ²u²) + √(1 − κ²c²))
+        above its chord, which is the difference of both roots over κ.
         """
         kappa, half = self.roundness, self.half_length
         root, end = np.sqrt(1 - (kappa * place) ** 2), sqrt(1 - (kappa * half) ** 2)
@@ -419,10 +433,10 @@ class BladeEdge:
         )
 
     def crossings(self, disc: Disc) -> tuple[float, ...]:
-        """Return the directions from the middle of a disc in which its edge crosses that of the blade, radians.
+        """Return the directions from the centre of a disc in which its edge crosses that of the blade, radians.
 
-        On the circle the depth inside is a constant and a cosine of the angle from one direction. Only crossings
-        between the corners of the blade count.
+        On the circle the depth inside the edge is a constant plus a cosine of the angle from one direction. Only
+        crossings between the corners of the blade count.
         """
         square, linear, constant = self._numbers()
         normal_xi, normal_eta = sin(self.angle), cos(self.angle)
@@ -441,7 +455,7 @@ class BladeEdge:
 
 @dataclass(frozen=True)
 class MaskSlopes:
-    """How fast the smooth parts of a mask change, per rim radius or radian: path in µm, amplitude as it is."""
+    """Steepest slopes of the smooth parts of a mask per rim radius or radian: path in µm, amplitude as a factor."""
 
     path_radial_um: float
     path_angular_um: float
@@ -466,7 +480,7 @@ def _terms(count: int) -> tuple:
 
 
 def _turned_points(xi: np.ndarray, eta: np.ndarray, angle_deg: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return points turned from +η towards +ξ."""
+    """Return points rotated from +η towards +ξ."""
     if not angle_deg:
         return xi, eta
     sine, cosine = sin(radians(angle_deg)), cos(radians(angle_deg))
@@ -474,7 +488,7 @@ def _turned_points(xi: np.ndarray, eta: np.ndarray, angle_deg: float) -> tuple[n
 
 
 def _mirrored(first_deg: float, count: int) -> bool:
-    """Return whether ``count`` even directions, one of them ``first_deg``, are their own mirror image."""
+    """Return whether ``count`` evenly spaced directions from ``first_deg`` are their own mirror image."""
     return _multiple_of(2 * first_deg, 360 / count)
 
 
@@ -486,8 +500,8 @@ def _multiple_of(angle_deg: float, step_deg: float) -> bool:
 def _check_within(radius: float, x: float, y: float) -> None:
     if radius and (x or y) and not radius + hypot(x, y) <= 1 + SAME_PLACE:
         raise RequestError(
-            "{parameter} is {value:g} about ({x:g}, {y:g}), which reaches beyond the rim of the stop; make it smaller "
-            "or put it nearer to the middle",
+            "{parameter} is {value:g} about ({x:g}, {y:g}), which extends beyond the rim of the stop; make it smaller "
+            "or move it towards the centre",
             parameter="obscuration",
             value=radius,
             x=x,

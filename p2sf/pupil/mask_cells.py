@@ -1,4 +1,4 @@
-"""What a mask does to the cells of a grid over the pupil: an edge leaves part of a cell open."""
+"""Effect of a mask on the cells of a grid over the pupil: an edge leaves part of a cell open."""
 
 from functools import lru_cache
 from math import pi
@@ -8,13 +8,13 @@ import numpy as np
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import outline_radius, throughput
 
-OUTLINE = 2048  # chords around the iris, whose length they give to 1e-6
+OUTLINE = 2048  # chords around the iris, which give its length to 1e-6
 
 
 def open_share(mask: PupilMask, xi: np.ndarray, eta: np.ndarray, width: np.ndarray) -> np.ndarray:
     """Return the share of each cell of this width, in rim radii, that obscuration, blades and vanes leave open.
 
-    Linear across every edge, as cells of any direction are on average; a vane narrower than a cell takes its part.
+    Linear across every edge, the average over orientations of a cell; a vane narrower than a cell covers its share.
     """
     share = np.ones(np.shape(xi), np.result_type(xi))
     if mask.obscured:
@@ -38,10 +38,10 @@ def inside_share(within: np.ndarray, width: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=64)
 def wings(mask: PupilMask) -> float:
-    """Return how much more light a mask's edges spread far from the image than the clear disc's rim does.
+    """Return the light that a mask's edges diffract far from the image relative to that of the clear disc's rim.
 
-    Far out every piece of an edge spreads alike, so this is the ratio of their length to the open area, over that of
-    the disc, which is 2; of a ring 1/(1 − ε), as the asymptote of J₁ has it.
+    Far out every element of an edge diffracts equally, so this is the ratio of edge length to open area divided by that
+    of the disc, which is 2; for a ring 1/(1 − ε), in agreement with the asymptote of J₁.
     """
     theta = np.sort(np.append(np.linspace(0, 2 * pi, OUTLINE), np.mod(mask.corner_angles, 2 * pi)))
     outline = outline_radius(mask, theta)

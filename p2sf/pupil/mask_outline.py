@@ -1,4 +1,4 @@
-"""Outlines of a mask in the stop, for drawings of it: the opening of the rim or the iris, and what stands in it."""
+"""Outlines of a pupil mask for drawings: the opening of the rim or iris, and the obstructions in it."""
 
 from math import cos, pi, sin
 
@@ -19,14 +19,14 @@ def opening(mask: PupilMask) -> np.ndarray:
 
 
 def opening_radius(mask: PupilMask, theta: np.ndarray) -> np.ndarray:
-    """Return how far from the middle the rim, or the iris, lies in directions from +η towards +ξ, radians."""
+    """Return the radius of the rim or iris in directions from +η towards +ξ, radians."""
     middle = np.zeros_like(theta)
     distances = [edge.distance(middle, middle, np.sin(theta), np.cos(theta)) for edge in mask.edges]
     return np.minimum(1.0, np.min(distances, axis=0)) if distances else np.ones_like(theta)
 
 
 def obstructions(mask: PupilMask) -> tuple[np.ndarray, ...]:
-    """Return ξ and η of the obscuration and of each vane from the middle to the rim, closed lines, (2, points) each."""
+    """Return ξ and η of the obscuration and of each vane from the centre to the rim, closed lines, (2, points) each."""
     turn = np.linspace(0.0, 2 * pi, POINTS)
     disc = (np.stack(mask.disc.outline(turn)),) if mask.obscured else ()
     return *disc, *(vane(angle, mask.vane_width) for angle in mask.vane_angles)
@@ -41,9 +41,9 @@ def vane(angle: float, half_width: float, start: float = 0.0) -> np.ndarray:
 
 
 def dark_heights(mask: PupilMask) -> tuple[tuple[float, float], ...]:
-    """Return what obscuration and iris cover of the line ξ = 0 between −1 and 1: pairs of η, the lower one first.
+    """Return the parts of the line ξ = 0, −1 to 1, covered by obscuration and iris: pairs of η, the lower one first.
 
-    Vanes are thin, and one that lay on this line would hide what else there is.
+    Vanes are ignored: they are thin, and a vane on this line would hide everything else.
     """
     top, bottom = (float(radius) for radius in opening_radius(mask, np.array([0.0, pi])))
     middle = (float(end) for end in mask.disc.chord(np.zeros(()), np.zeros(()), 0.0, 1.0))

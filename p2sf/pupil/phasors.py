@@ -1,8 +1,8 @@
 """Cosine and sine of phases given in waves: the inner loop of every PSF.
 
-Whole waves are subtracted first, in the phase's own precision, so that float32 is accurate for the rest. numpy has fast
-float32 functions. Its float64 sine and cosine take ten times as long, its tangent a third of one of them: in float64
-both come from the tangent of the half angle.
+Whole waves are subtracted first in the precision of the phase, so that float32 suffices for the rest. numpy's float32
+functions are fast. Its float64 sine and cosine take ten times as long, its tangent a third of that: in float64 both are
+computed from the tangent of the half angle.
 """
 
 from math import pi

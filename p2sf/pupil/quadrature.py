@@ -19,10 +19,10 @@ from p2sf.errors import SamplingError
 # Relative L2 error of a converged PSF in its window.
 SETTLED_TOLERANCE = 1e-4
 NEWTON_STEPS = 8
-NEWTON_ENOUGH = 1e-6  # of a step, in units of the closest nodes' distance: the next error is its square
-MOST_KEPT = 2**18  # nodes that a cached result may have: 3 MB for the half disc
-UNCOUNTED = 2.0**40  # nodes along one line, more than are ever summed
-AT_ONCE = 2**22  # numbers in one block of a table that is summed
+NEWTON_ENOUGH = 1e-6  # of a step, in units of the smallest distance between nodes: the next error is its square
+MOST_KEPT = 2**18  # most nodes of a cached result: 3 MB for the half disc
+UNCOUNTED = 2.0**40  # nodes along one line, more than any sum uses
+AT_ONCE = 2**22  # numbers in one block of a summed table
 
 Nodes = TypeVar("Nodes")
 
@@ -41,7 +41,7 @@ class DiscNodes:
 
 
 class _Cached(Generic[Nodes]):
-    """A function of two counts that caches its latest results, except those of more than MOST_KEPT nodes."""
+    """A function of two counts that caches its latest results with at most MOST_KEPT nodes."""
 
     def __init__(self, make: Callable[[int, int], Nodes]):
         self._make, self._known = make, lru_cache(maxsize=32)(make)
@@ -101,7 +101,7 @@ class RowNodes:
     name: str
 
     def part(self, some: slice) -> "RowNodes":
-        """Return only these rows; their weights no longer sum to 1."""
+        """Return these rows only; their weights no longer sum to 1."""
         xi = self.xi if len(self.xi) == 1 else self.xi[some]
         return RowNodes(self.eta[some], xi, self.weight[some], self.name)
 
@@ -110,9 +110,9 @@ class RowNodes:
 def chord_rows(rows: int, columns: int) -> RowNodes:
     """Return Gauss–Chebyshev rows (second kind) times Gauss–Legendre along each chord; both counts even.
 
-    ∫∫ f dξ dη = ∫ √(1−η²) dη ∫ f(s√(1−η²), η) ds, s in (−1, 1): the root is the Chebyshev weight, so what is
-    left is smooth and the rule converges like `disc_nodes` (Stroud 1971, §2.6), but its rows let the kernel in
-    y act once per row. Counts are for the whole disc. Raises SamplingError.
+    ∫∫ f dξ dη = ∫ √(1−η²) dη ∫ f(s√(1−η²), η) ds, s in (−1, 1): the root is the Chebyshev weight, so the rest is smooth
+    and the rule converges like `disc_nodes` (Stroud 1971, §2.6), but the kernel in y is applied once per row. Counts
+    are for the whole disc. Raises SamplingError.
     """
     if rows < 2 or columns < 2 or rows % 2 or columns % 2:
         raise SamplingError(
@@ -211,8 +211,8 @@ def chords_for(
 ) -> tuple[int, int]:
     """Return (rows, columns) of `chord_rows` for the slopes of `wavefront.steepest_chords`, as accurate as `nodes_for`.
 
-    ``reach_across``: the kernel's waves at the window's side edge, all that columns meet; ``reach`` bounds it if
-    not given. Of an array of slopes the largest counts. n Gauss nodes integrate 2n harmonics.
+    ``reach_across``: the kernel's waves at the window's side edge, the largest for columns; by default ``reach``, an
+    upper bound. The largest slope of an array counts. n Gauss nodes integrate 2n harmonics.
     """
     across = reach if reach_across is None else reach_across
     return _chord_count(row_slope, reach), _chord_count(column_slope, across)
@@ -223,7 +223,7 @@ def _chord_count(slope: FloatOrArray, reach: float) -> int:
 
 
 def _harmonics(slope: float, tail: float) -> float:
-    """Return how many harmonics a phase has whose steepest slope is ``slope`` waves per radian.
+    """Return the number of harmonics of a phase whose steepest slope is ``slope`` waves per radian.
 
     They end like those of exp(iz·cosθ), which are Bessel functions J_m(z): at m = z + tail·z^⅓ (A&S 9.3.23),
     z = 2π·slope.
@@ -240,7 +240,7 @@ def even_count(count: float) -> int:
 def _next_count(count: float) -> int:
     """Return the next count with four significant bits, so that neighbouring requests share the cache.
 
-    At most `UNCOUNTED`, also for what is no number, which whoever sums refuses.
+    At most `UNCOUNTED`, also for NaN, which the sums refuse.
     """
     count = count if count < UNCOUNTED else UNCOUNTED
     step: int = 2 ** max(0, int(count).bit_length() - 4)

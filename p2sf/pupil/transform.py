@@ -1,8 +1,8 @@
-"""From pupil to focal plane, in plain formulas: a sum over nodes, a matrix DFT, and the paper's padded FFT.
+"""Sums from pupil to focal plane: a direct sum over nodes, a matrix DFT, and the padded FFT of the paper.
 
-A sum over many nodes and samples is a non-uniform FFT (Barnett, Magland & af Klinteberg 2019, finufft).
-All share one sign: field(x, y) = Σ amplitude · exp(+2πi(kx·x + ky·y)), k in cycles per µm. A pupil
-point (ξ, η) has k = −n'u'(ξ, η)/λ with the signed slope (`conventions`).
+Large sums over nodes and samples use a non-uniform FFT (Barnett, Magland & af Klinteberg 2019, finufft). All share one
+sign: field(x, y) = Σ amplitude · exp(+2πi(kx·x + ky·y)), k in cycles per µm. A pupil point (ξ, η) has k = −n'u'(ξ, η)/λ
+with the signed slope (`conventions`).
 
 See handbook 4.1.
 """
@@ -20,11 +20,12 @@ from p2sf.pupil.phasors import cosine_sine
 
 # Nodes per block of the direct sum: large enough for BLAS, small enough to stay in the cache.
 BLOCK = 4096
-MOST_PRODUCTS = 2**20  # nodes × samples from which a non-uniform FFT is the faster sum
-NUFFT_ERROR = {np.dtype(np.float64): 1e-14, np.dtype(np.float32): 1e-6}  # of the round-off of each precision
+MOST_PRODUCTS = 2**20  # nodes × samples above which a non-uniform FFT is faster
+NUFFT_ERROR = {np.dtype(np.float64): 1e-14, np.dtype(np.float32): 1e-6}  # in units of the round-off of each precision
 COARSE_ERROR = 1e-9  # least that a grid 1.25 times as fine as the samples allows, where 2 times is slow
 MANY_SAMPLES = 2**15  # beyond which that one is taken, whose square, 1e-18, is the error of a picture in R²
-FEW_SAMPLES = 2**14  # up to which a plan takes as long as a sum, and is kept; beyond, float32 positions are too coarse
+FEW_SAMPLES = 128 * 129  # up to which a plan, which takes as long as a sum, is kept; float32 places carry no more
+SAMPLES_OF_NODE = 8  # of an even picture, from which on a sum over half of them takes less time
 FEW_NODES = 2**13  # which need not be sorted by place
 _here = local()  # ``plan`` keeps plans, which hold the nodes of one sum at a time, apart in each thread
 
@@ -64,28 +65,34 @@ def _even_nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nda
     """Return `_nufft` for nodes and their mirror images, of half the amplitude each.
 
     About x = 0 the images' sum is the mirror image of that of the nodes. x and −x are both samples of an odd number.
+    Among many samples, twice the nodes over |x| take less time.
     """
-    if x[x.size // 2] == 0 and x.size > 1:
+    middle, nodes = x.size // 2, amplitude.shape[-1]
+    about_0 = x[middle] == 0 and x.size > 1
+    if about_0 and x.size * y.size < SAMPLES_OF_NODE * nodes:
         wide = x if x.size % 2 else np.append(x, -x[0])
         field = _nufft(amplitude, kx, ky, wide, y)
         even: np.ndarray = (field[..., : x.size] + field[..., ::-1][..., : x.size]) / 2
         return even
-    both = np.concatenate([kx, -kx], axis=-1), np.concatenate([ky, ky], axis=-1)
-    return _nufft(np.concatenate([amplitude, amplitude], axis=-1) / 2, *both, x, y)
+    pairs = (amplitude / 2, amplitude / 2), (kx, -kx), (ky, ky)
+    both, across, up = (np.concatenate(pair, axis=-1) for pair in pairs)
+    field = _nufft(both, across, up, -x[middle::-1] if about_0 else x, y)
+    return np.concatenate([field[..., :0:-1], field[..., : x.size - middle]], axis=-1) if about_0 else field
 
 
 def _nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return `sum_plane_waves` over evenly spaced axes by a non-uniform FFT of type 1, each set of nodes in turn."""
+    """Return `sum_plane_waves` over evenly spaced axes by a non-uniform FFT of type 1, one set of nodes at a time."""
     shape = np.broadcast_shapes(amplitude.shape, kx.shape, ky.shape)
     sets = [np.broadcast_to(array, shape).reshape(-1, shape[-1]) for array in (amplitude, kx, ky)]
     steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
-    middle = float(x[x.size // 2]), float(y[y.size // 2])  # where Fourier mode 0 is
+    middle = float(x[x.size // 2]), float(y[y.size // 2])  # position of Fourier mode 0
     modes = tuple(axis.size for axis in (y, x) if axis.size > 1)
     transform, precision = _plan(modes, kx.dtype, shape[-1] <= FEW_NODES)
     fields = np.empty((len(sets[0]), y.size, x.size), np.result_type(precision, np.complex64))
     for field, weight, across, up in zip(fields, *sets, strict=True):
         if any(middle):
-            weight = weight * np.exp(2j * np.pi * (across * middle[0] + up * middle[1]))
+            cycles = np.multiply(across, middle[0], dtype=float) + np.multiply(up, middle[1], dtype=float)
+            weight = weight * np.exp(2j * np.pi * cycles)
         turns = [np.ascontiguousarray(k, precision) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
         transform.setpts(*turns)
         transform.execute(weight.astype(fields.dtype), out=field.reshape(modes))
@@ -93,7 +100,7 @@ def _nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray,
 
 
 def _plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> tuple[Any, np.dtype]:
-    """Return a plan of finufft for these Fourier modes, and the precision of the nodes that it takes."""
+    """Return a finufft plan for these Fourier modes, and the precision of its nodes."""
     if prod(modes) > FEW_SAMPLES:
         return _new_plan(modes, dtype, few)
     if not hasattr(_here, "plan"):
@@ -125,7 +132,7 @@ def _block(
 ) -> np.ndarray:
     """Return the block's sum from one real product at |x|, |y|: a(c + is)(c' + is') with the signs of x and y.
 
-    ``kernels``: how many of cosine and sine there are along x.
+    ``kernels``: the number of kernels along x, cosine alone or cosine and sine.
     """
     columns, from_column = np.unique(np.abs(x), return_inverse=True)
     rows, from_row = np.unique(np.abs(y), return_inverse=True)
@@ -163,11 +170,11 @@ def matrix_dft(pupil: np.ndarray, kx: ArrayLike, ky: ArrayLike, x: ArrayLike, y:
 
 
 def padded_fft(pupil: np.ndarray, pupil_samples: int, pixels: int) -> np.ndarray:
-    """Return the same sum by FFT, for kx = j/(pupil_samples·pitch), j centred, at the pitch of x: the paper's way.
+    """Return the same sum by FFT, for kx = j/(pupil_samples·pitch), j centred, at the pitch of x, as in the paper.
 
-    ``pupil``: (…, side, side), side even, sample side//2 is j = 0. Returns (…, pixels, pixels), sample pixels//2
-    is x = 0. A pupil wider than ``pupil_samples`` is folded onto itself, which leaves the sum at these x as it is,
-    so that any pitch is allowed. Source: Pieroni et al. 2015. Raises SamplingError.
+    ``pupil``: (…, side, side), side even, sample side//2 is j = 0. Returns (…, pixels, pixels), sample pixels//2 is x =
+    0. A pupil wider than ``pupil_samples`` is folded onto itself, which does not change the sum at these x, so that any
+    pitch is allowed. Source: Pieroni et al. 2015. Raises SamplingError.
     """
     check_fft(pupil_samples, pixels)
     plane: np.ndarray = np.fft.ifft2(_wrap(pupil, pupil_samples), norm="forward")

@@ -1,4 +1,4 @@
-"""Orthonormal polynomials of the unit disc that are even, or odd, in ξ: what a field along η leaves of Zernike's.
+"""Orthonormal polynomials of the unit disc that are even or odd in ξ: the Zernike polynomials for a field along η.
 
 Z = N·P_k(2ρ² − 1)·H_m with k = (n − m)/2, P_k the Jacobi polynomial of weights (0, m), H_m = Re or Im of
 (η + iξ)^m = ρ^m cos mθ or ρ^m sin mθ with θ from the +η axis: polynomials in ξ and η throughout, without an
@@ -109,7 +109,7 @@ def _product(one: _Powers, two: _Powers, size: tuple[int, int]) -> np.ndarray:
 def basis_by_powers(order: int, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return `basis` of the even and of the odd terms, each (…, terms, points), as products of powers.
 
-    Several times as fast; more digits cancel as the order grows: errors of some 1e-13 at order 6 and 1e-9 at 18.
+    Several times as fast; cancellation grows with the order: errors of some 1e-13 at order 6 and 1e-9 at 18.
     """
     down, along = _exponents(order)
     table = rising_powers(xi * xi, order + 1)[..., down, :] * rising_powers(eta, order + 1)[..., along, :]
@@ -134,7 +134,7 @@ def _exponents(order: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[list[float]]:
-    """Return Σ coefficient·term as plain numbers c[b][a] for ξ²ᵃ·ηᵇ, as `evaluate` takes them."""
+    """Return Σ coefficient·term as plain numbers c[b][a] for ξ²ᵃ·ηᵇ, the input of `evaluate`."""
     form = powers(order, odd)
     flat = (coefficients @ form.reshape(len(form), -1)).reshape(form.shape[1:])
     top = order - 1 if odd else order

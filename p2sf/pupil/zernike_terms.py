@@ -1,7 +1,7 @@
-"""Zernike terms by number: the standard order of Noll and the Fringe order, their names and their values.
+"""Zernike terms by number in Noll's order and the Fringe order, with their names and values.
 
-The angle θ runs from the +ξ axis towards +η, as in Noll's paper and in most programs; a field along η leaves the terms
-that are even in ξ, cos mθ with an even m and sin mθ with an odd one.
+The angle θ runs from the +ξ axis towards +η, as in Noll's paper and in most programs; for a field along η only the
+terms even in ξ remain, cos mθ with even m and sin mθ with odd m.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ ZernikeOrder = Literal["noll", "fringe"]
 ORDERS: tuple[ZernikeOrder, ...] = get_args(ZernikeOrder)
 MOST_TERMS = {"noll": 231, "fringe": 37}  # Noll's up to degree 20
 LOWEST = {(0, 0): "piston", (1, 1): "tilt", (2, 0): "defocus"}
-FAMILIES = {  # by azimuthal order, then by rising degree
+FAMILIES = {  # by azimuthal order, then by ascending degree
     0: (
         "spherical aberration",
         "secondary spherical aberration",
@@ -57,12 +57,17 @@ class ZernikeTerm:
         """Return whether the term is even in ξ, as the wavefront of a symmetric lens is for a field along η."""
         return (self.m % 2 == 0) == (self.m >= 0)
 
+    @property
+    def odd(self) -> bool:
+        """Return whether the term is odd in ξ."""
+        return not self.even
+
 
 def family(n: int, m: int) -> str:
     """Return the name of the aberration of degree n and azimuthal order m ≥ 0."""
     if (n, m) in LOWEST:
         return LOWEST[n, m]
-    first = max(m, 4 - m)  # coma begins at degree 3, spherical aberration at 4, the others at their own m
+    first = max(m, 4 - m)  # coma starts at degree 3, spherical aberration at 4, the others at their m
     rank = (n - first) // 2
     names = FAMILIES.get(m, ())
     return names[rank] if rank < len(names) else f"n = {n}, m = {m}"

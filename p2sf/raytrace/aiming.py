@@ -12,13 +12,14 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.conventions import FloatOrArray, vergence
+from p2sf.conventions import FloatOrArray, degrees_from_slope, slope_from_degrees, vergence
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, indices
+from p2sf.lens.lens import Lens, indices, message_if_misaligned
 from p2sf.lens.source import Source
+from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
-from p2sf.pupil.basis import PupilDomain
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.zernike import basis, basis_by_powers, gradient
 from p2sf.raytrace.stop_map import StopMap
 from p2sf.raytrace.surface import Beam, Status
@@ -33,6 +34,8 @@ DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the launch w
 ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
+PANEL_DEG = 2.0  # of field, over which rough maps are known from five to 1e-9 of the radius
+FIELDS = np.cos((np.arange(5) + 0.5) * (np.pi / 5))  # of these, −1 … 1 over the panel (Chebyshev)
 FINE = (15, (9, 34)), (21, (12, 46))  # orders and nodes of maps that may stand for aiming
 GUESS = 27, (16, 60)  # of the map from which many rays take one step where none stands for aiming
 NEARLY = 1e-6  # of the pupil's radius: a map that is farther off is not exact at the next order either
@@ -45,6 +48,10 @@ FEW = 24  # rays, below which a map costs more than the steps of Newton's method
 MANY = 512  # rays, from which on a map that need not be confirmed ray by ray costs less than a Newton step
 VERY_MANY = 1024  # rays, more than any map is laid through, that are guessed by that of GUESS
 
+NO_DISC = Message(
+    "parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop",
+    parameter=ParameterName("aim"),
+)
 Nodes: TypeAlias = np.ndarray  # (ray,)
 Point: TypeAlias = tuple[np.ndarray, np.ndarray]  # x and y, mm
 Slopes: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
@@ -186,13 +193,12 @@ def pupil_rays(
 
 def _check_aim(lens: Lens) -> None:
     """Raise GeometryError for an aim that takes the pupil of a misaligned or shading lens for an even disc."""
-    if lens.aim == "paraxial" and lens.shading:
+    if lens.aim != "paraxial":
+        return
+    if lens.shading:
         raise GeometryError("{shading}, which the paraxial pupil takes for even; aim at the stop", shading=lens.shading)
-    if lens.misaligned and lens.aim == "paraxial":
-        raise GeometryError(
-            "parts of the lens are tilted or decentred, and its pupil is no paraxial disc; choose {parameter} stop",
-            parameter="aim",
-        )
+    if reason := message_if_misaligned(lens, NO_DISC):
+        raise GeometryError(reason)
 
 
 def arriving(
@@ -256,7 +262,7 @@ def start(rays: PupilRays) -> Beam:
     return beam
 
 
-def _goal(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
+def _stop_points(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
     """Return the points of the stop, mm, that rays through (ξ, η) are to meet."""
     rim = float(np.max(enter.stop.semi_diameter))
     return rim * enter.upright * xi, rim * enter.upright * eta
@@ -266,13 +272,13 @@ def _aim(
     lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes, aim_error: float
 ) -> PupilRays:
     """Solve for entrance points whose real rays meet the stop at (ξ, η) of its rim; wide fields by continuation."""
-    goal = _goal(enter, xi, eta)
+    goal = _stop_points(enter, xi, eta)
     found = _newton(lens, enter, goal, _guess(lens, source, enter, stop, xi, eta), _move_mm(enter, aim_error))
-    chief = _known_chief(lens, source, enter, stop) if found.missed.any() else None
+    chief = _known_chief(lens, source, stop) if found.missed.any() else None
     if chief is not None:
-        found = _outwards(lens, enter, goal, chief, found)
+        found = _aim_outwards(lens, enter, goal, chief, found)
     elif found.missed.any():
-        found = _by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
+        found = _aim_by_continuation(lens, enter, goal, _paraxial(enter, xi, eta), found)
         found.x[found.missed] = found.y[found.missed] = np.nan
     launch = _launch_weight(enter, found.x, found.y, found.gain)
     return replace(_through(enter, found.x, found.y), launch=launch, stop_surface=int(np.max(enter.stop.surface)))
@@ -281,11 +287,11 @@ def _aim(
 def _launch_weight(enter: Entrance, x: np.ndarray, y: np.ndarray, gain: np.ndarray) -> np.ndarray:
     """Return the weights of aimed rays through these entrance points; ``gain`` = ∂(stop point)/∂(entrance point)."""
     area = (float(np.max(enter.stop.semi_diameter)) / enter.radius) ** 2 / gain
-    launch: np.ndarray = area * _oblique(enter, x, y)
+    launch: np.ndarray = area * _solid_angle(enter, x, y)
     return launch
 
 
-def _oblique(enter: Entrance, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def _solid_angle(enter: Entrance, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the solid angle of unit area of the pupil's plane about each ray, over that about the chief ray.
 
     dΩ = dx dy·cosθ/distance², with 1/cosθ = √(1 + slope²), which is also the distance over that along the axis.
@@ -306,7 +312,7 @@ def _aimed_to_sensor(
     """
     enter = entrance(lens, source, stop)
     at, step = int(np.max(enter.stop.surface)), _difference_mm(enter)
-    (x, y), goal = _guess(lens, source, enter, stop, xi, eta), _goal(enter, xi, eta)
+    (x, y), goal = _guess(lens, source, enter, stop, xi, eta), _stop_points(enter, xi, eta)
     for _ in range(STEPS_TOGETHER):
         launched = _through(enter, *_beside(x, y, step))
         beam = run(lens, start(launched), enter.index, last=at)
@@ -316,7 +322,7 @@ def _aimed_to_sensor(
             run(lens, beam, enter.index, first=at + 1)
             beam.path += launched.path
             x, y = x + move_x, y + move_y
-            return _between(beam, move_x / step, move_y / step), _launch_weight(enter, x, y, gain), enter.index
+            return _interpolate_rays(beam, move_x / step, move_y / step), _launch_weight(enter, x, y, gain), enter.index
         x, y = x + move_x, y + move_y
     return None
 
@@ -325,13 +331,13 @@ def _mapped_to_sensor(
     lens: Lens, source: Source, xi: Nodes, eta: Nodes, aim_error: float
 ) -> tuple[Beam, FloatOrArray, Index] | None:
     """Carry rays to the sensor that only the rough map aims; None where one meets the stop too far from its place."""
-    found, enter = _weighing_map(lens, source), entrance(lens, source)
+    found, enter = _map_with_launch(lens, source), entrance(lens, source)
     if found is None:
         return None
     at, rim = int(np.max(enter.stop.surface)), float(np.max(enter.stop.semi_diameter))
     x, y, launch = found.at(xi, eta)
     rays = _through(enter, x, y)
-    beam, goal = run(lens, start(rays), enter.index, last=at), _goal(enter, xi, eta)
+    beam, goal = run(lens, start(rays), enter.index, last=at), _stop_points(enter, xi, eta)
     if not np.hypot(goal[0] - beam.x, goal[1] - beam.y).max() <= aim_error * rim:
         return None
     run(lens, beam, enter.index, first=at + 1)
@@ -339,21 +345,21 @@ def _mapped_to_sensor(
     return beam, launch, enter.index
 
 
-def _between(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
+def _interpolate_rays(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
     """Return rays by linear interpolation between those of `_beside`; one fails if it or a neighbour does."""
 
-    def moved(here: np.ndarray, right: np.ndarray, up: np.ndarray) -> np.ndarray:
+    def interpolate(here: np.ndarray, right: np.ndarray, up: np.ndarray) -> np.ndarray:
         between: np.ndarray = right - here
         between *= share_x
         between += share_y * (up - here)
         between += here
         return between
 
-    place, ray = (moved(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray))
+    place, ray = (interpolate(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray))
     out = Beam(place, ray, beam.wavelength_um)
-    out.path = moved(*beam.path)
+    out.path = interpolate(*beam.path)
     if isinstance(beam.transmission, np.ndarray):
-        out.transmission = moved(*beam.transmission)
+        out.transmission = interpolate(*beam.transmission)
     if beam.status.any():
         for status, surface in zip(beam.status, beam.failed_surface, strict=True):
             fresh = (out.status == Status.PASSED) & (status != Status.PASSED)
@@ -414,7 +420,7 @@ def _move_mm(enter: Entrance, aim_error: float) -> float:
     return LAST_MOVE * sqrt(aim_error) * float(np.max(enter.radius))
 
 
-def _by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, found: _Aim) -> _Aim:
+def _aim_by_continuation(lens: Lens, enter: Entrance, goal: Point, start_at: Point, found: _Aim) -> _Aim:
     """Return ``found`` with the rays that missed aimed anew, by way of smaller fields."""
     lost = np.flatnonzero(found.missed.any(tuple(range(found.missed.ndim - 1))))
     some = goal[0][..., lost], goal[1][..., lost]
@@ -459,7 +465,7 @@ def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.n
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
     """Return entrance points from which Newton's method starts: by a pupil map, or for few rays by first order."""
-    chief = _known_chief(lens, source, enter, stop)
+    chief = _known_chief(lens, source, stop)
     known = stop is None and isinstance(source, Source)
     fine = _guessing_map(lens, source) if known and xi.size >= VERY_MANY else None
     if fine is not None:
@@ -475,7 +481,7 @@ def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | N
 
 def _first_order_points(enter: Entrance, chief: "_Aim | None", xi: Nodes, eta: Nodes) -> Point:
     """Return points of the paraxial entrance pupil, without symmetry those about the chief ray."""
-    return _paraxial(enter, xi, eta) if chief is None else _about_chief(chief, _goal(enter, xi, eta))
+    return _paraxial(enter, xi, eta) if chief is None else _about_chief(chief, _stop_points(enter, xi, eta))
 
 
 def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
@@ -486,22 +492,47 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
 
 @lru_cache(maxsize=64)
 def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
-    enter = entrance(lens, source)
-    return _rough_map(lens, enter, _known_chief(lens, source, enter, None))
+    """Return the rough map of a source: by those of a few fields near it, else, where one of these loses rays, its own.
+
+    Which of the two never depends on what was asked before, so neither does a result. Rays of five fields are traced
+    together for two thirds more time than those of one, and serve a field that moves.
+    """
+    angle = float(degrees_from_slope(source.field_slope))
+    known = _maps_over_field(lens, source.depth_mm, source.wavelength_um, angle // PANEL_DEG)
+    if known is None:
+        enter = entrance(lens, source)
+        return _rough_map(lens, enter, _known_chief(lens, source, None))
+    powers = (2 * (angle % PANEL_DEG) / PANEL_DEG - 1) ** np.arange(FIELDS.size)
+    return powers @ known[0], powers @ known[1]
+
+
+@lru_cache(maxsize=64)
+def _maps_over_field(lens: Lens, depth_mm: float, wavelength_um: float, panel: float) -> Point | None:
+    """Return the coefficients of the rough maps in powers of the place in a panel of fields, (powers, terms).
+
+    None where one of the fields loses rays.
+    """
+    slopes = slope_from_degrees(PANEL_DEG * (panel + (1 + FIELDS) / 2))
+    sources = Sources(depth_mm, slopes, wavelength_um)
+    enter = entrance(lens, sources)
+    found = _rough_map(lens, enter, _known_chief(lens, sources, None), each=True)
+    rows = np.vander(FIELDS, increasing=True)
+    return None if found is None else (np.linalg.solve(rows, found[0]), np.linalg.solve(rows, found[1]))
 
 
 @lru_cache(maxsize=16)
-def _weighing_map(lens: Lens, source: Source) -> StopMap | None:
+def _map_with_launch(lens: Lens, source: Source) -> StopMap | None:
     """Return the rough map, with launch weights by its own areas."""
     found = _cached_rough_map(lens, source)
     return None if found is None else _with_launch(entrance(lens, source), *found, _terms_at(lens, ROUGH_ORDER))
 
 
-def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None") -> Point | None:
+def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None", each: bool = False) -> Point | None:
     """Return coefficients of the entrance points x and y over the stop, confirmed by no ray; None if rays are lost.
 
     Rays through first-order points land on the stop at scattered points; a least-squares fit over those gives the map
-    from the stop back to the pupil without a search. Of several sources, those that lose a ray keep the paraxial map.
+    from the stop back to the pupil without a search. Of several sources, those that lose a ray keep the paraxial map,
+    unless ``each`` has to have its own.
     Without symmetry each has all terms, the even ones first.
     """
     nodes, rim = _terms_at(lens, ROUGH_ORDER), float(np.max(enter.stop.semi_diameter))
@@ -511,11 +542,11 @@ def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None") -> Point | Non
     landed = scale * beam.x, scale * beam.y
     if beam.status.any():
         met = np.isfinite(beam.x + beam.y).all(-1, keepdims=True)
-        if not met.any():
+        if not (met.all() if each else met.any()):
             return None
         landed = np.where(met, landed[0], nodes.xi), np.where(met, landed[1], nodes.eta)
     kinds = basis_by_powers(ROUGH_ORDER, *landed)  # even, odd
-    of_x, of_y = (_joined([kinds[flag] for flag in lens.pupil_domain.parities(own)]) for own in (True, False))
+    of_x, of_y = (_join_parities([kinds[flag] for flag in lens.pupil_domain.parities(own)]) for own in (True, False))
     return _least_squares(of_x, x), _least_squares(of_y, y)
 
 
@@ -545,13 +576,15 @@ def _terms_at(lens: Lens, order: int, counts: tuple[int, int] = ROUGH_NODES) -> 
 def _map_terms(order: int, counts: tuple[int, int], domain: PupilDomain) -> _MapTerms:
     nodes, kinds = domain.nodes(counts), (domain.parities(True), domain.parities(False))
     xi, eta = nodes.xi, nodes.eta
-    of_x, of_y = (_joined([basis(order, xi, eta, odd) for odd in own]) for own in kinds)
+    of_x, of_y = (_join_parities([basis(order, xi, eta, odd) for odd in own]) for own in kinds)
     gradients = [[gradient(order, xi, eta, odd) for odd in own] for own in kinds]
-    slopes_x, slopes_y = ((_joined([d[0] for d in own]), _joined([d[1] for d in own])) for own in gradients)
+    slopes_x, slopes_y = (
+        (_join_parities([d[0] for d in own]), _join_parities([d[1] for d in own])) for own in gradients
+    )
     return _MapTerms(order, xi, eta, nodes.weight, of_x, of_y, slopes_x, slopes_y, domain)
 
 
-def _joined(kinds: list[np.ndarray]) -> np.ndarray:
+def _join_parities(kinds: list[np.ndarray]) -> np.ndarray:
     """Return the terms of one parity or of both, one behind the other; of one, as they are."""
     return kinds[0] if len(kinds) == 1 else np.concatenate(kinds, axis=-2)
 
@@ -560,7 +593,7 @@ def _with_launch(enter: Entrance, x: np.ndarray, y: np.ndarray, at: _MapTerms) -
     """Return the map with these coefficients of x and y, and with launch weights by its own areas."""
     (x_xi, x_eta), (y_xi, y_eta) = at.slopes_x, at.slopes_y
     area = (x @ x_xi) * (y @ y_eta) - (x @ x_eta) * (y @ y_xi)
-    launch = area / enter.radius**2 * _oblique(enter, x @ at.of_x, y @ at.of_y)
+    launch = area / enter.radius**2 * _solid_angle(enter, x @ at.of_x, y @ at.of_y)
     return StopMap.of(at.order, at.domain, x, y, at.of_y @ (at.share * launch))
 
 
@@ -596,10 +629,10 @@ def _map_through_rays(
     x, y = (rows @ (at.share * column[:count]) for rows, column in zip((at.of_x, at.of_y), true[:2], strict=True))
     # By the map's own areas: those by differences are off by some 1e-6, which do not cancel without symmetry.
     found = _with_launch(enter, x, y, at)
-    return found, *_off_on_rim(found.at(*held), true, enter)
+    return found, *_errors_on_rim(found.at(*held), true, enter)
 
 
-def _off_on_rim(
+def _errors_on_rim(
     mapped: np.ndarray, true: tuple[np.ndarray, np.ndarray, np.ndarray], enter: Entrance
 ) -> tuple[float, float]:
     """Return the largest errors of points, in radii, and of weights by a map at the last of the rays."""
@@ -619,32 +652,37 @@ def _least_squares(rows: np.ndarray, values: np.ndarray) -> np.ndarray:
 # from where light enters; so all starts at the chief ray, which a search finds if it must.
 
 
-def chief_rays(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> PupilRays:
-    """Return the chief rays of a misaligned lens, (…, 1), found to `CHIEF_AIM_ERROR`; NaN where there is none."""
+def chief_rays(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> PupilRays | None:
+    """Return the chief rays of a misaligned lens, (…, 1), found to `CHIEF_AIM_ERROR`; NaN where there is none.
+
+    None for another lens: there first order tells where rays enter.
+    """
+    chief = _known_chief(lens, source, stop)
+    if chief is None:
+        return None
     _check_aim(lens)
     enter = entrance(lens, source, stop)
-    chief = _chief_aim(lens, source, enter, stop)
     return replace(_through(enter, chief.x, chief.y), stop_surface=int(np.max(enter.stop.surface)))
 
 
-def _known_chief(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _Aim | None:
-    """Return the chief ray from which others are looked for; None where first order tells where they enter."""
-    return _chief_aim(lens, source, enter, stop) if lens.misaligned else None
+def _known_chief(lens: Lens, source: Source | Sources, stop: Stop | None) -> _Aim | None:
+    """Return how the chief ray, which goes through the stop's centre, enters, (…, 1), NaN if not found.
 
-
-def _chief_aim(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None) -> _Aim:
-    """Return how the chief ray, which goes through the stop's centre, enters, (…, 1); NaN if not found."""
+    Others are looked for from there; None where first order tells where they enter.
+    """
+    if not lens.misaligned:
+        return None
     if stop is None and isinstance(source, Source):
         return _cached_chief_aim(lens, source)
-    return _found_chief_aim(lens, enter)
+    return _find_chief_aim(lens, entrance(lens, source, stop))
 
 
 @lru_cache(maxsize=64)
 def _cached_chief_aim(lens: Lens, source: Source) -> _Aim:
-    return _found_chief_aim(lens, entrance(lens, source))
+    return _find_chief_aim(lens, entrance(lens, source))
 
 
-def _found_chief_aim(lens: Lens, enter: Entrance) -> _Aim:
+def _find_chief_aim(lens: Lens, enter: Entrance) -> _Aim:
     centre = np.zeros(1), np.zeros(1)
     guess, enough = _paraxial(enter, *centre), _move_mm(enter, CHIEF_AIM_ERROR)
     found = _newton(lens, enter, centre, guess, enough)
@@ -672,7 +710,7 @@ def _about_chief(chief: _Aim, goal: Point) -> Point:
     return x, y
 
 
-def _outwards(lens: Lens, enter: Entrance, goal: Point, chief: _Aim, found: _Aim) -> _Aim:
+def _aim_outwards(lens: Lens, enter: Entrance, goal: Point, chief: _Aim, found: _Aim) -> _Aim:
     """Return ``found`` with the rays that missed aimed anew, from the chief ray outwards."""
     lost = np.flatnonzero(found.missed.any(tuple(range(found.missed.ndim - 1))))
     some = goal[0][..., lost], goal[1][..., lost]

@@ -1,4 +1,4 @@
-"""Where the chief ray of a misaligned lens runs, and what is wrong where it does not reach the sensor."""
+"""Check of the chief ray of a misaligned lens, with the reason if it does not reach the sensor."""
 
 from functools import lru_cache
 
@@ -17,8 +17,6 @@ from p2sf.raytrace.trace import run, status_message
 
 def check_chief_ray(lens: Lens, source: Source | Sources, stop: Stop | None = None) -> None:
     """Raise GeometryError where the chief ray of a misaligned lens is lost, or meets a surface beyond its rim."""
-    if not lens.misaligned:
-        return
     if stop is None and isinstance(source, Source):
         _check_cached(lens, source)
     else:
@@ -32,6 +30,8 @@ def _check_cached(lens: Lens, source: Source) -> None:
 
 def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
     rays = chief_rays(lens, source, stop)
+    if rays is None:
+        return
     beam, heights = start(rays), []
     run(lens, beam, rays.index, visit=lambda _: heights.append(np.hypot(beam.x, beam.y)))
     lost = beam.status != Status.PASSED
@@ -51,7 +51,7 @@ def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
 
 
 def chief_ray_error(lens: Lens, outcome: Message, surface: int) -> GeometryError:
-    """Return the error that says what becomes of the chief ray at a surface, and which placement may be to blame."""
+    """Return the error that states the fate of the chief ray at a surface and the placement that may have caused it."""
     number, placement = _last_placement(lens, surface)
     if placement is None:
         return GeometryError("the chief ray {outcome}; choose a smaller field", outcome=outcome)
@@ -66,9 +66,9 @@ def chief_ray_error(lens: Lens, outcome: Message, surface: int) -> GeometryError
 
 
 def _last_placement(lens: Lens, surface: int) -> tuple[int, Placement | None]:
-    """Return the last surface up to this one that is placed, else followed by a break, and its first break.
+    """Return the last surface up to this one with a break before it, else behind it, and its first break.
 
-    A break behind a piece mostly takes back the one before it, and would name the piece by the opposite numbers.
+    A break behind a piece usually undoes the one before it and would report the opposite numbers.
     """
     for side in ("before", "after"):
         for number in range(min(surface, len(lens.surfaces)) - (side == "after"), 0, -1):

@@ -1,9 +1,9 @@
-"""Pupil nodes where rims, holes of mirrors and shadows end what a mask leaves open, as signed pieces.
+"""Pupil nodes over the open part of a mask bounded by rims, holes of mirrors and shadows, as signed pieces.
 
-A hole or a shadow stands on a surface and walks over the pupil with the field. Its image in the pupil is found as that
-of a rim is (`vignetting`): by bisection on real rays, along directions from a point inside. The open part is the clear
-part without holes, less each of its intersections with holes, plus those with two of them, and so on. Each of these
-pieces must be star-shaped about its centre, as overlaps of rims seen through a lens are.
+A hole or a shadow lies on a surface and moves over the pupil with the field. Its image in the pupil is found like that
+of a rim (`vignetting`): by bisection on real rays, along directions from a point inside. The open part is the clear
+part without holes, minus its intersection with each hole, plus those with two of them, and so on. Each of these pieces
+must be star-shaped about its centre, as overlaps of rims seen through a lens are.
 """
 
 from collections.abc import Callable
@@ -15,20 +15,12 @@ from math import ceil, cos, pi, sin, tan
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
-from p2sf.pupil.basis import WHOLE, PupilDomain
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import (
-    FEWEST_ACROSS,
-    ClearNodes,
-    Piece,
-    circle_exit,
-    corners_of_disc,
-    ring_count,
-    shaded_nodes,
-    strip,
-)
+from p2sf.pupil.domain import ClearNodes, Piece, PupilDomain
+from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask_nodes import FEWEST_ACROSS, circle_exit, corners_of_disc, join_pieces, ring_count, strip
+from p2sf.pupil.open_part import StarCurve
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.clear_radius import Clearance, clear_radius
@@ -37,15 +29,15 @@ from p2sf.raytrace.surface import Status, circle_room, ended_at
 from p2sf.raytrace.trace import lens_rims, run
 
 SEARCH_RINGS = 24
-SCAN = 384  # directions around the whole circle in which corners are looked for
-SECTIONS = 16  # of the interval of a corner in one step: so few rays cost no more than one
+SCAN = 384  # directions around the whole circle between which corners are sought
+SECTIONS = 16  # sections of the interval of a corner in one step: so few rays cost no more than one
 CORNER_STEPS = 4  # its direction to 3e-7: the radius is continuous there, and the sum good to the square
 FEWEST_PER_ARC = 8
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 AXIS_POINTS, SECANTS = 65, 6
-TRIED_ALONG = 24  # points of a vane at which a hole that it crosses is looked for
-OBSCURATION = 0  # stands for the mask's own among the surfaces with holes
-LEFT_HOLE, LEFT_OBSCURATION = 1000, -1000  # labels of what ends a radius, beside surfaces and blades
+TRIED_ALONG = 24  # points of a vane at which crossings with a hole are sought
+OBSCURATION = 0  # denotes the mask's own obscuration among the surfaces with holes
+LEFT_HOLE, LEFT_OBSCURATION = 1000, -1000  # labels of what ends a radius, in addition to surfaces and blades
 CLIPPED = "the rims clip every ray of this field; leave {parameter} off or reduce the field"
 LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduce the field"
 
@@ -54,7 +46,7 @@ LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduc
 class Region:
     """The part of the pupil whose rays reach the sensor and pass ``within`` every hole of these surfaces.
 
-    ``lens`` has its holes; they do not end rays here. ``mask``: as the source sees it.
+    ``lens``, whose holes do not block rays here, and ``mask``: as the source sees them.
     """
 
     lens: Lens
@@ -65,8 +57,8 @@ class Region:
 
     @property
     def domain(self) -> PupilDomain:
-        """Return what of it tells everything: half, where lens and mask are symmetric."""
-        return self.lens.pupil_domain if self.mask.even else WHOLE
+        """Return the part that determines the rest: half of it if lens and mask are symmetric."""
+        return self.lens.pupil_domain.behind(self.mask.domain)
 
     def holds(self, xi: np.ndarray, eta: np.ndarray) -> Clearance:
         """Return which points of the iris lie in the region, how far as `clear_radius` has it, and what ends others."""
@@ -74,14 +66,13 @@ class Region:
         beam, shaded = start(rays), dict[int, np.ndarray]()
         beam.exempt = 0
         rims = lens_rims(self.lens, keep_stop=False) if self.clip else None
-        solid = replace(self.lens, surfaces=tuple(replace(s, inner_radius=0.0) for s in self.lens.surfaces))
 
         def visit(number: int) -> None:
             if number in self.within:
                 surface = self.lens.surfaces[number - 1]
                 shaded[number] = circle_room(beam, surface.inner_radius, surface.rim)
 
-        run(solid, beam, rays.index, rims, visit=visit)
+        run(without_holes(self.lens), beam, rays.index, rims, visit=visit)
         passed, label = beam.status == Status.PASSED, ended_at(beam.status, beam.failed_surface)
         room = np.asarray(beam.clearance)
         for number, inside in shaded.items():
@@ -108,7 +99,7 @@ class Region:
     def edge(
         self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return how far inner points lie from the region's edge along directions, and what ends it there."""
+        """Return the distance of inner points from the edge of the region along directions, and what ends it."""
         outer, label = self.limit(xi, eta, sine, cosine)
 
         def clearance(radius: np.ndarray, some: np.ndarray) -> Clearance:
@@ -128,8 +119,29 @@ class Outline:
 
 
 def holes_of(lens: Lens) -> tuple[int, ...]:
-    """Return the surfaces that have a hole or cast a shadow, from 1."""
+    """Return the surfaces with a hole or a shadow, from 1."""
     return tuple(number for number, surface in enumerate(lens.surfaces, 1) if surface.inner_radius > 0)
+
+
+def without_holes(lens: Lens) -> Lens:
+    """Return the lens with its holes closed, and without what casts a shadow."""
+    return (
+        replace(lens, surfaces=tuple(replace(s, inner_radius=0.0) for s in lens.surfaces)) if holes_of(lens) else lens
+    )
+
+
+def hole_curves(lens: Lens, source: Source, clip: bool, points: int) -> tuple[StarCurve, ...]:
+    """Return the images in the pupil of the holes and shadows that end rays; some ``points`` to half a turn each."""
+    curves = []
+    for number in holes_of(lens) if clip else ():
+        region = Region(seen_from(lens, source.azimuth_deg), source, clip, CLEAR, (number,))
+        shape = outline_of(region)
+        if shape is not None:
+            theta = region.domain.edge_directions(shape.corners, points)
+            radius, _ = _along(region, (shape.xi, shape.eta), theta)
+            xi, eta = shape.xi + radius * np.sin(theta), shape.eta + radius * np.cos(theta)
+            curves.append(StarCurve((shape.xi, shape.eta), *region.domain.closed(xi, eta)))
+    return tuple(curves)
 
 
 def check_without_holes(lens: Lens, clip: bool) -> None:
@@ -144,8 +156,8 @@ def check_without_holes(lens: Lens, clip: bool) -> None:
 
 
 def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool, mask: PupilMask) -> ClearNodes:
-    """Return nodes over what mask, rims, holes and lost rays leave open; GeometryError where that is nothing."""
-    region = Region(lens, source, clip, mask)
+    """Return nodes over the part left open by mask, rims, holes and lost rays; GeometryError if nothing is open."""
+    region = Region(seen_from(lens, source.azimuth_deg), source, clip, mask)
     holes = holes_of(lens) if clip else ()
     shadows = (*((OBSCURATION,) if mask.obscured else ()), *holes)
     outline = outline_of(region)
@@ -164,15 +176,12 @@ def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool,
                 pieces.append(_nodes(part, shape, counts, (-1) ** size))
     for angle in mask.vane_angles:
         pieces += _vane(region, holes, angle, counts[0])
-    if region.domain.symmetric:
-        pieces = [(xi, eta, 2 * area) for xi, eta, area in pieces if xi.mean() > 0]
-    xi, eta, area = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    return shaded_nodes(mask, xi, eta, area, region.domain.symmetric)
+    return join_pieces(mask, pieces, region.domain)
 
 
 @lru_cache(maxsize=64)
 def outline_of(region: Region) -> Outline | None:
-    """Return the centre and the corners of a region; None where it is empty."""
+    """Return the centre and the corners of a region; None if it is empty."""
     found = _centre(region)
     if found is None:
         return None
@@ -185,7 +194,7 @@ def outline_of(region: Region) -> Outline | None:
 def changes_of(
     label_at: Callable[[np.ndarray], np.ndarray], theta: np.ndarray, label: np.ndarray, steps: int
 ) -> np.ndarray:
-    """Return where a label changes between neighbouring angles, to 1/SECTIONS**steps of their distance.
+    """Return the angles at which a label changes, to 1/SECTIONS**steps of the distance between neighbours.
 
     ``label_at`` gives the labels at angles, (n,); ``label`` those at ``theta``.
     """
@@ -206,7 +215,7 @@ def _along(region: Region, centre: tuple[float, float], theta: np.ndarray) -> tu
 
 
 def _centre(region: Region) -> tuple[float, float] | None:
-    """Return a point well inside a region: where the axis of a hole is seen through it, else the mean of its points."""
+    """Return a point well inside a region: the image of the axis of a hole, else the mean of its points."""
     xi, eta = hexapolar(SEARCH_RINGS)
     tried = [_middle_of(region, number) for number in region.within]
     for place in (place for place in tried if place is not None):
@@ -225,7 +234,7 @@ def _centre(region: Region) -> tuple[float, float] | None:
 
 
 def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return which points of the disc lie in the region, the iris and the obscuration included."""
+    """Return which points of the disc lie in the region, taking iris and obscuration into account."""
     held = region.holds(xi, eta)[0]
     for edge in region.mask.edges:
         held = held & edge.lies_inside(xi, eta)
@@ -235,9 +244,9 @@ def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
 
 
 def _middle_of(region: Region, number: int) -> tuple[float, float] | None:
-    """Return the middle of the obscuration, or where a ray in the plane ξ = 0 meets the axis on a surface.
+    """Return the centre of the obscuration, or the pupil point on ξ = 0 whose ray meets the axis on a surface.
 
-    None where none of the pupil does.
+    None if there is no such point in the pupil.
     """
     if number == OBSCURATION:
         return region.mask.disc.xi, region.mask.disc.eta
@@ -278,7 +287,7 @@ def _nodes(region: Region, outline: Outline, counts: tuple[int, int], sign: int)
 
 
 def _vane(region: Region, shadows: tuple[int, ...], angle: float, radial: int) -> list[Piece]:
-    """Return what a vane covers outside holes and the obscuration, up to where the clear part ends; areas negative."""
+    """Return nodes of negative area over a vane outside holes and obscuration, up to the edge of the clear part."""
     half, count, disc = region.mask.vane_width, region.mask.vanes, region.mask.disc
     sine, cosine = sin(angle), cos(angle)
     corners = () if disc.centred else corners_of_disc(region.mask, angle)
@@ -317,15 +326,15 @@ def _check_open(
     directions: tuple[np.ndarray, np.ndarray],
     ends: tuple[np.ndarray, np.ndarray],
 ) -> None:
-    """Raise GeometryError where a vane enters a shadow farther out, and so is no single strip."""
+    """Raise GeometryError if a vane enters a shadow farther out and so is not a single strip."""
     part = (np.arange(TRIED_ALONG) + 0.5)[:, None] / TRIED_ALONG
     along = ends[0] + (ends[1] - ends[0]) * part
     xi, eta = ((a + along * b).ravel() for a, b in zip(foot, directions, strict=True))
     for number in shadows:
         if _inside(replace(region, within=(number,)), xi, eta).any():
             raise GeometryError(
-                "a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or remove the "
-                "vanes",
+                "a vane crosses the shadow of surface {surface} away from the centre; leave {parameter} off or remove "
+                "the vanes",
                 parameter="clip",
                 surface=number,
             )

@@ -1,4 +1,4 @@
-"""How far along directions rays pass, by few of them: how clear of a rim they pass it is smooth, and so has a root."""
+"""Largest radii at which rays pass, from few rays: the clearance at a rim is a smooth function with a root."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -7,23 +7,23 @@ import numpy as np
 
 BISECTIONS = 36  # the outer radius to 2e-11
 GUESSED = 5e-4  # of the outer radius
-PATIENCE = 18  # steps after which what is left is halved, as rounding may make steps by interpolation short
+PATIENCE = 18  # steps after which brackets are halved, since rounding may make interpolation steps short
 
 Clearance: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Whether rays pass, how clear of the edge (NaN where unknown), and what ends those that do not."""
+"""Whether rays pass, their clearance at the edge (NaN if unknown), and what blocks those that do not."""
 Ends: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Ends of brackets: radii, how clear of the edge rays there are, and whether they pass."""
+"""Ends of brackets: radii, the clearance of rays there, and whether they pass."""
 
 
 def clear_radius(
     clearance: Callable[[np.ndarray, np.ndarray], Clearance], outer: np.ndarray, guess: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return up to which radius along each direction rays pass, at most ``outer``, and what ends them there, 0 if none.
+    """Return the largest radii up to ``outer`` at which rays pass along directions, and what blocks them (0: none).
 
-    ``clearance(radius, some)`` returns the `Clearance` of rays at radii along ``some`` directions, by indices; how
-    clear they are is 0 at the edge and continuous about it. Rays at 0 pass. ``guess``: of the radii, saves steps where
-    it is good to GUESSED; half the outer ones if not given.
-    Each radius is one at which a ray passed, 2e-11 of the outer one from one at which it did not.
+    ``clearance(radius, some)`` returns the `Clearance` of rays at radii along ``some`` directions, by indices; the
+    clearance is 0 at the edge and continuous about it. Rays at 0 pass. ``guess``: estimates of the radii, which save
+    steps if they are good to GUESSED; by default half the outer ones. At each returned radius a ray passed; within
+    2e-11 of the outer radius beyond it, one did not.
     """
     near = np.zeros_like(outer) if guess is None else np.maximum(guess - GUESSED * outer, 0)
     far = outer if guess is None else np.minimum(guess + GUESSED * outer, outer)
@@ -34,7 +34,7 @@ def clear_radius(
     some = np.flatnonzero(~passed[0])
     bracketed = ~passed[1] & passed[2]
     enough = outer[some] * 2.0**-BISECTIONS
-    # The latest point, the other end of its bracket, and the point before these.
+    # The latest point, the other end of its bracket, and the previous point.
     first, second = np.where(bracketed, 1, 0)[some], np.where(bracketed, 2, 3)[some]
     new, other, before = (
         (tried[row, some], room[row, some], passed[row, some]) for row in (first, second, np.zeros_like(first))
@@ -62,7 +62,7 @@ def _where(one: Ends, other: Ends, where: np.ndarray) -> Ends:
 
 
 def _part(new: Ends, other: Ends, before: Ends, enough: np.ndarray) -> np.ndarray:
-    """Return which part of the bracket to step over, by inverse quadratic interpolation where that is safe, else half.
+    """Return the share of the bracket for the next step, by inverse quadratic interpolation if that is safe, else half.
 
     Source: Chandrupatla 1997, Advances in Engineering Software 28, 145.
     """

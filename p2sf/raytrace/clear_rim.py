@@ -1,7 +1,7 @@
-"""The rim of the part of the pupil that passes light, quickly, for pictures and shares of the variance.
+"""The rim of the clear part of the pupil, computed quickly for pictures and shares of the variance.
 
-`vignetting.clear_nodes` finds each corner of that rim and is exact to 1e-10; a picture of some hundred pixels needs a
-thousandth, which a few traces of rays along fixed directions give.
+`vignetting.clear_nodes` finds each corner of that rim and is exact to 1e-10; a picture of some hundred pixels needs
+1e-3, which a few traces of rays along fixed directions provide.
 """
 
 from dataclasses import dataclass
@@ -12,14 +12,13 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.basis import WHOLE, PupilDomain
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.domain import WHOLE, ClearNodes, PupilDomain
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, check_without_holes
 from p2sf.raytrace.pencil import hexapolar, pencil
 
 SEARCH_RINGS = 8
-SECTIONS = 16  # of each direction in each round: one trace of many rays costs less than many of few
+SECTIONS = 16  # rays in each direction in each round: one trace of many rays costs less than many of few
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +45,7 @@ class ClearRim:
         return np.stack([np.append(one, one[:1]) for one in self.points])
 
     def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return how far beyond the rim points lie, pupil radii along directions; negative inside."""
+        """Return the distance of points beyond the rim in pupil radii along directions; negative inside."""
         across, away = xi - self.aside, eta - self.centre
         place = (np.arctan2(across, away) / (2 * np.pi) % 1) * self.theta.size + 0.5
         left = np.minimum(place.astype(np.intp), self.theta.size)
@@ -62,16 +61,14 @@ class ClearRim:
         rho = np.sqrt((1 + square) / 2)[:, None] * radius
         area = (weight[:, None] / 2 * radius**2 / radius.size).ravel()
         xi, eta = self.aside + rho * np.sin(theta), self.centre + rho * np.cos(theta)
-        return ClearNodes(
-            xi.ravel(), eta.ravel(), area / area.sum(), min(float(area.sum()), 1.0), even=self.domain.symmetric
-        )
+        return ClearNodes(xi.ravel(), eta.ravel(), area / area.sum(), min(float(area.sum()), 1.0), domain=self.domain)
 
 
 @lru_cache(maxsize=32)
 def clear_rim(lens: Lens, source: Source, clip: bool, directions: int, rounds: int) -> ClearRim:
-    """Return the rim of the clear part, each radius to 16^−rounds of the pupil; without ``clip``, where rays are lost.
+    """Return the rim of the clear part, radii to 16^−rounds of the pupil's; without ``clip`` only lost rays bound it.
 
-    ``directions``: over half a turn. Raises GeometryError where no part is clear.
+    ``directions``: over half a turn. Raises GeometryError if no part is clear.
     """
     check_without_holes(lens, clip)
     xi, eta = hexapolar(SEARCH_RINGS)

@@ -23,7 +23,7 @@ from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import run
 
-NEAR = 1e-3  # pupil radii from the chief ray to its neighbours: an error of its square, a rounding of 1e-16 over it
+NEAR = 1e-3  # pupil radii from the chief ray to its neighbours: the error is its square plus 1e-16 divided by it
 
 
 class Foci(NamedTuple):
@@ -35,10 +35,10 @@ class Foci(NamedTuple):
 
 @dataclass(frozen=True)
 class Heights:
-    """Where chief rays land, mm on the sensor: by exact rays (NaN where lost), to third order, and paraxially.
+    """Heights of chief rays on the sensor, mm: by exact rays (NaN where lost), to third order, and paraxially.
 
-    Along the direction of the field; ``aside`` is how far beside it a misaligned lens has them land. There the other
-    two are those of the lens set straight.
+    They are measured along the direction of the field; ``aside`` is the component across it, for a misaligned lens.
+    There the other two are those of the aligned lens.
     """
 
     real: np.ndarray
@@ -58,39 +58,21 @@ class Heights:
 
 
 def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
-    """Return part/whole; 0 where the whole is 0, NaN where the part is."""
+    """Return part/whole; 0 where the whole is 0, NaN where the part is NaN."""
     share: np.ndarray = np.divide(part, whole, out=np.where(np.isnan(part), np.nan, 0.0), where=whole != 0)
     return share
 
 
 def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | None = None) -> Foci:
-    """Return the foci of exact rays close to the chief ray, the same as Coddington's equations.
+    """Return the foci of exact rays close to the chief ray, equivalent to Coddington's equations.
 
-    The sagittal focus is where a ray `NEAR` beside the chief ray crosses the plane of symmetry, the tangential one
-    where two rays `NEAR` above and below it cross. ``field_slope`` replaces that of ``source``. Of a misaligned lens
-    they are the two places where neighbours of the chief ray cross it, along the normal of the sensor; tangential is
-    the one whose neighbours lie nearer to the direction of the field.
+    They are the two distances along the normal of the sensor at which neighbours of the chief ray in some direction of
+    the pupil, `NEAR` from it, cross it; the tangential focus is the one whose neighbours are closer to the direction of
+    the field. ``field_slope`` replaces that of ``source``.
     """
+    # At a distance z the neighbours are displaced by (M + zN)·(ξ, η), M and N the derivatives of position and slope:
+    # this vanishes where −z is an eigenvalue of N⁻¹M.
     slopes = np.asarray(field_slope, dtype=float)
-    if lens.misaligned:
-        return _skew_foci(lens, source, slopes, stop)
-    xi, eta = np.array([NEAR, 0.0, 0.0]), np.array([0.0, NEAR, -NEAR])
-    rays = pupil_rays(lens, Sources(source.depth_mm, slopes, source.wavelength_um), xi, eta, stop=stop)
-    beam = run(lens, start(rays), rays.index)
-    lost = (beam.status != Status.PASSED).any(-1)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        across, up = beam.p / beam.r, beam.q / beam.r
-        sagittal = -beam.x[..., 0] / across[..., 0]
-        tangential = -(beam.y[..., 1] - beam.y[..., 2]) / (up[..., 1] - up[..., 2])
-    return Foci(np.where(lost, np.nan, sagittal), np.where(lost, np.nan, tangential))
-
-
-def _skew_foci(lens: Lens, source: Source, slopes: np.ndarray, stop: Stop | None) -> Foci:
-    """Return the foci without symmetry: where neighbours of the chief ray in some direction of the pupil cross it.
-
-    At a distance z such neighbours lie (M + zN)·(ξ, η) beside it, M and N the derivatives of place and slope: these
-    vanish where −z is an eigenvalue of N⁻¹M.
-    """
     xi, eta = np.array([NEAR, -NEAR, 0.0, 0.0]), np.array([0.0, 0.0, NEAR, -NEAR])
     turned = seen_from(lens, source.azimuth_deg)
     rays = pupil_rays(turned, Sources(source.depth_mm, slopes, source.wavelength_um), xi, eta, stop=stop)
@@ -100,20 +82,19 @@ def _skew_foci(lens: Lens, source: Source, slopes: np.ndarray, stop: Stop | None
         np.where(lost[..., None, None], np.eye(2), np.stack([part[..., ::2] - part[..., 1::2] for part in pair], -2))
         for pair in ((beam.x, beam.y), (beam.p / beam.r, beam.q / beam.r))
     )
-    values, directions = np.linalg.eig(np.linalg.solve(along, places))
-    upright = np.abs(directions[..., 1, :]) / np.abs(directions).max(-2)
-    second = upright[..., 1] > upright[..., 0]
-    tangential, sagittal = (-np.where(one, values[..., 1], values[..., 0]).real for one in (second, ~second))
-    return Foci(np.where(lost, np.nan, sagittal), np.where(lost, np.nan, tangential))
+    ((a, b), (c, d)) = np.moveaxis(np.linalg.solve(along, places), (-2, -1), (0, 1))
+    half = (a - d) / 2
+    apart = np.copysign(np.sqrt(np.maximum(half * half + b * c, 0.0)), half)
+    return Foci(*(np.where(lost, np.nan, -((a + d) / 2 + side * apart)) for side in (1, -1)))
 
 
 @dataclass(frozen=True)
 class FocalSurface:
-    """Where a lens is sharp over a grid of fields (x, y), in the axes of the sensor, mm.
+    """The surface of best focus over a grid of fields (x, y), in the axes of the sensor, mm.
 
     ``points``: (ny, nx, 3), halfway between both foci of each field, z > 0 behind the sensor; NaN where rays are lost.
-    ``tilt_deg``: the tilts about x and y, right-handed, that a sensor needs to lie along the plane of least squares
-    through them, degrees; ``shift_mm``: where that plane crosses the middle of the points.
+    ``tilt_deg``: the right-handed tilts about x and y that align a sensor with the least-squares plane through the
+    points, degrees; ``shift_mm``: where that plane crosses the middle of the points.
     """
 
     points: np.ndarray
@@ -122,9 +103,9 @@ class FocalSurface:
 
 
 def focal_surface(lens: Lens, source: Source, x_deg: ArrayLike, y_deg: ArrayLike) -> FocalSurface:
-    """Return where the points of a plane object are sharp, at all fields (x, y), and the plane nearest to that.
+    """Return where the points of a plane object are in focus, at all fields (x, y), and the best-fit plane.
 
-    Raises GeometryError where fewer than three fields pass.
+    Raises GeometryError if fewer than three fields pass.
     """
     rows = [[_focal_point(lens, source, float(x), float(y)) for x in np.ravel(x_deg)] for y in np.ravel(y_deg)]
     points = np.array(rows)
@@ -156,7 +137,7 @@ def _focal_point(lens: Lens, source: Source, x_deg: float, y_deg: float) -> list
 
 
 def seidel_foci(c: Coefficients) -> Foci:
-    """Return where W20 + Wd and W20 + W22 + Wd vanish: Δz = −2n′λW/NA² (Welford 1986, §7.7), mm."""
+    """Return the foci where W20 + Wd and W20 + W22 + Wd vanish: Δz = −2n′λW/NA² (Welford 1986, §7.7), mm."""
     scale = -2 * c.image_index * c.wavelength_um / c.na**2 / UM_PER_MM
     return Foci(scale * (c.w20 + c.wd), scale * (c.w20 + c.w22 + c.wd))
 
@@ -173,7 +154,7 @@ def heights(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | Non
     aside, real = (np.where(beam.status != Status.PASSED, np.nan, place)[..., 0] for place in (beam.x, beam.y))
     c = coefficients(lens, source.depth_mm, slopes, source.wavelength_um, stop)
     third = c.image_height + c.w11 * c.wavelength_um / c.reduced_slope / UM_PER_MM
-    return Heights(real, third, c.image_height, aside if lens.misaligned else 0.0)
+    return Heights(real, third, c.image_height, aside)
 
 
 def colour_shift(
@@ -181,26 +162,17 @@ def colour_shift(
 ) -> np.ndarray:
     """Return where rays of each zone of the pupil cross the axis, mm behind the sensor, (zones, wavelengths).
 
-    Zone 0 is the paraxial image; another zone is an exact ray at that fraction of the pupil's radius, NaN if lost. Of a
-    misaligned lens it is where rays through opposite points of the zone, above and below its middle, cross.
+    Zone 0 is the paraxial image; for other zones it is the crossing of exact rays through opposite points, above and
+    below the centre at that fraction of the pupil's radius; NaN if one is lost.
     """
     waves, zones = np.asarray(wavelength_um, dtype=float), np.asarray(zones, dtype=float)
-    height, slope = _in_meridian(lens, depth_mm, waves, zones, stop)
-    if lens.misaligned:
-        low, other = _in_meridian(lens, depth_mm, waves, -zones, stop)
-        height, slope = height - low, slope - other
+    rays = pupil_rays(
+        lens, Sources(depth_mm, 0.0, waves), np.zeros(2 * zones.size), np.append(zones, -zones), stop=stop
+    )
+    beam = run(lens, start(rays), rays.index)
     with np.errstate(invalid="ignore", divide="ignore"):
+        pairs = (np.where(beam.status != Status.PASSED, np.nan, part) for part in (beam.y, beam.q / beam.r))
+        height, slope = (part[:, : zones.size] - part[:, zones.size :] for part in pairs)
         crossing = -(height / slope).T
     paraxial = image_distance(lens, depth_mm, waves) - lens.sensor_mm
     return np.where(zones[:, None] == 0, paraxial, crossing)
-
-
-def _in_meridian(
-    lens: Lens, depth_mm: float, waves: np.ndarray, zones: np.ndarray, stop: Stop | None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return y and dy/dz at the sensor of rays through η = ``zones``, (wavelengths, zones); NaN where lost."""
-    rays = pupil_rays(lens, Sources(depth_mm, 0.0, waves), np.zeros_like(zones), zones, stop=stop)
-    beam = run(lens, start(rays), rays.index)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        height, slope = (np.where(beam.status != Status.PASSED, np.nan, part) for part in (beam.y, beam.q / beam.r))
-    return height, slope

@@ -1,9 +1,8 @@
 """Phase, image-space direction cosines and amplitude of a pencil as polynomials over the pupil (handbook 5.3).
 
-The diffraction integral is a Fourier transform over direction cosines; with W, Kx and Ky all given over the
-pupil disc it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit is one small
-product with a least-squares inverse that never changes. Rays that fill the real stop have uneven weights, which
-are a polynomial too.
+The diffraction integral is a Fourier transform over direction cosines; with W, Kx and Ky all given over the pupil disc
+it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit is one small product with a constant
+least-squares inverse. Rays that fill the real stop have varying weights, which are fitted by a polynomial too.
 """
 
 from dataclasses import dataclass, field, replace
@@ -17,40 +16,30 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aim, Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
-from p2sf.pupil.basis import (
-    CONSTANT,
-    HALF,
-    HELD_OUT,
-    WHOLE,
-    Gradient,
-    PupilBasis,
-    PupilDomain,
-    PupilValues,
-    Terms,
-    determinant,
-)
+from p2sf.pupil.basis import CONSTANT, Gradient, PupilBasis, PupilValues, Terms, determinant
+from p2sf.pupil.domain import HALF, HELD_OUT, WHOLE, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.raytrace.pencil import Rays, reaching
 from p2sf.raytrace.ray_field import Steepness, steepness
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 
-# RMS phase error in waves up to which an order is kept: 1 − R² then stays below some (4πσ)² = 2e-3.
+# RMS phase error in waves up to which an order is accepted: 1 − R² then stays below some (4πσ)² = 2e-3.
 RESIDUAL_WAVES = 3.5e-3
-# Weight s^a·(1 − s)^b of a ray at s = ρ², beside its area: the centre makes the core of the PSF, and at the rim a
-# polynomial deviates first. Near Chebyshev's weight; chosen on the stored references among powers in steps of 1/4.
-JUDGES = 6, 20  # radii and directions of the rays by which a fit is judged where a mask is open
+# Weight s^a·(1 − s)^b of a ray at s = ρ², in addition to its area: the centre forms the core of the PSF, and at the rim
+# a polynomial deviates first. Near Chebyshev's weight; chosen on the stored references among powers in steps of 1/4.
+JUDGES = 6, 20  # radii and directions of the rays that check a fit where a mask is open
 CENTRE_POWER, RIM_POWER = -0.75, -0.5
-SLOPE_WEIGHT = 0.1  # of a slope beside the phase: of 1/40, 1/20, 1/10 and 1/5 the best for the worst misaligned lenses
+SLOPE_WEIGHT = 0.1  # relative to the phase: of 1/40, 1/20, 1/10 and 1/5 the best for the worst misaligned lenses
 
 
 @dataclass(frozen=True)
 class Level:
     """The size of a fit: the terms of phase and maps, and the radii × directions of the rays it is made from.
 
-    ``weighted``: the rays have weights, a polynomial of the maps' order. Over the whole disc there are as
-    many rays on average on a ring as there are directions. ``by_slopes``: the phase is fitted to its slopes too, which
-    are known from where the rays land, so that as many rays tell more terms.
+    ``weighted``: the rays have weights, a polynomial of the maps' order. Over the whole disc there are as many rays on
+    average on a ring as there are directions. ``by_slopes``: the phase is fitted to its slopes too, which follow from
+    the landing points, so that the same rays determine more terms.
     """
 
     basis: PupilBasis
@@ -61,22 +50,22 @@ class Level:
 
     @property
     def amplitude(self) -> Terms:
-        """Return the terms of the amplitude: of rays without weights, which are all alike, the constant."""
+        """Return the terms of the amplitude: only the constant for rays without weights."""
         return self.basis.fy if self.weighted else CONSTANT
 
     @property
     def numbers(self) -> int:
-        """Return how many coefficients the level has."""
+        """Return the number of coefficients of the level."""
         return self.unweighted_numbers + self.basis.fy.count * self.weighted
 
     @property
     def unweighted_numbers(self) -> int:
-        """Return how many coefficients phase and maps have, without those of a weight."""
+        """Return the number of coefficients of phase and maps, without those of the weights."""
         return self.basis.phase.count + self.basis.fx.count + self.basis.fy.count
 
     @property
     def rays(self) -> int:
-        """Return how many rays are traced, those held out included."""
+        """Return the number of rays traced, including those held out."""
         return self.radii * self.directions + len(HELD_OUT[0])
 
 
@@ -107,12 +96,12 @@ UNIFORM = write_protect(np.ones(1))  # the first polynomial is 1
 
 
 def levels(aim: Aim, domain: PupilDomain = HALF) -> tuple[Level, ...]:
-    """Return the sizes of fit for a pupil that is filled as `Lens.aim` says and known over a domain."""
+    """Return the levels of fit for a pupil filled according to `Lens.aim` and known over a domain."""
     return SIZES[domain, aim]
 
 
 def levels_for(lens: Lens) -> tuple[Level, ...]:
-    """Return the sizes of fit for a lens."""
+    """Return the levels of fit for a lens."""
     return levels(lens.aim, lens.pupil_domain)
 
 
@@ -123,9 +112,8 @@ class FittedPencil:
     ``amplitude`` belongs to `Level.amplitude`, the others to `Level.basis`. ``residual_waves`` is the RMS error of the
     phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``amplitude_residual`` that of the
     amplitude over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak
-    of the clear disc.
-    ``amplitude`` is without the ``mask``, which stands in the pupil as the source sees it, and whose phase
-    ``wavelength_um`` scales.
+    of the clear disc. ``amplitude`` excludes the ``mask``, which is given in the pupil coordinates of the source and
+    whose phase scales with ``wavelength_um``.
     """
 
     level: Level
@@ -144,14 +132,14 @@ class FittedPencil:
 
     @property
     def numbers(self) -> int:
-        """Return how many coefficients describe this pencil."""
+        """Return the number of coefficients of this pencil."""
         return self.level.numbers
 
     @property
     def error_waves(self) -> float:
-        """Return the RMS phase error over all the light: the map's error counts as far as diffraction spreads light.
+        """Return the RMS phase error over all light; the error of the map is weighted by the spread due to diffraction.
 
-        An error of the amplitude changes the field as a phase of 1/2π of it does.
+        An amplitude error changes the field as much as a phase of 1/2π of it does.
         """
         phase = np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um)
         return float(np.hypot(phase, self.amplitude_residual / (2 * np.pi)))
@@ -161,7 +149,7 @@ class FittedPencil:
         return self.on(self.level.basis.values(xi, eta))
 
     def on(self, values: PupilValues) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return phase, fx and fy where the terms have these values."""
+        """Return phase, fx and fy from the values of the terms."""
         return self.phase @ values.phase, self.fx @ values.fx, self.fy @ values.fy
 
     def amplitude_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -181,29 +169,29 @@ def fit(
     residual_waves: float = RESIDUAL_WAVES,
     first: int = 0,
 ) -> FittedPencil:
-    """Fit one source's pencil; the order rises until the residual is small enough, or is fixed by ``numbers``.
+    """Fit one source's pencil; the order is raised until the residual is small enough, or is fixed by ``numbers``.
 
-    ``first``: the number of the first of `levels` that is tried.
+    ``first``: the index of the first of `levels` to try.
     ``numbers``: those of a level, with or without those of its weight, so that one count serves every `Lens.aim`.
-    Raises GeometryError where the chief ray, or any ray that the fit needs, does not reach the sensor.
+    Raises GeometryError if the chief ray or any ray required by the fit does not reach the sensor.
     """
     mask = mask_seen(lens, source)
-    judges: Judges | None = None
+    checks: CheckRays | None = None
     traced, rays, sampling, found = 0, None, None, None
     for place, level in enumerate(levels_for(lens)[first:], first):
         if numbers not in (None, level.numbers, *_counts_of(place)):
             continue
         if rays is None or sampling != (level.radii, level.directions):
-            if judges is None and not mask.clear:
-                rays, judges = _trace_both(lens, source, level, mask, stop)
-                traced += judges.share.size
+            if checks is None and not mask.clear:
+                rays, checks = _trace_both(lens, source, level, mask, stop)
+                traced += checks.share.size
             else:
                 rays = _trace(lens, source, level, stop)
             sampling = level.radii, level.directions
             traced += level.rays
         found = fit_rays(rays, level, traced)
-        if judges is not None:
-            found = behind_mask(found, judges)
+        if checks is not None:
+            found = behind_mask(found, checks)
         if numbers or found.error_waves < residual_waves:
             break
     if found is None:
@@ -218,8 +206,8 @@ def _counts_of(place: int) -> tuple[int, int]:
 
 
 @dataclass(frozen=True)
-class Judges:
-    """Rays through what a mask leaves open, and the share of the light of each: errors count there too."""
+class CheckRays:
+    """Rays through the open part of a mask that check a fit, and the share of light of each."""
 
     mask: PupilMask
     wavelength_um: float
@@ -229,27 +217,27 @@ class Judges:
     data: Rays
 
 
-def judging_rays(lens: Lens, source: Source, mask: PupilMask, stop: Stop | None = None) -> Judges:
-    """Return rays through the open part of the pupil; GeometryError where one does not reach the sensor."""
-    xi, eta, share = _judges_of(mask, lens.pupil_domain)
-    return Judges(mask, float(source.wavelength_um), xi, eta, share, reaching(lens, source, xi, eta, stop))
+def trace_check_rays(lens: Lens, source: Source, mask: PupilMask, stop: Stop | None = None) -> CheckRays:
+    """Return rays through the open part of the pupil; GeometryError if one does not reach the sensor."""
+    xi, eta, share = _check_points(mask, lens.pupil_domain)
+    return CheckRays(mask, float(source.wavelength_um), xi, eta, share, reaching(lens, source, xi, eta, stop))
 
 
 @lru_cache(maxsize=16)
-def _judges_of(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _check_points(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return points of the open part of a domain, and shares of the light."""
-    nodes = domain.over(mask_nodes(replace(mask, vanes=0), *JUDGES))
+    nodes = domain.over(mask_nodes(mask.without_vanes, *JUDGES))
     share: np.ndarray = nodes.weight * np.square(nodes.amplitude)
     return nodes.xi, nodes.eta, write_protect(share / share.sum())
 
 
-def behind_mask(found: FittedPencil, judges: Judges) -> FittedPencil:
-    """Return the fit of the pupil behind a mask: steeper by its slopes, with residuals where it is open if larger."""
-    data, share = judges.data, judges.share
-    phase, fx, fy = found.at(judges.xi, judges.eta)
+def behind_mask(found: FittedPencil, checks: CheckRays) -> FittedPencil:
+    """Return the fit behind a mask: its slopes added to the steepness, and residuals over its open part if larger."""
+    data, share = checks.data, checks.share
+    phase, fx, fy = found.at(checks.xi, checks.eta)
     miss_x, miss_y = fx - data.fx, fy - data.fy
     error = phase - data.phase + miss_x * data.x_um + miss_y * data.y_um
-    off = (found.amplitude_at(judges.xi, judges.eta) - data.amplitude) / float(share @ data.amplitude)
+    off = (found.amplitude_at(checks.xi, checks.eta) - data.amplitude) / float(share @ data.amplitude)
     squares = (share @ error**2, share @ (miss_x**2 + miss_y**2), share @ off**2)
     own = found.residual_waves, found.map_residual, found.amplitude_residual
     residual, map_residual, amplitude_residual = (
@@ -260,9 +248,9 @@ def behind_mask(found: FittedPencil, judges: Judges) -> FittedPencil:
         residual_waves=residual,
         map_residual=map_residual,
         amplitude_residual=amplitude_residual,
-        steepness=with_slopes(found.steepness, judges.mask, judges.wavelength_um),
-        mask=judges.mask,
-        wavelength_um=judges.wavelength_um,
+        steepness=with_slopes(found.steepness, checks.mask, checks.wavelength_um),
+        mask=checks.mask,
+        wavelength_um=checks.wavelength_um,
     )
 
 
@@ -271,12 +259,12 @@ def _trace(lens: Lens, source: Source, level: Level, stop: Stop | None) -> Rays:
     return reaching(lens, source, xi, eta, stop)
 
 
-def _trace_both(lens: Lens, source: Source, level: Level, mask: PupilMask, stop: Stop | None) -> tuple[Rays, Judges]:
-    """Return the rays of a level and those that judge it, traced together, which takes as long as either."""
-    (xi, eta, _), (own_xi, own_eta, share) = level_rays(level), _judges_of(mask, lens.pupil_domain)
+def _trace_both(lens: Lens, source: Source, level: Level, mask: PupilMask, stop: Stop | None) -> tuple[Rays, CheckRays]:
+    """Return the rays of a level and those that check it, traced together, which takes as long as either."""
+    (xi, eta, _), (own_xi, own_eta, share) = level_rays(level), _check_points(mask, lens.pupil_domain)
     data = reaching(lens, source, np.append(xi, own_xi), np.append(eta, own_eta), stop)
-    rays, judging = data.part(slice(xi.size)), data.part(slice(xi.size, None))
-    return rays, Judges(mask, float(source.wavelength_um), own_xi, own_eta, share, judging)
+    rays, checking = data.part(slice(xi.size)), data.part(slice(xi.size, None))
+    return rays, CheckRays(mask, float(source.wavelength_um), own_xi, own_eta, share, checking)
 
 
 @lru_cache(maxsize=16)
@@ -287,9 +275,9 @@ def level_rays(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Projection:
-    """The terms of phase, fx and fy of a level on its rays, and the least-squares inverses for them.
+    """The terms of phase, fx and fy of a level at its rays, and their least-squares inverses.
 
-    ``slopes``: the inverses for ∂phase/∂ξ and ∂phase/∂η, whose parts add to that of the phase; none if not `by_slopes`.
+    ``slopes``: the inverses for ∂phase/∂ξ and ∂phase/∂η, to be added to that of the phase; none unless `by_slopes`.
     """
 
     rows: PupilValues
@@ -330,7 +318,7 @@ def _slopes_of_phase(rays: Rays, level: Level, fx: np.ndarray, fy: np.ndarray) -
 
 @dataclass(frozen=True)
 class PencilForms:
-    """The coefficients of one pencil or several, (…, terms), as `FittedPencil` has them, and their residuals, (…)."""
+    """The coefficients of one or several pencils, (…, terms), as in `FittedPencil`, and their residuals, (…)."""
 
     phase: np.ndarray
     fx: np.ndarray
@@ -342,7 +330,7 @@ class PencilForms:
 
 
 def pencil_forms(rays: Rays, level: Level) -> PencilForms:
-    """Return the least-squares coefficients of a level's rays, (…, ray), of one pencil or several."""
+    """Return the least-squares coefficients for a level's rays, (…, ray), of one or several pencils."""
     _, _, area = level_rays(level)
     project, used = _projection(level), area.size
     phase, fx, fy = (
@@ -359,7 +347,7 @@ def pencil_forms(rays: Rays, level: Level) -> PencilForms:
         miss = amplitude @ fy_rows - rays.amplitude
         amplitude_residual = _residual(miss, area, amplitude.shape[-1]) / (rays.amplitude[..., :used] @ area)
     miss_x, miss_y = fx @ fx_rows - rays.fx, fy @ fy_rows - rays.fy
-    # At a ray's landing point x the integrand's phase is w + f·x, so this is the error that matters there.
+    # At a ray's landing point x the phase of the integrand is w + f·x, so this is the relevant error there.
     error = phase @ phase_rows - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
     known = 3 if level.by_slopes else 1  # of each ray
     residual = _residual(error, area, phase.shape[-1] / known)
@@ -383,7 +371,8 @@ def fit_rays(rays: Rays, level: Level, traced: int, steep: Steepness | None = No
 def _residual(error: np.ndarray, weight: np.ndarray, unknowns: float) -> np.ndarray:
     """Return the larger RMS error: of the fit's own rays, corrected for its degrees of freedom, or of those held out.
 
-    At the rim the error of a polynomial fit is four times its RMS; the held-out rays lie there and count half.
+    At the rim the error of a polynomial fit is four times its RMS; the held-out rays lie there, so their error counts
+    half.
     """
     own, held = error[..., : weight.size], error[..., weight.size :]
     freedom = 1 - unknowns / weight.size

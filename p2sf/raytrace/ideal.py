@@ -1,7 +1,7 @@
-"""Ideal lenses: planes that image every point sharply to where first order has its image (handbook 8.9).
+"""Ideal lenses: planes that image every point sharply onto its paraxial image (handbook 8.9).
 
 A point is (X, Y, Z, W), homogeneous: it lies at (X, Y, Z)/W, and for W = 0 infinitely far in the direction (X, Y, Z).
-So no depth is a special case, an image at infinity included.
+So no depth is a special case, not even an image at infinity.
 """
 
 from typing import TypeAlias
@@ -16,9 +16,9 @@ Point: TypeAlias = tuple[FloatOrArray, FloatOrArray, FloatOrArray, FloatOrArray]
 
 
 def object_point(lens: Lens, beam: Beam, index: "np.ndarray | list[float]", number: int) -> Point | None:
-    """Return the point that surface ``number`` images, in its axes: what those before it make of the source.
+    """Return the point that surface ``number`` images, in its axes: the image of the source by the surfaces before it.
 
-    That is the paraxial image, exact where those are ideal as well. None for a beam whose source is not known.
+    It is the paraxial image, exact if those surfaces are ideal as well. None for a beam whose source is unknown.
     """
     point = beam.source
     if point is None:
@@ -45,15 +45,15 @@ def image_point(point: Point, power: FloatOrArray, before: FloatOrArray, after: 
     return x, y, z * (after / before), w + power / before * z
 
 
-def bend_ideally(
+def refract_ideal(
     beam: Beam, focal_length: float, before: FloatOrArray, after: FloatOrArray, point: Point | None
 ) -> None:
     """Bend rays that stand on an ideal lens, in the plane z = 0, by n'·tan U' = n·tan U − x/f, and so along y.
 
-    With the tangents every ray from a point goes to its Gaussian image. The path that the lens adds makes all paths
-    between the two points equal, as Fermat's principle has it for a sharp image: with O and O' the points and V the
-    vertex, n(|OV| − |OP|) + n'(|VO'| − |PO'|) at P, nothing at the vertex; signed, so that a virtual point counts
-    against the light. It is NaN where the point is not known.
+    With the tangents every ray from a point passes through its Gaussian image. The path that the lens adds makes all
+    paths between the two points equal, as Fermat's principle requires for a sharp image: with O and O' the points and V
+    the vertex, n(|OV| − |OP|) + n'(|VO'| − |PO'|) at P, zero at the vertex; signed, so that paths to virtual points are
+    negative. It is NaN if the point is unknown.
     """
     here = beam.place[:2].copy()
     tangents = (before * beam.ray[:2] / beam.r - here / focal_length) / after
@@ -63,11 +63,11 @@ def bend_ideally(
         beam.path[...] = np.nan
         return
     image = image_point(point, 1 / focal_length, before, after)
-    beam.path += after * _lead(image, *here) - before * _lead(point, *here)
+    beam.path += after * _path_difference(image, *here) - before * _path_difference(point, *here)
 
 
-def _lead(point: Point, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return |OV| − |OP| for P = (x, y, 0), mm, with the sign of z of O; written so that no distance is subtracted."""
+def _path_difference(point: Point, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return |OV| − |OP| for P = (x, y, 0), mm, with the sign of z of O, without subtracting distances."""
     across, up, along, w = point
     whole = np.sqrt(across * across + up * up + along * along)
     other = np.sqrt((across - w * x) ** 2 + (up - w * y) ** 2 + along * along)

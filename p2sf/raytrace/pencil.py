@@ -14,7 +14,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.domain import ClearNodes
 from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
 from p2sf.raytrace.surface import Beam, Status
@@ -199,19 +199,6 @@ def radiometric(light: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
     """Return √(light·|∂f/∂(ξ, η)|), the field of unit pupil area that spreads over f with all the energy sent in."""
     field: np.ndarray = np.sqrt(light * np.abs(jacobian))
     return field
-
-
-@dataclass(frozen=True)
-class Fan:
-    """A quantity along one line of the pupil: ``pupil`` −1…1, ``tangential`` along η, ``sagittal`` along ξ.
-
-    The axes of `Sources` come first.
-    """
-
-    pupil: np.ndarray
-    tangential: np.ndarray
-    sagittal: np.ndarray
-    unit: str
 
 
 def pencil(
@@ -449,22 +436,3 @@ def to_the_rim(rings: int) -> tuple[np.ndarray, np.ndarray]:
     xi, eta = hexapolar(rings)
     outermost = eta.max()
     return xi / outermost, eta / outermost
-
-
-def ray_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = False) -> Fan:
-    """Return the transverse ray errors at the sensor along η (their y) and along ξ (their x); µm, NaN where clipped."""
-    line, tangential, sagittal = _two_lines(lens, source, count, clip)
-    return Fan(line, tangential.dy * UM_PER_MM, sagittal.dx * UM_PER_MM, "µm")
-
-
-def opd_fan(lens: Lens, source: Source | Sources, count: int = 65, clip: bool = False) -> Fan:
-    """Return the displayed OPD along η and along ξ; waves, NaN where clipped."""
-    line, tangential, sagittal = _two_lines(lens, source, count, clip)
-    along, across = (opd_on_sphere(rays, exit_radius(lens, source, rays)) for rays in (tangential, sagittal))
-    return Fan(line, along, across, "waves")
-
-
-def _two_lines(lens: Lens, source: Source | Sources, count: int, clip: bool) -> tuple[np.ndarray, Rays, Rays]:
-    """Return ``count`` points from −1 to 1, and the pencils through those points of η and of ξ."""
-    line, zero = np.linspace(-1, 1, count), np.zeros(count)
-    return line, pencil(lens, source, zero, line, clip), pencil(lens, source, line, zero, clip)

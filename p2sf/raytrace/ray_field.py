@@ -1,4 +1,4 @@
-"""How steep the phase of a pencil is, which says how densely its field is to be sampled (handbook 4.3)."""
+"""Steepness of the phase of a pencil, which determines the sampling of its field (handbook 4.3)."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -7,9 +7,9 @@ import numpy as np
 
 from p2sf.raytrace.pencil import Rays
 
-COARSE = 1.15  # margin for what a maximum over some tens of rays may miss
+COARSE = 1.15  # margin for the maximum that some tens of rays may miss
 SMALLEST = 1e-12
-AIRY_RADIUS = 0.61  # over the largest spatial frequency
+AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π (Airy 1835), times λ/NA: over the largest frequency
 
 
 @dataclass(frozen=True)
@@ -28,15 +28,15 @@ class Steepness:
 
     @property
     def light_um(self) -> float:
-        """Return how far a ray's light spreads about its landing point, µm: Airy radius or blur/√(Fresnel number)."""
+        """Return the spread of a ray's light about its landing point, µm: Airy radius or blur/√(Fresnel number)."""
         blur = self.radial / self.spread
         return max(AIRY_RADIUS / self.spread, blur / sqrt(max(self.radial, 1.0)))
 
 
 def steepness(rays: Rays, xi: np.ndarray, eta: np.ndarray) -> Steepness:
-    """Return how steep the phase is, from where the rays land: over f it has the gradient −x, dw = −x·df (Hamilton).
+    """Return the steepness of the phase from the landing points: over f its gradient is −x, dw = −x·df (Hamilton).
 
-    f is nearly proportional to (ξ, η), so no derivative is needed. NaN rays are left out.
+    f is nearly proportional to (ξ, η), so no derivative is needed. NaN rays are ignored.
     """
     rho2 = xi * xi + eta * eta
     sine = np.sqrt(np.maximum(1 - eta * eta, SMALLEST))

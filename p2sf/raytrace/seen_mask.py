@@ -1,4 +1,4 @@
-"""The mask in the stop as one source sees it through the lens."""
+"""The pupil mask in the pupil coordinates of a source."""
 
 from dataclasses import replace
 
@@ -12,14 +12,14 @@ from p2sf.pupil.mask import EDGE_HARMONICS, PupilMask, mask_slopes
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.ray_field import Steepness
 
-DARKEST = 1e-12  # of the light of the clear disc: less is lost in single precision
+DARKEST = 1e-12  # of the light of the clear disc: less vanishes in single precision
 
 
 def mask_seen(lens: Lens, source: Source) -> PupilMask:
-    """Return the mask in the pupil coordinates of a source: turned with its azimuth, and where the pupil is inverted.
+    """Return the mask in the pupil coordinates of a source: rotated by its azimuth, and by 180° for an inverted pupil.
 
-    A source off the plane ξ = 0 is described as one in that plane (`Source.azimuth_deg`), from where the mask, which
-    stays, looks turned the other way. Raises GeometryError for a filter that lets next to no light through.
+    A source outside the plane ξ = 0 is described as one in that plane (`Source.azimuth_deg`), from which the fixed mask
+    appears rotated the other way. Raises GeometryError for a filter that transmits almost no light.
     """
     if lens.mask.shaded and not throughput(lens.mask).light > DARKEST:
         raise GeometryError("the filter in the stop lets no light through; make its apodisation wider")
@@ -30,7 +30,7 @@ def mask_seen(lens: Lens, source: Source) -> PupilMask:
 
 
 def with_slopes(steep: Steepness, mask: PupilMask, wavelength_um: float) -> Steepness:
-    """Return how steep the phase is with that of the mask on top; changes of the amplitude count too."""
+    """Return the steepness of the phase including that of the mask; changes of the amplitude count too."""
     if not (mask.phased or mask.shaded):
         return steep
     slopes = mask_slopes(mask)

@@ -8,12 +8,11 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_unmasked
+from p2sf.lens.lens import Lens, check_rays
 from p2sf.lens.source import Source
-from p2sf.messages import Message
-from p2sf.pupil.basis import WHOLE, PupilDomain
+from p2sf.pupil.domain import ClearNodes, PupilDomain
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes, outline_radius
+from p2sf.pupil.mask_nodes import mask_nodes, outline_radius
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST, holes_of
 from p2sf.raytrace.clear_rim import clear_rim
@@ -60,14 +59,14 @@ class Landing:
     """Where rays through quadrature nodes meet the sensor, µm from the chief ray, and their light, (…, ray).
 
     ``light``: share of the pupil's area times energy per unit of it, of unit sum; 0 on rims, which have no area, and
-    of rays that do not arrive, whose places are NaN. ``even``: only one half of a pupil with two like halves.
+    of rays that do not arrive, whose places are NaN. ``domain``: of the pupil, which may be half of one.
     ``rounding``: the share of the largest place below which a mean is nothing but rounding.
     """
 
     x_um: np.ndarray
     y_um: np.ndarray
     light: np.ndarray
-    even: bool
+    domain: PupilDomain
     rounding: float
 
     def mean(self, values: np.ndarray) -> np.ndarray:
@@ -78,8 +77,9 @@ class Landing:
     @property
     def centroid_um(self) -> tuple[np.ndarray, np.ndarray]:
         """Return x and y of the light's centroid, (…,); 0 where they are nothing but rounding."""
-        centre_y = self._mean_place(self.y_um)
-        return np.zeros_like(centre_y) if self.even else self._mean_place(self.x_um), centre_y
+        share = np.where(self.light != 0, self.light, 0.0)
+        x, y = (np.where(self.light != 0, place, 0.0) for place in (self.x_um, self.y_um))
+        return self._rounded(self.domain.mean_across(share, x), x), self._rounded((share * y).sum(-1), y)
 
     @property
     def rms_um(self) -> tuple[np.ndarray, np.ndarray]:
@@ -96,9 +96,8 @@ class Landing:
         centre_x, centre_y = self.centroid_um
         return self.x_um - centre_x[..., None], self.y_um - centre_y[..., None]
 
-    def _mean_place(self, place: np.ndarray) -> np.ndarray:
-        mean = self.mean(place)
-        return np.where(np.abs(mean) > self.rounding * np.fmax.reduce(np.abs(place), -1), mean, 0.0)
+    def _rounded(self, mean: np.ndarray, place: np.ndarray) -> np.ndarray:
+        return np.where(np.abs(mean) > self.rounding * np.abs(place).max(-1), mean, 0.0)
 
 
 def _root(square: np.ndarray) -> np.ndarray:
@@ -137,7 +136,7 @@ def landing(
 
 def _landing(lens: Lens, source: Source | Sources, clip: bool, follow_rims: bool, rings: int) -> Landing:
     mask = mask_of_rays(lens, source)
-    domain = lens.pupil_domain if mask.even else WHOLE
+    domain = lens.pupil_domain.behind(mask.domain)
     found, whole = _trace_sources(lens, source, _open_nodes(mask, rings, domain), _rim_points(mask, domain), clip)
     if whole or not follow_rims or isinstance(source, Sources):
         return _check_light(found, clip)
@@ -156,8 +155,7 @@ def mask_of_rays(lens: Lens, source: Source | Sources) -> PupilMask:
 
     Raises GeometryError for one that bends them.
     """
-    if lens.mask.phased:
-        check_unmasked(lens, Message("a picture of rays"))
+    check_rays(lens)
     wave = lens.reference_wavelength_um
     return mask_seen(lens, source if isinstance(source, Source) else Source(inf, 0.0, wave))
 
@@ -188,7 +186,7 @@ def _trace_sources(
     with np.errstate(invalid="ignore"):
         light = light / light.sum(-1, keepdims=True)
     rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
-    return Landing(rays.x_um, rays.y_um, light, nodes.even, rounding), bool(rays.passed.all())
+    return Landing(rays.x_um, rays.y_um, light, nodes.domain, rounding), bool(rays.passed.all())
 
 
 def _check_light(found: Landing, clip: bool) -> Landing:

@@ -1,16 +1,16 @@
-"""Polynomials over the stop for the points where aimed rays enter, and for their weights."""
+"""Polynomials over the stop for the entrance points of aimed rays and their weights."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.pupil.basis import PupilDomain
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.zernike import powers, rising_powers
 
 
 @dataclass(frozen=True, eq=False)
 class StopMap:
-    """Polynomials over the stop for entrance points x and y (mm), and weights where the map has them.
+    """Polynomials over the stop for entrance points x and y (mm) and, if the map has them, weights.
 
     ``tables`` hold c[b, a] of ξ²ᵃ·ηᵇ: the first of x/ξ, y and weights, by symmetry; the
     second, without symmetry, of the other: of x, y/ξ and weights/ξ. The axes of `Sources` stand between the first axis
@@ -32,7 +32,7 @@ class StopMap:
         return cls(tuple(tables))
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return entrance points x and y, and weights where the map has them, at points of the stop."""
+        """Return entrance points x and y and, if the map has them, weights at points of the stop."""
         values = _values(self.tables[0], xi, eta)
         values[0] *= xi
         for table in self.tables[1:]:

@@ -153,7 +153,7 @@ def _conic_step(
     np.subtract(beam.r, g, out=g)
     square = g * g
     square -= f * (curvature * (index * index + (conic * beam.r * beam.r if conic else 0.0)))
-    along = _along(np.sqrt(square), index)
+    along = _signed(np.sqrt(square), index)
     g += along
     f /= g
     return f, along, square
@@ -213,14 +213,14 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
     """Bend every ray by Snell's law, n'K' = nK + (n'cosI' − n·cosI)·unit normal (Welford 1986, eq. 4.36)."""
     gain = (after - before) * (after + before)
     if normal is None:
-        _along(_root(beam, beam.r * beam.r, gain, number, out=beam.r), after)
+        _signed(_root(beam, beam.r * beam.r, gain, number, out=beam.r), after)
         return
     if normal.square is None:
-        push = _along(_root(beam, normal.along_square, gain, number), after)
+        push = _signed(_root(beam, normal.along_square, gain, number), after)
         push -= normal.along
     else:
         length = np.sqrt(normal.square)
-        push = _along(_root(beam, normal.along_square / normal.square, gain, number), after)
+        push = _signed(_root(beam, normal.along_square / normal.square, gain, number), after)
         push = (push - normal.along / length) / length
     if normal.axial is None:
         beam.r += push
@@ -245,17 +245,17 @@ def diffract(beam: Beam, normal: Normal | None, diffraction: Diffraction, after:
     unit = WAVES_MM * beam.wavelength_um
     beam.path += unit * phase
     beam.ray[:2] += (2 * unit * slope) * beam.place[:2]
-    steep, axial, length_square = _whole(beam, normal)
+    steep, axial, length_square = _complete_normal(beam, normal)
     along = beam.r * axial - (steep * beam.ray[:2]).sum(0)
     gain = after * after - (beam.ray * beam.ray).sum(0)
     length = np.sqrt(length_square)
     root = _root(beam, along * along / length_square, gain, number, why=Status.EVANESCENT)
-    push = (_along(root, after) - along / length) / length
+    push = (_signed(root, after) - along / length) / length
     beam.r += push * axial
     beam.ray[:2] -= push * steep
 
 
-def _whole(beam: Beam, normal: Normal | None) -> tuple[np.ndarray, FloatOrArray, FloatOrArray]:
+def _complete_normal(beam: Beam, normal: Normal | None) -> tuple[np.ndarray, FloatOrArray, FloatOrArray]:
     """Return a normal's −x and −y, (2, …), its axial part and squared length, with what plane and sphere leave out."""
     if normal is None:
         return np.zeros_like(beam.place[:2]), 1.0, 1.0
@@ -266,7 +266,7 @@ def _whole(beam: Beam, normal: Normal | None) -> tuple[np.ndarray, FloatOrArray,
     return steep, axial, 1.0 if normal.square is None else normal.square
 
 
-def _along(values: np.ndarray, index: FloatOrArray) -> np.ndarray:
+def _signed(values: np.ndarray, index: FloatOrArray) -> np.ndarray:
     """Return ``values``, changed in sign in place where light runs to the left."""
     return values if _forwards(index) else np.negative(values, out=values)
 

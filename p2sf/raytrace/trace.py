@@ -11,8 +11,8 @@ from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, absorptions, indices
 from p2sf.messages import Message
-from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii, stop_rim
-from p2sf.raytrace.ideal import bend_ideally, object_point
+from p2sf.paraxial.pupils import RIM_TIE, default_stop, rim_radii, stop_rim
+from p2sf.raytrace.ideal import object_point, refract_ideal
 from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract, to_plane
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
@@ -23,7 +23,7 @@ _OUTCOMES = {
     Status.REFLECTED: "is totally reflected at surface {surface}",
     Status.CLIPPED: "is stopped by the rim of surface {surface}",
     Status.CLIPPED_BESIDE: "is stopped by the rim of surface {surface}",
-    Status.REFUSED: "meets the asphere on surface {surface} where no safe intersection was found",
+    Status.REFUSED: "meets the asphere on surface {surface} where no reliable intersection was found",
     Status.EVANESCENT: "has no diffracted direction behind surface {surface}, whose phase is too steep there",
     Status.UNAIMED: "could not be aimed at its place in the stop, surface {surface}",
 }
@@ -34,10 +34,10 @@ class Trace:
     """Rays traced from their origins to the sensor.
 
     ``points``: (surfaces + 2, …, ray, 3) mm from the first vertex: the origin, every surface, the sensor; NaN from
-    where the ray failed; in the axes of the lens, also where parts of it are tilted. ``cosines``: (…, ray, 3) in image
-    space, in the same axes, as the ray travels. ``path``: optical path from the
-    origin to the sensor, mm; NaN through an ideal lens, whose path depends on where the other rays of the source come
-    from (`pencil` knows). ``status``: `Status` per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
+    where the ray failed; in the axes of the lens, even if parts of it are tilted. ``cosines``: (…, ray, 3) in image
+    space, in the same axes, in the direction of travel. ``path``: optical path from the origin to the sensor, mm; NaN
+    through an ideal lens, whose path depends on the position of the source (known to `pencil`). ``status``: `Status`
+    per ray; ``failed_surface`` counts from 1, 0 where the ray passed.
     """
 
     points: np.ndarray
@@ -48,7 +48,7 @@ class Trace:
 
 
 def status_message(status: int, surface: int) -> Message:
-    """Return what happened to a ray, as the end of a sentence that begins with "the ray"."""
+    """Return the fate of a ray as the end of a sentence that begins with "the ray"."""
     return Message(_OUTCOMES[Status(status)], surface=surface)
 
 
@@ -62,10 +62,10 @@ def trace(
 ) -> Trace:
     """Trace skew rays; ``origins`` in mm from the first vertex and ``directions`` of any length, each (…, ray, 3).
 
-    An origin may lie anywhere on its ray in object space. ``wavelength_um`` broadcasts against the leading
-    axes. ``clip`` applies every clear semi-diameter and, with ``stop_clips``, the stop's rim, which the outermost rays
-    of its pupil touch. A ray that fails becomes NaN and keeps its reason and surface. Raises GlassError.
-    Source: Welford 1986, ch. 4.
+    An origin may lie anywhere on its ray in object space. ``wavelength_um`` broadcasts against the leading axes.
+    ``clip`` applies every clear semi-diameter and, with ``stop_clips``, the rim of the stop, which the outermost rays
+    of the pupil touch. A ray that fails becomes NaN and keeps the reason and the surface. Raises GlassError. Source:
+    Welford 1986, ch. 4.
     """
     origins, directions = np.broadcast_arrays(np.asarray(origins, float), np.asarray(directions, float))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -73,7 +73,7 @@ def trace(
     index = per_ray(indices(lens, wavelength_um))
     waves = wavelength_um if np.ndim(wavelength_um) == 0 else np.asarray(wavelength_um)[..., None]
     beam = launch(index[0], waves, np.moveaxis(origins, -1, 0), np.moveaxis(unit, -1, 0))
-    beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # an origin or direction that is not finite
+    beam.fail(~np.isfinite(origins + unit).all(-1), Status.MISSED, 1)  # origin or direction not finite
     places: list[np.ndarray] = []
     lost: list[np.ndarray] = []
 
@@ -90,11 +90,11 @@ def trace(
 
 
 def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
-    """Return a warning where a ray meets a surface before the one in front of it.
+    """Return a warning if a ray meets a surface before the one in front of it.
 
-    ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. A ray beyond the edge of the glass does so,
-    where the surfaces it is traced to have crossed; a thickness against the light puts them in that order on purpose.
-    Where parts are tilted or decentred, so that light may go anywhere along z, nothing is looked at.
+    ``z``: (surfaces, …) mm from the first vertex, NaN where the ray failed. That happens beyond the edge of the glass,
+    where surfaces have crossed; a negative thickness puts them in that order on purpose. A lens with tilted or
+    decentred parts, in which light may travel anywhere along z, is not checked.
     """
     if not len(z) or None in lens.steps:
         return None
@@ -106,7 +106,7 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
         return None
     before = int(np.argmax(back)) + 1
     return Message(
-        "rays meet surface {surface} before surface {before}, beyond the edge of the glass, where no light can go; "
+        "rays meet surface {surface} before surface {before}, beyond the edge of the glass, which is impossible; "
         "choose a smaller field or aperture",
         surface=before + 1,
         before=before,
@@ -142,22 +142,20 @@ def run(
 ) -> Beam:
     """Carry a beam through the lens to the sensor plane, or onto and through surface ``last``, and return it.
 
-    ``first`` > 1 goes on with a beam whose last surface was the one before it.
-    ``rims``, one per surface, mm, clip the beam. ``visit(number)`` is called on every surface and on the sensor, which
-    counts as the surface behind the last; without it, planes between equal media are skipped.
-    What media absorb is taken from `Beam.transmission`.
-    The beam is given in the axes of the lens, ends in those of its last surface or the sensor, and ``visit`` finds it
-    in those of the surface.
+    ``first`` > 1 continues a beam whose last surface was the one before it. ``rims``, one per surface, mm, clip the
+    beam. ``visit(number)`` is called on every surface and on the sensor, which counts as the surface behind the last;
+    without it, planes between equal media are skipped. Absorption reduces `Beam.transmission`. The beam is given in the
+    axes of the lens and ends in those of its last surface or the sensor; ``visit`` sees it in the axes of the surface.
     """
     absorbed = absorptions(lens, beam.wavelength_um)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        _onward(beam, lens, first - 1, index)
+        _to_next_axes(beam, lens, first - 1, index)
         for number, surface in enumerate(lens.surfaces[first - 1 : last], first):
             idle = surface.bare and rims is None and visit is None and absorbed is None
             if number == last or not (idle and _same(index[number - 1], index[number])):
                 _cross(beam, lens, index, number, rims, visit, absorbed)
             if number != last:
-                _onward(beam, lens, number, index)
+                _to_next_axes(beam, lens, number, index)
         if last is None:
             path = beam.path.copy() if absorbed else beam.path
             to_plane(beam, index[-1])
@@ -168,8 +166,8 @@ def run(
     return beam
 
 
-def _onward(beam: Beam, lens: Lens, number: int, index: Index) -> None:
-    """Give a beam in the axes of surface ``number``, 0 for those of the lens, in those of the next, or the sensor."""
+def _to_next_axes(beam: Beam, lens: Lens, number: int, index: Index) -> None:
+    """Convert a beam from the axes of surface ``number`` (0: of the lens) to those of the next, or of the sensor."""
     step = lens.steps[number]
     if step is None:
         move(beam, lens.motions[number], index[number], number + 1)
@@ -201,7 +199,7 @@ def _cross(
     if surface.transmission is not None:
         beam.transmission = beam.transmission * surface.transmission.at(beam.x * beam.x + beam.y * beam.y)
     if surface.ideal:
-        bend_ideally(beam, surface.ideal_focal_length, before, after, object_point(lens, beam, index, number))
+        refract_ideal(beam, surface.ideal_focal_length, before, after, object_point(lens, beam, index, number))
     elif surface.diffraction is not None:
         diffract(beam, normal, surface.diffraction, after, number)
     elif not _same(before, after):
@@ -209,9 +207,9 @@ def _cross(
 
 
 def _absorb(beam: Beam, absorption: FloatOrArray, path: np.ndarray, index: FloatOrArray) -> None:
-    """Take from a beam what a medium absorbs, per mm, from where its optical paths were ``path`` (Beer–Lambert).
+    """Apply the absorption of a medium, per mm, to a beam since its optical paths were ``path`` (Beer–Lambert).
 
-    Lengths have the sign of paths, so that a plane from which rays run back in the medium takes nothing.
+    Lengths have the sign of paths, so that going forth and back in the medium to a dummy plane cancels.
     """
     if np.any(absorption):
         beam.transmission = beam.transmission * np.exp(absorption * (path - beam.path) / np.abs(index))
@@ -242,12 +240,12 @@ def per_ray(index: np.ndarray) -> Index:
 
 
 def lens_rims(lens: Lens, keep_stop: bool = True) -> np.ndarray:
-    """Return the rims that clip, mm, a rounding wider than written; without ``keep_stop`` the stop's is infinite.
+    """Return the rims that clip, mm, wider by a rounding error; without ``keep_stop`` that of the stop is infinite.
 
-    A pencil that fills the stop needs no rim there, but one that stands elsewhere than the stop or is a rectangle.
-    Raises GeometryError for a lens that states no rim.
+    A pencil that fills the stop needs no rim there, except a decentred or rectangular one. Raises GeometryError for a
+    lens that states no rims.
     """
-    stop = lens.stop_surface or named_stop(lens)
+    stop = lens.stop_surface or default_stop(lens)
     rims = rim_radii(lens, stop, stop_rim(lens) if keep_stop else np.inf) * (1 + RIM_TIE)
     if lens.surfaces[stop - 1].rim:
         rims[stop - 1] = lens.surfaces[stop - 1].semi_diameter * (1 + RIM_TIE)

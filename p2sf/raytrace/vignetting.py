@@ -6,6 +6,7 @@ directions are Gauss–Legendre nodes between corners, so that the outline is sm
 part must be star-shaped about its centre, as every overlap of rims seen through a lens is.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -13,14 +14,24 @@ from itertools import pairwise
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned, seen_from
+from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.pupil.basis import at_nodes, determinant
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.domain import ClearNodes, PupilDomain
+from p2sf.pupil.mask_nodes import mask_nodes
+from p2sf.pupil.open_part import PupilEdges, StarCurve
 from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
-from p2sf.raytrace.clear_pieces import CLIPPED, LOST, changes_of, check_without_holes, holes_of, piece_nodes
+from p2sf.raytrace.clear_pieces import (
+    CLIPPED,
+    LOST,
+    changes_of,
+    check_without_holes,
+    hole_curves,
+    holes_of,
+    piece_nodes,
+    without_holes,
+)
 from p2sf.raytrace.clear_radius import Clearance, clear_radius
 from p2sf.raytrace.fit import FittedPencil, fit
 from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
@@ -98,7 +109,7 @@ def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool 
     # ∫∫ρ dρ dθ over the domain, divided by its area.
     area = (weight[:, None] / 2 * radius**2 * share / lens.pupil_domain.turn).ravel()
     xi, eta = (shape.aside + rho * np.sin(theta)).ravel(), (shape.centre + rho * np.cos(theta)).ravel()
-    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()), even=lens.pupil_domain.symmetric)
+    return ClearNodes(xi, eta, area / area.sum(), float(area.sum()), domain=lens.pupil_domain)
 
 
 def _directions(corners: tuple[float, ...], count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -203,24 +214,31 @@ def _of_each(room: dict[int, np.ndarray], labels: np.ndarray) -> np.ndarray:
 
 
 def clear_outline(
-    lens: Lens, source: Source, points: int, clip: bool = True, even: bool = True
+    lens: Lens, source: Source, points: int, clip: bool = True, domain: PupilDomain | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return (ξ, η) along the right half of the clear part's edge from top to bottom, its corners among them.
+    """Return (ξ, η) along the clear part's edge, from its top towards +ξ, its corners among them.
 
-    Some ``points``, evenly seen from the centre. Unless ``even``, as for a misaligned lens, the edge once around, with
-    twice as many. Raises GeometryError when no part is clear.
+    Some ``points`` to half a turn, evenly seen from the centre. ``domain``: of the pupil for which it is wanted, the
+    lens's own if not given: half the edge or all of it. Raises GeometryError when no part is clear.
     """
-    if even:
-        check_aligned(lens, Message("the outline of half a pupil"))
-    shape = outline(lens, source, clip)
-    arcs = [(low, high, max(2, round(points * (high - low) / np.pi))) for low, high in pairwise(shape.corners)]
-    parts = [np.linspace(*arc, endpoint=False) for arc in arcs]
-    theta = np.concatenate(parts) if lens.misaligned else np.append(np.concatenate(parts), np.pi)
+    shape, own = outline(lens, source, clip), lens.pupil_domain
+    theta = own.edge_directions(shape.corners, points)
     radius, _ = _edge(lens, source, clip, (shape.aside, shape.centre), theta, shape.guess(theta))
     xi, eta = shape.aside + radius * np.sin(theta), shape.centre + radius * np.cos(theta)
-    if even or lens.misaligned:
-        return xi, eta
-    return np.append(xi, -xi[-2:0:-1]), np.append(eta, eta[-2:0:-1])
+    for half in (domain or own).halves[len(own.halves) :]:  # the mirror image of what is known
+        xi, eta = np.append(xi, half * xi[-2:0:-1]), np.append(eta, eta[-2:0:-1])
+    return xi, eta
+
+
+def pupil_edges(lens: Lens, source: Source, points: int, clip: bool = True) -> PupilEdges:
+    """Return the edges of what rims, holes and lost rays leave of the disc, some ``points`` to half a turn each.
+
+    Raises GeometryError when no part is clear.
+    """
+    solid, own = without_holes(lens), lens.pupil_domain
+    shape = outline(solid, source, clip)
+    rim = StarCurve((shape.aside, shape.centre), *own.closed(*clear_outline(solid, source, points, clip)))
+    return PupilEdges(rim, hole_curves(lens, source, clip, points))
 
 
 def _edge(
@@ -266,8 +284,14 @@ def pencil_blur(
     return _blur(found, nodes, np.abs(found.jacobian(nodes.xi, nodes.eta)), pupil is not None)
 
 
-def masked_blur(found: FittedPencil) -> float:
-    """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval."""
+def masked_blur(found: FittedPencil, nodes_of: Callable[[tuple[int, int]], ClearNodes] | None = None) -> float:
+    """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval.
+
+    ``nodes_of``: the nodes of (radial, angular) counts over that pupil where rims end it.
+    """
+    if nodes_of is not None:
+        nodes = nodes_of(BLUR_NODES)
+        return _blur(found, nodes, np.abs(found.jacobian(nodes.xi, nodes.eta)))
     if found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
         return found.blur_um2
     there = at_nodes(found.level.basis, BLUR_NODES, found.mask)

@@ -1,8 +1,8 @@
-"""The exact wavefront of a source as a sum of terms that are orthogonal over the pupil in force (handbook 3.4).
+"""The exact wavefront of a source as a sum of terms that are orthogonal over its actual pupil (handbook 3.4).
 
 Over the whole disc these are Zernike's polynomials. Over the part that rims or lost rays leave clear they are the same
-polynomials made orthogonal there in turn, by Gram and Schmidt (Mahajan & Dai 2007); over a ring these are the annular
-polynomials of Mahajan 1981. The mean squares then add up to the variance of the wavefront, whatever the pupil's shape.
+polynomials orthogonalised there by Gram–Schmidt (Mahajan & Dai 2007); over a ring these are the annular polynomials of
+Mahajan 1981. The mean squares then add up to the variance of the wavefront for any shape of the pupil.
 """
 
 from dataclasses import dataclass
@@ -10,30 +10,35 @@ from math import ceil
 
 import numpy as np
 
-from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.domain import ClearNodes
+from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.open_part import WHOLE_DISC, PupilEdges
 from p2sf.pupil.tilt import rms
 from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
+from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.pencil import displayed_opd, pencil
-from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.vignetting import clear_nodes, pupil_edges, pupil_nodes
 from p2sf.threads import one_blas_thread
 
 COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40
 USUAL_TERMS = 37
-RIM_RAYS = 65  # on the rim's right half, which is clipped first
+EDGE_POINTS = 512  # of half an edge: chords depart from it by 5e-6 of the radius
+LINES_PER_RADIUS = 4  # between corners and ends of edges
+RIM_RAYS = 65  # on the right half of the rim, which is clipped first
 
 
 @dataclass(frozen=True)
 class ZernikeFit:
-    """A wavefront's terms over the pupil in force, each array (terms,); its light may fill part of the pupil only.
+    """The terms of a wavefront over its pupil, each array (terms,); light may fill only part of the pupil.
 
     ``waves``: coefficients, waves RMS in Noll's order and peak waves in the Fringe order, as both are defined on the
     disc. ``rms_waves``: each term's share of the RMS, with its sign. ``share``: of the variance without piston and
     tilt, which do not blur; 0 for those two. ``rms``: of the wavefront without piston and tilt; ``rms_with_tilt``
-    without piston alone; ``residual``: of what the terms leave. ``clear``: the part of the pupil's area that
-    passes light; below 1 the terms are orthogonal over that part. ``rays``: how many were traced.
+    without piston alone; ``residual``: of the remainder. ``clear``: the share of the pupil's area that passes light;
+    below 1 the terms are orthogonal over that part. ``rays``: the number of rays traced.
     """
 
     order: ZernikeOrder
@@ -47,6 +52,11 @@ class ZernikeFit:
     clear: float
     rays: int
 
+    @property
+    def marechal(self) -> float:
+        """Return exp(−(2π·rms)²), the Strehl ratio of so small an RMS by Maréchal (Mahajan 1983, eq. 6)."""
+        return float(np.exp(-((2 * np.pi * self.rms) ** 2)))
+
 
 @one_blas_thread
 def zernike_fit(
@@ -54,8 +64,8 @@ def zernike_fit(
 ) -> ZernikeFit:
     """Return the first ``count`` terms of the displayed OPD of exact rays; ``clip`` applies every clear semi-diameter.
 
-    Raises RequestError for an order or a count that does not exist, GeometryError where no part of the pupil is clear,
-    and for what stands in the stop beside an obscuration.
+    The phase of a mask is part of the wavefront. Raises RequestError for an order or a count that does not exist,
+    GeometryError where no part of the pupil is clear and open.
     """
     terms = zernike_terms(order, count)
     nodes, waves = pupil_opd(lens, source, clip)
@@ -69,41 +79,44 @@ def pupil_opd(
 
     The nodes are those of `Lens.pupil_domain`.
     """
-    nodes = open_nodes(lens, source, counts)
+    nodes, mask = open_nodes(lens, source, counts), mask_seen(lens, source)
     turn = np.linspace(0, np.pi, RIM_RAYS)
     rim = lens.pupil_domain.points(np.sin(turn), np.cos(turn))
     tried = np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1])
     if not pencil(lens, source, *tried, clip).passed.all():
-        if not lens.mask.clear:
-            raise GeometryError(
-                "rims cut off a pupil that has an obscuration, or some of its rays are lost, but annular terms need "
-                "a whole ring; leave {parameter} off, stop the lens down, or remove the obscuration",
-                parameter="clip",
-            )
-        nodes = clear_nodes(lens, source, counts, clip)
-    return nodes, displayed_opd(lens, source, nodes.xi, nodes.eta)
+        if mask.edged or (clip and holes_of(lens)):
+            nodes = open_nodes(lens, source, counts, pupil_edges(lens, source, EDGE_POINTS, clip))
+        else:
+            nodes = clear_nodes(lens, source, counts, clip)
+    return nodes, displayed_opd(lens, source, nodes.xi, nodes.eta) - path_waves(mask, source, nodes)
 
 
-def open_nodes(lens: Lens, source: Source, counts: tuple[int, int]) -> ClearNodes:
-    """Return nodes over the disc, or the ring about an obscuration; GeometryError for what else stands in the stop."""
-    mask = lens.mask
-    if not (mask.clear or mask.annular):
-        raise GeometryError(
-            "Zernike terms are over a disc or a ring, and more than an obscuration in its middle stands in the stop; "
-            "remove vanes, blades, filters and phases, and put an obscuration in the middle"
-        )
-    radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as else in the disc
-    return pupil_nodes(lens, source, (radial, counts[1]))
+def path_waves(mask: PupilMask, source: Source, nodes: ClearNodes) -> np.ndarray:
+    """Return by how much a mask shortens W at nodes, waves, against the chief ray."""
+    centre = mask.path_um(np.zeros(1), np.zeros(1))
+    waves: np.ndarray = (mask.path_um(nodes.xi, nodes.eta) - centre) / source.wavelength_um
+    return waves
+
+
+def open_nodes(lens: Lens, source: Source, counts: tuple[int, int], edges: PupilEdges = WHOLE_DISC) -> ClearNodes:
+    """Return nodes of positive weights over what the mask in the stop and the ``edges`` of the clear part leave open.
+
+    Raises GeometryError where that is nothing.
+    """
+    mask = mask_seen(lens, source)
+    if edges is WHOLE_DISC and mask.disc.centred and not (mask.iris or mask.spider):
+        radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as in the disc
+        return pupil_nodes(lens, source, (radial, counts[1]))
+    return edges.nodes(mask, LINES_PER_RADIUS * counts[0], 2 * counts[0], lens.pupil_domain.behind(mask.domain))
 
 
 def decompose(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
-    """Return the terms of a wavefront at nodes, (nodes,) waves; nodes of the half disc stand for one even in ξ.
+    """Return the terms of a wavefront at nodes, (nodes,) waves; nodes of the half disc mean one that is even in ξ.
 
-    Terms that are odd in ξ are then zero. Each of the others is made orthogonal to those before it, as a QR
-    decomposition of the terms at the weighted nodes does (Mahajan & Dai 2007, eq. 11); over the whole disc that changes
-    nothing.
+    Terms that are odd in ξ are then zero. The others are orthogonalised in order by a QR decomposition of the terms at
+    the weighted nodes (Mahajan & Dai 2007, eq. 11); over the whole disc that changes nothing.
     """
-    there = [number for number, term in enumerate(terms) if term.even or not nodes.even]
+    there = [number for number, term in enumerate(terms) if term.odd in nodes.domain.parities(False)]
     root = np.sqrt(nodes.weight)
     columns, lengths = np.linalg.qr((zernike_values(tuple(terms[k] for k in there), nodes.xi, nodes.eta) * root).T)
     columns *= np.sign(np.diag(lengths))

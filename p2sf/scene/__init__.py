@@ -1,4 +1,4 @@
-"""What a scene requires of a lens model, and a plan that models no more than that."""
+"""Requirements of a scene on a lens model, and a plan for the cheapest model that meets them."""
 
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.plan import Decision, Plan, plan

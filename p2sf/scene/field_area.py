@@ -1,4 +1,4 @@
-"""The part of a lens's field that a sensor shows, as far as symmetry leaves it to be described."""
+"""The part of the field of a lens on a sensor that symmetry does not determine."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -9,7 +9,7 @@ import numpy as np
 from p2sf.pixel_kernels.sensor_points import Fields
 from p2sf.scene.sensor import Sensor
 
-DIGITS = 12  # of places in mm, so that the same place is one pupil however it was computed
+DIGITS = 12  # of coordinates in mm, so that a point has one pupil however it was computed
 
 Point = tuple[float, float]
 """x and y (up) on the sensor, mm."""
@@ -17,9 +17,9 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class FieldArea:
-    """Where on a sensor the pupils differ, places (x, y up) in mm.
+    """The area of a sensor over which pupils differ, points (x, y up) in mm.
 
-    ``x_mm``, ``y_mm``: its least and greatest; about an axis of symmetry a line above it. ``near``: nearest to the axis
+    ``x_mm``, ``y_mm``: its limits; with rotational symmetry a line above the axis. ``near``: nearest to the axis
     of the sensor, and ``corners``: where pupils differ most, the farthest first, and ``near``, the last.
     """
 
@@ -35,12 +35,12 @@ class FieldArea:
         return self.corners[0]
 
     def point_of(self, x_mm: float, y_mm: float) -> Point:
-        """Return the point of the area whose pupil, turned, is that of a place on the sensor."""
+        """Return the point of the area whose pupil, rotated, is that of a point on the sensor."""
         x, y, _ = self.fields.orient(x_mm, y_mm)
         return round(float(x), DIGITS), round(float(y), DIGITS)
 
     def outwards(self, part: float) -> Point:
-        """Return the point at a part of the way from the nearest to the farthest."""
+        """Return the point at a fraction of the way from the nearest to the farthest."""
         (x, y), (across, up) = self.near, self.far
         return x + part * (across - x), y + part * (up - y)
 

@@ -8,11 +8,11 @@ from typing import Any
 from p2sf.errors import RequestError
 from p2sf.lens.positions import PARAMETER
 from p2sf.messages import Message
-from p2sf.scene.scene import OF_THE_CAMERA, RGB, Channel, Scene
+from p2sf.scene.scene import CAMERA_PARAMETERS, RGB, Channel, Scene
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", *OF_THE_CAMERA, "clip", "sensor", "depth", "channel"},
+    "": {"name", "tolerance", "measure", *CAMERA_PARAMETERS, "clip", "sensor", "depth", "channel"},
     "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
     "depth": {"near_mm", "far_mm", "map"},
     "channel": {"name", "wavelengths_nm", "weights"},
@@ -20,7 +20,7 @@ KEYS = {
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
-    """Return the scene of a TOML file; RequestError names the file and what to correct."""
+    """Return the scene of a TOML file; RequestError states the file and the correction."""
     try:
         table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
@@ -34,7 +34,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     try:
         return scene_from(table, Path(path))
     except RequestError as error:
-        # In words, so that keys of the file do not turn into options of the command line.
+        # As text, so that keys of the file do not become options of the command line.
         raise RequestError("{path}: {error}", path=str(path), error=str(error)) from error
     except (TypeError, ValueError, LookupError, AttributeError, OverflowError) as error:
         raise RequestError(
@@ -45,7 +45,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def scene_from(table: dict, path: Path) -> Scene:
-    """Return the scene of a table as TOML gives it; paths are relative to the file."""
+    """Return the scene of a parsed TOML table; paths are relative to the file."""
     _check_keys(table, "")
     sensor, depth = table.get("sensor"), table.get("depth", {})
     if not isinstance(sensor, dict):
@@ -78,7 +78,7 @@ def scene_from(table: dict, path: Path) -> Scene:
 
 
 def _place(key: str, value: Any) -> float | str:
-    """Return a place on a ring of the lens: a number, or the name of a column."""
+    """Return a position on a ring of the lens: a number, or the name of a column."""
     return value if isinstance(value, str) else _number(key, value)
 
 
@@ -106,7 +106,7 @@ def _numbers(key: str, values: Any) -> tuple[float, ...]:
 
 
 def _whole(sensor: dict, key: str) -> int:
-    """Return a number of pixels; a fraction is refused, since rounded down it would be another sensor."""
+    """Return a number of pixels; a fraction is refused, since rounding would change the sensor."""
     value = _number(key, sensor[key])
     if not value.is_integer():
         raise RequestError("sensor {key} is {value:g}; give a whole number", key=key, value=value)

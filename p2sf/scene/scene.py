@@ -1,4 +1,4 @@
-"""The scene: which depths, which part of the field, which colours, and how much error is tolerable."""
+"""The scene: depths, part of the field, colours and tolerance."""
 
 from dataclasses import dataclass, fields
 from math import inf, isfinite, log10, sqrt
@@ -6,7 +6,7 @@ from math import inf, isfinite, log10, sqrt
 import numpy as np
 
 from p2sf.arguments import check_fields
-from p2sf.camera import AimChoice, Camera, Request, set_up
+from p2sf.camera import AimChoice, Request, Settings, set_up
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
@@ -16,14 +16,14 @@ from p2sf.scene.sensor import Sensor
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
 MEASURES = "relative", "r2", "mtf", "psnr"
-TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil keep no less
-LOOSEST = 0.9  # relative error: beyond 1 a kernel of zeros would do
+TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil do not achieve less
+LOOSEST = 0.9  # relative error: beyond 1 a kernel of zeros would suffice
 WHITE = 0.5  # the largest standard deviation of numbers from 0 to 1: half of them are 0 (Popoviciu 1935)
 
 
 @dataclass(frozen=True)
 class Channel:
-    """One colour of the sensor: wavelengths in nm and how much of its light each one brings."""
+    """One colour of the sensor: wavelengths in nm and their shares of its light."""
 
     name: str
     wavelengths_nm: tuple[float, ...]
@@ -45,7 +45,7 @@ class Channel:
 
     @property
     def label(self) -> Message | str:
-        """Return the name for messages: a common colour's is translated, any other stays as it was given."""
+        """Return the name for messages: common colours are translated, other names stay unchanged."""
         return NAMES.get(self.name, self.name)
 
     @property
@@ -68,12 +68,12 @@ RGB = (
 
 @dataclass(frozen=True)
 class Scene:
-    """What is photographed: sensor, colours, depths (mm from the first vertex, inf allowed) and the tolerable error.
+    """A scene: sensor, colours, depths (mm from the first vertex, inf allowed) and the tolerable error.
 
     ``tolerance`` is the relative L2 error of a pixel's kernel. With ``measure`` "r2" it is the smallest R²; with "mtf"
-    the error of the MTF, root mean square over all spatial frequencies that the pixels show; with "psnr" the smallest
-    peak signal-to-noise ratio in dB of a picture of white noise between black and white. Pictures with most of their
-    light at low frequencies come out better.
+    the RMS error of the MTF over all spatial frequencies that the pixels resolve; with "psnr" the smallest peak
+    signal-to-noise ratio in dB of a picture of white noise between black and white. Pictures with most of their light
+    at low frequencies have smaller errors.
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
     the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
@@ -144,8 +144,8 @@ class Scene:
         √(1 − R²), which is the same for a small kernel on a dark ground. By Parseval the mean square of the difference
         of two kernels' transforms, over all frequencies up to the pixels' own, is the sum of the squares of theirs, and
         no two complex numbers are nearer than their moduli: so the MTF's error is at most the relative error times
-        ``norm``. Pixels of white noise add up without regard to each other: the mean square error of its picture is its
-        variance times that sum, the peak being 1.
+        ``norm``. Pixels of white noise are independent: the mean square error of its picture is its variance times that
+        sum, the peak being 1.
         """
         if self.measure == "relative":
             return self.tolerance
@@ -155,7 +155,7 @@ class Scene:
         return min(absolute / norm, LOOSEST)
 
     def measured(self, relative: float, norm: float) -> float:
-        """Return a relative error in the measure of the tolerance, for kernels as `relative_error` has them."""
+        """Return a relative error in the measure of the tolerance, for kernels as in `relative_error`."""
         if self.measure == "relative":
             return relative
         if self.measure == "r2":
@@ -173,9 +173,9 @@ class Scene:
 
     @property
     def request(self) -> Request:
-        """Return how the camera is set."""
-        return Request(**{name: getattr(self, name) for name in OF_THE_CAMERA})
+        """Return the settings of the camera."""
+        return Request(**{name: getattr(self, name) for name in CAMERA_PARAMETERS})
 
 
-OF_THE_CAMERA = tuple(part.name for part in fields(Scene) if part.name in {own.name for own in fields(Camera)})
+CAMERA_PARAMETERS = tuple(part.name for part in fields(Scene) if part.name in {own.name for own in fields(Settings)})
 """What of a camera a scene states."""

@@ -1,4 +1,4 @@
-"""The sensor's rectangle: where each pixel of a picture lies behind the lens."""
+"""The rectangle of the sensor and the positions of its pixels."""
 
 from dataclasses import dataclass
 from math import hypot
@@ -47,21 +47,21 @@ class Sensor:
 
     @property
     def centred(self) -> bool:
-        """Return whether the axis goes through the middle."""
+        """Return whether the axis passes through the centre."""
         return self.centre_mm == (0.0, 0.0)
 
     def x_mm(self, column: ArrayLike) -> np.ndarray:
-        """Return how far columns (from 0, fractions allowed) lie from the axis, mm to the right; shape kept."""
+        """Return x of columns (from 0, fractions allowed) relative to the axis, mm to the right; shape kept."""
         x: np.ndarray = (np.asarray(column) - (self.columns - 1) / 2) * self.pixel_mm + self.centre_mm[0]
         return x
 
     def y_mm(self, row: ArrayLike) -> np.ndarray:
-        """Return how far rows (from 0 at the top) lie from the axis, mm upwards; shape kept."""
+        """Return y of rows (from 0 at the top) relative to the axis, mm upwards; shape kept."""
         y: np.ndarray = ((self.rows - 1) / 2 - np.asarray(row)) * self.pixel_mm + self.centre_mm[1]
         return y
 
     def ends_mm(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return where the rectangle begins and ends along x and along y, (2,) mm each."""
+        """Return the limits of the rectangle in x and in y, (2,) mm each."""
         return self.x_mm([-0.5, self.columns - 0.5]), self.y_mm([self.rows - 0.5, -0.5])
 
     def corners_mm(self) -> tuple[float, float]:

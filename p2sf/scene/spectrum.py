@@ -1,4 +1,4 @@
-"""Fewer wavelengths for the same light: Gauss's rule for a channel's own spectrum."""
+"""Reduction of wavelengths: the Gauss rule for the spectrum of a channel."""
 
 import numpy as np
 
@@ -9,8 +9,8 @@ from p2sf.scene.scene import Channel
 def reduce_spectrum(channel: Channel, count: int) -> Colour:
     """Return ``count`` wavelengths and weights whose moments up to 2·count − 1 are the channel's.
 
-    Lanczos on the given wavelengths, then the eigenvectors of the Jacobi matrix (Golub & Welsch 1969). Where
-    ``count`` is no less than their number, they are returned unchanged.
+    Lanczos on the given wavelengths, then the eigenvectors of the Jacobi matrix (Golub & Welsch 1969). If ``count`` is
+    not less than their number, they are returned unchanged.
     """
     waves, shares = channel.wavelengths_um, channel.shares
     if count >= len(waves):

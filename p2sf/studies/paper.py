@@ -68,7 +68,7 @@ def elements(lens: Lens) -> int:
 
 def stage_times(lens: Lens) -> dict:
     """Return the median seconds of the paper's three stages for one source of a lens."""
-    wavelength, slope = lens.reference_wavelength_um, slope_from_degrees(max(lens.fields_deg))
+    wavelength, slope = lens.reference_wavelength_um, slope_from_degrees(lens.widest_field_deg)
     stop = find_stop(lens, DEPTH_MM, wavelength)
 
     def shift_invariant() -> object:

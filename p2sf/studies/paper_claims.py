@@ -57,7 +57,7 @@ def time_claim(timing: list[dict]) -> PaperClaim:
 
 def memory_claim(lens: Lens, wavelength_nm: float, pixels: int) -> PaperClaim:
     """Judge that coefficients take a small part of the memory of the 12 400 PSFs they stand for."""
-    slopes = slope_from_degrees(np.linspace(0, max(lens.fields_deg), NODES[1]))
+    slopes = slope_from_degrees(np.linspace(0, lens.widest_field_deg, NODES[1]))
     space = Space(depth_nodes(1e3, count=NODES[0]), np.asarray(slopes), np.linspace(0.45, 0.68, NODES[2]))
     depth, slope, wavelength = space.axes
     found = coefficients(lens, depth, slope, wavelength)

@@ -22,9 +22,8 @@ from p2sf.messages import Message
 from p2sf.metrics.compare import Errors, compare
 from p2sf.parameters import check_angle
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import NAMES, REFERENCE, method_of, render
+from p2sf.psf.methods import NAMES, REFERENCE, PsfOptions, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
 from p2sf.studies.trade_plots import MARKERS
@@ -119,7 +118,8 @@ def tradeoff(
     ['preview', 'settled']
     """
     check_samples(pixels, pixel_um)
-    fields = number_list("fields_deg", lens.fields_deg if fields_deg is None else fields_deg).tolist()
+    along_y = tuple(dict.fromkeys(y for _, y in lens.field_places_deg))
+    fields = number_list("fields_deg", along_y if fields_deg is None else fields_deg).tolist()
     for angle in fields:
         check_angle("fields_deg", angle)
     depths = number_list("depths_mm", depths_mm, infinite=True).tolist()
@@ -190,9 +190,8 @@ def _row(
 def _point_of_trade(
     lens: Lens, source: Source, window: tuple[int, float], reference: Psf, method: str, quality: str
 ) -> Psf:
-    if not method_of(method).pupil:
-        return gaussian_psf(reference)
-    return render(lens, source, method, *window, quality=quality)
+    derived = method_of(method).of_reference
+    return derived(reference) if derived else render(lens, source, method, *window, PsfOptions(quality))
 
 
 def _time_call(once: Callable[[], Psf]) -> tuple[Psf, float]:

@@ -1,4 +1,4 @@
-"""What tolerances do to a lens: sensitivities, compensators, and the yield of builds drawn at random.
+"""Tolerance analysis: sensitivities, compensators, and the yield of random builds.
 
 The wavefront of a build is a quadratic form in its errors (`differentials`), so that thousands of builds take a second.
 """

@@ -17,21 +17,21 @@ from p2sf.tolerance.differentials import NODES, Differentials
 from p2sf.tolerance.errors_of_build import IRREGULAR, Tolerance
 
 TOGETHER = 500  # builds at a time
-FEW_RAYS_RMS = 0.15  # waves up to which the rays of the differentials carry exp(2πiW)
-SUMMED_RMS = 2.0  # waves up to which more rays carry it
-ORDER, HARMONICS = 8, 5  # of the polynomials by which a change of the wavefront is known at those
+FEW_RAYS_RMS = 0.15  # waves up to which the rays of the differentials resolve exp(2πiW)
+SUMMED_RMS = 2.0  # waves up to which more rays resolve it
+ORDER, HARMONICS = 8, 5  # of the polynomials that give the change of the wavefront at those
 ROUNDS = 2  # of Gauss and Newton's method for compensators, whose effect is nearly linear
 
 
 @dataclass(frozen=True, eq=False)
 class Builds:
-    """Builds drawn at random: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
+    """Random builds: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
 
-    ``rms_waves`` (builds, fields): of the displayed wavefront without piston and tilt, as `zernike_fit` has it.
+    ``rms_waves`` (builds, fields): of the displayed wavefront without piston and tilt, as in `zernike_fit`.
     ``strehl``: |mean of exp(2πiW)|² of the phase at the focus without these, weighted as the field, and 0 beyond
-    `SUMMED_RMS`. ``boresight_um`` (builds, fields, 2): how far the image has moved. ``mtf`` (builds, fields, 2): the
+    `SUMMED_RMS`. ``boresight_um`` (builds, fields, 2): shift of the image. ``mtf`` (builds, fields, 2): the
     contrast at one frequency of patterns along x (sagittal) and y (tangential),
-    NaN where none was asked for.
+    NaN unless requested.
     """
 
     errors: np.ndarray
@@ -51,11 +51,11 @@ def simulate(
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Builds:
-    """Return ``builds`` with every error anywhere within its tolerance, all alike likely.
+    """Return ``builds`` random builds with errors uniformly distributed within their tolerances.
 
-    Where both irregularities of a surface are tolerances, its size is drawn and its direction, which may be any.
-    ``compensators``: places of the tolerances that are set, whatever their amount, so that the mean square of the
-    wavefronts of all fields is least. Raises RequestError for a place that there is not, and Cancelled.
+    If both irregularities of a surface are tolerances, magnitude and direction of its irregularity are drawn.
+    ``compensators``: indices of the tolerances that are adjusted, regardless of their amount, to minimise the mean
+    square of the wavefronts of all fields. Raises RequestError for an index outside the tolerances, and Cancelled.
     """
     count = len(known.tolerances)
     if not all(0 <= place < count for place in compensators):
@@ -88,13 +88,13 @@ def evaluate(
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Builds:
-    """Return the builds with these errors, (builds, errors), and with the compensators set."""
+    """Return the builds with these errors, (builds, errors), after adjusting the compensators."""
     form, errors = QuadraticForm(known, frequency_per_mm), np.array(errors, dtype=float)
     rms, strehl = (np.empty((len(errors), len(known.sources))) for _ in range(2))
     mtf = np.full((*rms.shape, 2), np.nan)
     for begin in range(0, len(errors), TOGETHER):
         if cancelled and cancelled():
-            raise Cancelled("the builds were stopped before they were done")
+            raise Cancelled("the builds were cancelled before they were finished")
         some = slice(begin, begin + TOGETHER)
         for _ in range(ROUNDS if compensators else 0):
             errors[some][:, list(compensators)] += form.compensation(errors[some], tuple(compensators))
@@ -109,12 +109,12 @@ def evaluate(
 
 
 def by_form(known: Differentials, compensators: Sequence[int] = (), frequency_per_mm: float | None = None) -> Builds:
-    """Return what the quadratic form says of one error at a time, as `p2sf.tolerance.sensitivities` has it."""
+    """Return the figures of single errors by the quadratic form, in the form of `p2sf.tolerance.sensitivities`."""
     return evaluate(known, single_errors(known, compensators), compensators, frequency_per_mm)
 
 
 def single_errors(known: Differentials, compensators: Sequence[int] = ()) -> np.ndarray:
-    """Return each error alone, at plus and then at minus its tolerance: (2·errors + 1, errors), none at last.
+    """Return each error alone, at plus and then at minus its tolerance, and no error last: (2·errors + 1, errors).
 
     That of a compensator is 0.
     """
@@ -125,22 +125,23 @@ def single_errors(known: Differentials, compensators: Sequence[int] = ()) -> np.
 
 
 class FieldForm:
-    """The waves of one field at open rays, (rays,), without the piston and the tilt that are best there.
+    """The waves of one field at open rays, (rays,), without the best-fit piston and tilt.
 
     A build adds polynomials to those of the lens: it has ``still`` (rays,) + change (terms,) @ ``terms`` (terms, rays).
-    (1, change) @ ``root`` are numbers whose squares add to the mean square. ``axes``: what a tilt is linear in.
+    (1, change) @ ``root`` are numbers whose squares sum to the mean square. ``axes``: the coordinates in which a tilt
+    is linear.
     """
 
     def __init__(self, places: np.ndarray, waves: np.ndarray, weight: np.ndarray, axes: np.ndarray):
         self.weight = weight
         rows = without_tilt(np.concatenate([waves[None], _terms(*places)]), weight, axes)
         self.still, self.terms = rows[0], rows[1:]
-        # Not of the rays themselves times roots of their weights, since those of a mask's edges may be negative.
+        # Not of the rays times the roots of their weights, since weights at a mask's edges may be negative.
         values, vectors = np.linalg.eigh((rows * weight) @ rows.T)
         self.root = vectors * np.sqrt(np.maximum(values, 0.0))
 
     def polynomials(self, waves: np.ndarray) -> np.ndarray:
-        """Return the polynomials, (terms,), by which waves without piston and tilt, (rays,), differ from the lens's."""
+        """Return the polynomials, (terms,), of waves without piston and tilt, (rays,), minus those of the lens."""
         found: np.ndarray = (waves - self.still) @ self._inverse
         return found
 
@@ -160,7 +161,7 @@ class FieldForm:
 
 
 class Expansion:
-    """What errors add to the waves of every field, by polynomials over the stop, to second order."""
+    """Contributions of errors to the waves of every field, as polynomials over the stop, to second order."""
 
     def __init__(self, first: np.ndarray, second: np.ndarray):
         one, other = np.triu_indices(len(first))
@@ -171,7 +172,7 @@ class Expansion:
         self._second = self._by_one[self._pairs] * factor[:, None, None]
 
     def change(self, errors: np.ndarray) -> np.ndarray:
-        """Return the polynomials that errors, (builds, errors), add to every field's waves, (builds, fields, terms)."""
+        """Return the polynomials that errors, (builds, errors), add to the waves, (builds, fields, terms)."""
         products = errors[:, self._pairs[0]] * errors[:, self._pairs[1]]
         return np.tensordot(errors, self._first, 1) + np.tensordot(products, self._second, 1)
 
@@ -201,15 +202,15 @@ class QuadraticForm:
                 self.patterns.append([(_Pattern(a), _Pattern(b)) if a and b else None for a, b in both])
 
     def _root(self, change: np.ndarray, still: float) -> np.ndarray:
-        """Return numbers whose squares add to each field's mean square, (…, fields, terms + 1).
+        """Return numbers whose squares sum to the mean square of each field, (…, fields, terms + 1).
 
-        Of a change of the wavefront alone where ``still`` is 0, and of the wavefront where it is 1.
+        For the change of the wavefront alone if ``still`` is 0, for the whole wavefront if it is 1.
         """
         roots = [still * one.root[0] + change[..., k, :] @ one.root[1:] for k, one in enumerate(self.on_sphere)]
         return np.stack(roots, axis=-2)
 
     def compensation(self, errors: np.ndarray, places: tuple[int, ...]) -> np.ndarray:
-        """Return the step of compensators, (builds, compensators), that makes the mean square of all fields least."""
+        """Return the step of compensators, (builds, compensators), that minimises the mean square of all fields."""
         waves = self._root(self.wavefront.change(errors), 1.0).reshape(len(errors), -1)
         each = [self.wavefront.slope(errors, place) for place in places]
         slopes = np.stack([self._root(one, 0.0).reshape(len(errors), -1) for one in each], axis=1)
@@ -229,7 +230,7 @@ class QuadraticForm:
         return rms, strehl
 
     def contrast(self, change: np.ndarray, stretch: np.ndarray, found: np.ndarray) -> None:
-        """Write the contrast of builds, (builds, fields, 2), where a frequency is asked for; 0 beyond the cut-off."""
+        """Write the contrast of builds, (builds, fields, 2), if a frequency is given; 0 beyond the cut-off."""
         for field, both in enumerate(self.patterns):
             terms = change[:, field].astype(np.float32)
             for axis, known in enumerate(both):
@@ -241,7 +242,7 @@ class QuadraticForm:
 
 
 def _few_rays(known: Differentials, field: int) -> FieldForm:
-    """Return the phase at the rays of the differentials, which carry exp(2πiW) of a clear stop where W is small."""
+    """Return the phase at the rays of the differentials, which resolve exp(2πiW) for a clear stop and small W."""
     frequencies = np.stack([known.fx[field], known.fy[field]])
     places = np.stack(whole_disc(*NODES)[:2])
     return FieldForm(places, known.phase[field], known.weight[field], frequencies)

@@ -4,11 +4,11 @@ With D(f) the density of rays over frequencies f = n'K/λ and w their phase (see
 
     OTF(ν) = ∫ D(f)·D(f − ν)·exp(2πi(w(f) − w(f − ν))) df / ∫ D² df
 
-(Goodman 2005, eq. 6-28). Pairs of points of the stop whose frequencies differ by ν are found once in the lens without
-errors; a build changes their phases. It also stretches the pupil by 1 + ε along the pattern, since its iris stays and
-its focal length does not, so that these pairs differ by ν(1 + ε): their contrast is moved to ν along the chord from a
-slightly smaller frequency. That the shape of the pupil changes is left out.
-Behind a mask both D have its amplitude, and rows of points are broken where an edge of the mask crosses them.
+(Goodman 2005, eq. 6-28). Pairs of points of the stop whose frequencies differ by ν are determined once for the lens
+without errors; a build changes their phases. It also stretches the pupil by 1 + ε along the pattern, since its iris
+stays but its focal length changes, so that the frequencies of these pairs differ by ν(1 + ε): their contrast is
+extrapolated to ν along the chord from a slightly smaller frequency. Changes in the shape of the pupil are neglected.
+Behind a mask both D include its amplitude, and rows of points are split where an edge of the mask crosses them.
 """
 
 from dataclasses import dataclass
@@ -20,29 +20,29 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.metrics.mask_lines import edges_of, places_between
 from p2sf.parameters import check_positive
 from p2sf.pupil.mask_nodes import mask_nodes
+from p2sf.pupil.open_part import edges_of, places_between
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import gauss_legendre, whole_disc
 from p2sf.raytrace.pencil import reaching
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.tolerance.differentials import FINE, FINEST, Differentials
 
-ORDER = 10  # of the polynomials that follow the pupil
+ORDER = 10  # of the polynomials that describe the pupil
 SIZES = (12, 16), (18, 24), (26, 34), (38, 50), (56, 72)  # rows and columns of pairs
-DISTORTION = 1.1  # by which the edge of a pupil is farther from its middle than the middle's scale says, at most
-SETTLED = 1e-3  # by which the lens's contrast may differ between one size and the next, which is taken
+DISTORTION = 1.1  # largest excess of the pupil's radius over that extrapolated from the scale at its centre
+SETTLED = 1e-3  # by which the lens's contrast may change from one size to the next, which is then used
 FEWEST, ALONG, STEPS, HALVINGS = 6, 17, 128, 14  # of a part of a row: points; of a row: where its edges are sought
-NEAR = 0.02  # by which the second frequency of a pattern is smaller: some times what a build stretches its pupil by
-ROUNDS = 7  # that find them: each reduces the error by the pupil's distortion, some per cent
+NEAR = 0.02  # by which the second frequency of a pattern is smaller: several times the stretch of a build's pupil
+ROUNDS = 7  # iterations: each multiplies the error by the pupil's distortion, some per cent
 
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
     """Pairs of points in the stop, ``ends`` (2, 2, points), of frequencies that differ by that of the contrast.
 
-    ``light``: (points,), D·D′·df over ∫D²df. ``still``: the difference of the lens's own waves.
+    ``light``: (points,), D·D′·df over ∫D²df. ``still``: the difference of the waves of the lens without errors.
     """
 
     ends: np.ndarray
@@ -76,11 +76,11 @@ class _PupilMap:
         self.square = float((nodes.weight * np.square(nodes.amplitude) * density).sum()) * np.pi * nodes.share
 
     def at(self, place: np.ndarray) -> np.ndarray:
-        """Return the frequencies (2, points) at places (2, points) of the stop."""
+        """Return the frequencies (2, points) at points (2, points) of the stop."""
         return np.stack([chebval2d(place[0], place[1], table) for table in self._tables[:2]])
 
     def amplitude(self, place: np.ndarray) -> np.ndarray:
-        """Return the field of unit pupil area at places, without the mask's."""
+        """Return the field of unit pupil area at points, without that of the mask."""
         amplitude: np.ndarray = chebval2d(place[0], place[1], self._tables[2])
         return amplitude
 
@@ -90,12 +90,12 @@ class _PupilMap:
         return np.stack(rows).transpose(2, 0, 1)
 
     def reaches(self, frequency: np.ndarray) -> bool:
-        """Return whether two points of the stop may differ by a frequency, the pupil's distortion allowed for."""
+        """Return whether two points of the stop may differ by a frequency, allowing for the pupil's distortion."""
         across = np.linalg.inv(self.jacobian(np.zeros(1), np.zeros(1))[0]) @ frequency
         return bool(np.hypot(*across) < 2 * DISTORTION)
 
     def apart(self, middle: np.ndarray, frequency: np.ndarray) -> np.ndarray:
-        """Return by how much two points about each middle differ, (2, points), whose frequencies differ by one."""
+        """Return the separation, (2, points), of two points about each middle that differ by ``frequency``."""
         inverse = np.linalg.inv(self.jacobian(np.zeros(1), np.zeros(1))[0])
         found = np.broadcast_to((inverse @ frequency)[:, None], middle.shape)
         for _ in range(ROUNDS):
@@ -120,7 +120,7 @@ def at_frequency(contrast: np.ndarray, near: np.ndarray, stretch: np.ndarray) ->
 
 
 def _settle(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray) -> Pairs | None:
-    """Return as many pairs as the waves of the lens need."""
+    """Return as many pairs as the waves of the lens require."""
     corners = _corners(pupil, frequency)
     if corners is None:
         return None
@@ -132,7 +132,7 @@ def _settle(pupil: _PupilMap, lens: Lens, source: Source, frequency: np.ndarray)
             return found
         last = contrast
     raise RequestError(
-        "the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer",
+        "the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose a lower one",
         frequency=UM_PER_MM * float(np.hypot(*frequency)),
         field=source.field_deg,
     )
@@ -157,7 +157,7 @@ def _pairs(
 
 
 def _corners(pupil: _PupilMap, frequency: np.ndarray) -> np.ndarray | None:
-    """Return the two middles, (2, 2), whose points are both on the rim; None where the frequency is beyond cut-off."""
+    """Return the two middles, (2, 2), whose points are both on the rim; None if the frequency is beyond the cut-off."""
     if not pupil.reaches(frequency):
         return None
     sign, middle = np.array([1.0, -1.0]), np.zeros((2, 2))
@@ -175,8 +175,8 @@ def _overlap(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return Gauss-Legendre nodes (2, points) in rows between the corners, and the area of each.
 
-    Rows end where one point of the pair is on the rim. Even steps of an angle φ, sin φ along the corners' line, follow
-    both a full circle and the corners of its overlap with another; so they do between the ends of a mask's edges.
+    Rows end where one point of the pair is on the rim. Even steps of an angle φ, sin φ along the corners' line, resolve
+    both a full circle and the corners of its overlap with another, and likewise the ends of a mask's edges.
     """
     centre, half = corners.mean(1), (corners[:, 0] - corners[:, 1]) / 2
     along = np.array([half[1], -half[0]]) / np.hypot(*half)
@@ -210,16 +210,16 @@ def _overlap(
 def _open_parts(
     pupil: _PupilMap, frequency: np.ndarray, base: np.ndarray, along: np.ndarray, low: np.ndarray, high: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the parts of rows from ``low`` to ``high`` in which a mask leaves both points open: row, low and high.
+    """Return the parts of rows from ``low`` to ``high`` where a mask leaves both points open: row, low and high.
 
-    Found at even steps, and their ends by bisection. ``base``: (2, rows), where the rows are 0.
+    They are found at even steps, their ends by bisection. ``base``: (2, rows), the zero of each row.
     """
     if not pupil.mask.edged:
         return np.arange(low.size), low, high
     middle = base[:, :, None] + along[:, None, None] * np.linspace(low, high, ALONG, axis=1)
     halves = pupil.apart(middle.reshape(2, -1), frequency).reshape(middle.shape) / 2
 
-    def opens(row: np.ndarray, part: np.ndarray) -> np.ndarray:
+    def is_open(row: np.ndarray, part: np.ndarray) -> np.ndarray:
         cell = np.minimum((part * (ALONG - 1)).astype(int), ALONG - 2)
         rest = part * (ALONG - 1) - cell
         half = halves[:, row, cell] * (1 - rest) + halves[:, row, cell + 1] * rest
@@ -229,12 +229,12 @@ def _open_parts(
 
     steps = np.linspace(0, 1, STEPS)
     rows, parts = (each.ravel() for each in np.meshgrid(np.arange(low.size), steps, indexing="ij"))
-    open_ = np.pad(opens(rows, parts).reshape(low.size, STEPS), ((0, 0), (1, 1)))
-    row, step = np.nonzero(open_[:, 1:] != open_[:, :-1])  # of every row in turn, where it opens and where it closes
+    open_ = np.pad(is_open(rows, parts).reshape(low.size, STEPS), ((0, 0), (1, 1)))
+    row, step = np.nonzero(open_[:, 1:] != open_[:, :-1])  # for each row in turn, where it opens and closes
     before, after = steps[np.maximum(step - 1, 0)], steps[np.minimum(step, STEPS - 1)]
     for _ in range(HALVINGS):
         half_way = (before + after) / 2
-        same = opens(row, half_way) == open_[row, step]
+        same = is_open(row, half_way) == open_[row, step]
         before, after = np.where(same, half_way, before), np.where(same, after, half_way)
     ends = low[row] + (before + after) / 2 * (high - low)[row]
     return row[::2], ends[::2], ends[1::2]

@@ -1,20 +1,19 @@
-"""How a wavefront changes with every error of a build, to second order, from exact rays.
+"""Derivatives of a wavefront with respect to manufacturing errors, to second order, from exact rays.
 
 At fixed points of the stop the phase of `raytrace.pencil` is W(p) = W + Σ pᵢ∂ᵢW + ½Σ pᵢpⱼ∂ᵢⱼW. The derivatives by one
-error are differences of rays through lenses with that error, either way. Those by two are differences, by one, of what
-Fermat's principle gives for the other: where a surface moves by δ, the optical path of a ray changes by −(n′K′ − nK)·δ.
-So as many lenses are traced as there are errors, twice, and not one for every pair. With I where a ray lands, C where
-the chief ray does, and W = V − n′K·(I − C) of paths V, the change at fixed points of the stop is
+error are differences of rays through lenses with that error, both ways. Those by two errors are differences, by one of
+them, of the derivative by the other from Fermat's principle: where a surface moves by δ, the optical path of a ray
+changes by −(n′K′ − nK)·δ. So two lenses are traced per error, and not one for every pair. With the landing points I of
+a ray and C of the chief ray, and W = V − n′K·(I − C) for paths V, the change at fixed points of the stop is
 
     ∂ᵢW = gᵢ − n′∂ᵢK·(I − C) + n′(K − K chief)·∂ᵢC,
 
 gᵢ by Fermat; of its derivative by another error only −n′∂ᵢⱼK·(I − C), an aberration times a second-order change of
-direction, is left out. The displayed wavefront, of which the RMS is (handbook 3.4), goes back to the reference sphere
-of radius R: it lacks the n′((K·(I − C))² − |I − C|²)/2R of the phase, whose derivative by two errors is, as far as the
-phase's own, n′(K·∂ᵢI K·∂ⱼI − ∂ᵢI·∂ⱼI)/R with I from C. By one error the phase is about the image instead of C
-(`image_um`). Left out as well is all that an irregularity, of waves, does together with another error but the back
-focus, which compensates for it and is large: the sensor alone moves, and C and I by as much as the rays there are
-steep.
+direction, is neglected. The displayed wavefront, to which the RMS refers (handbook 3.4), is on the reference sphere of
+radius R: it lacks the n′((K·(I − C))² − |I − C|²)/2R of the phase, whose derivative by two errors is, to the same
+accuracy, n′(K·∂ᵢI K·∂ⱼI − ∂ᵢI·∂ⱼI)/R with I relative to C. By one error the phase is about the image instead of C
+(`image_um`). Also neglected are the products of an irregularity, of some waves, with all errors except the back focus,
+which compensates for it and is large: only the sensor moves, and C and I by the slopes of the rays there.
 """
 
 from collections.abc import Callable, Sequence
@@ -43,20 +42,21 @@ from p2sf.threads import one_blas_thread
 from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, placement_of, source_of_build
 
 NODES = 6, 12  # radii and directions of the rays
-FINE = 16, 40  # those of the lens without errors, which carry exp(2πiW) where the lens itself has waves of aberration
+FINE = 16, 40  # those of the lens without errors, which resolve exp(2πiW) if the lens itself has waves of aberration
 FINEST = 40, 96  # behind a filter or a phase, which may be anything
 FIELDS = 0.0, 0.7, 1.0  # of the largest field of a lens
-STEP = 0.6  # of a tolerance: the root mean square of an error that is anywhere within it
+STEP = 0.6  # of a tolerance: the RMS of a uniformly distributed error within it
 LEAST_STEP = 1e-5
+X_AXIS = np.array([1.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True, eq=False)
 class OpenRays:
-    """Rays of one source through what the stop leaves open, all (rays,), at points (ξ, η) of it.
+    """Rays of one source through the open part of the stop, all (rays,), at points (ξ, η) of it.
 
     ``share``: of the open area, ``weight``: of the field at the focus, some of both negative where a mask has vanes or
-    blades. ``phase``: waves, that of a mask included, and ``wavefront`` the same on the reference sphere, as
-    `wavefront_of` has it. ``fx``, ``fy``: frequencies, cycles per µm.
+    blades. ``phase``: waves, including that of a mask, and ``wavefront`` the same on the reference sphere, as in
+    `wavefront_of`. ``fx``, ``fy``: frequencies, cycles per µm.
     """
 
     xi: np.ndarray
@@ -70,12 +70,12 @@ class OpenRays:
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Return what the phase of a shifted image is linear in, (2, rays)."""
+        """Return the frequencies in which the phase of a shifted image is linear, (2, rays)."""
         return np.stack([self.fx, self.fy])
 
     @property
     def axes(self) -> np.ndarray:
-        """Return what a tilt of the wavefront is linear in, (2, rays)."""
+        """Return the coordinates in which a tilt of the wavefront is linear, (2, rays)."""
         return np.stack([self.xi, self.eta])
 
 
@@ -83,19 +83,19 @@ _COLUMNS = {
     **dict.fromkeys(("weight", "phase", "fx", "fy"), 0),
     **{"first": 1, "second": 2, "first_of_wavefront": 1, "second_of_wavefront": 2, "chief_um": 1, "stretch": 1},
 }
-"""What `_of_source` returns, and which axis the fields take in it."""
+"""The results of `_of_source`, and the axis of the fields in each."""
 
 
 @dataclass(frozen=True, eq=False)
 class Differentials:
-    """Waves at the rays of every field: (fields, rays), and what errors add, the axes of these first.
+    """Waves at the rays of every field, (fields, rays), and their derivatives by errors, whose axes come first.
 
-    They are those of the clear stop. ``weight``: shares of the light of each ray. ``fx``, ``fy``: its frequencies,
-    cycles per µm. ``first``: (errors, fields, rays) waves of phase per unit, ``second``: (errors, errors, fields,
-    rays). ``first_of_wavefront``, ``second_of_wavefront``: the same of the displayed wavefront (`wavefront_of`).
-    ``chief_um``: (errors, fields, 2), how far the chief ray moves on the sensor, µm per unit. ``stretch``: (errors,
-    fields, 2), the share by which frequencies grow along x and y, per unit. ``fine``: for every field more rays through
-    the lens without errors, over what a mask in its stop leaves open.
+    They refer to the clear stop. ``weight``: shares of the light of each ray. ``fx``, ``fy``: its frequencies, cycles
+    per µm. ``first``: (errors, fields, rays) waves of phase per unit, ``second``: (errors, errors, fields, rays).
+    ``first_of_wavefront``, ``second_of_wavefront``: the same of the displayed wavefront (`wavefront_of`). ``chief_um``:
+    (errors, fields, 2), shift of the chief ray on the sensor, µm per unit. ``stretch``: (errors, fields, 2), the share
+    by which frequencies grow along x and y, per unit. ``fine``: for every field more rays through the lens without
+    errors, over the open part of its pupil mask.
     """
 
     lens: Lens
@@ -129,7 +129,7 @@ def differentials(
 ) -> Differentials:
     """Return the wavefront differentials of a lens for some sources, all of one wavelength.
 
-    Raises GeometryError where a ray does not reach the sensor, also of a lens with one of the errors, and Cancelled.
+    Raises GeometryError if a ray does not reach the sensor, also in a lens with one of the errors, and Cancelled.
     """
     if len({source.wavelength_um for source in sources}) != 1:
         raise GeometryError("the fields of tolerances have several wavelengths; give them one")
@@ -141,7 +141,7 @@ def differentials(
         nonlocal done
         done += 1
         if cancelled and cancelled():
-            raise Cancelled("the sensitivities were stopped before they were known")
+            raise Cancelled("the sensitivities were cancelled before they were known")
         if progress:
             progress(done / total)
 
@@ -153,16 +153,16 @@ def differentials(
 
 
 def usual_sources(lens: Lens, source: Source) -> tuple[Source, ...]:
-    """Return the axis, seven tenths and the edge of the lens's field, else as ``source``; that one without a field."""
-    top = max(lens.fields_deg, key=abs)
-    if not top:
+    """Return sources at 0, 0.7 and 1 of the lens's field, otherwise as ``source``; ``source`` if there is no field."""
+    x, y = lens.field_places_deg[-1]
+    if not (x or y):
         return (source,)
     depth, wavelength = source.depth_mm, source.wavelength_um
-    return tuple(Source(depth, field_deg=part * top, wavelength_um=wavelength) for part in FIELDS)
+    return tuple(Source(depth, field_deg=(part * x, part * y), wavelength_um=wavelength) for part in FIELDS)
 
 
 def open_rays(lens: Lens, source: Source, counts: tuple[int, int] = FINE) -> OpenRays:
-    """Return many rays through the lens without errors and the mask in its stop; radii and directions at least."""
+    """Return many rays through the lens without errors and its pupil mask, at least ``counts`` radii × directions."""
     mask = mask_seen(lens, source)
     if mask.shaded or mask.phased:
         counts = max(counts[0], FINEST[0]), max(counts[1], FINEST[1])
@@ -214,15 +214,15 @@ def _of_source(
 
 
 def through_build(designed: Lens, built: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> Rays:
-    """Return the rays of a source, which stands where ``designed`` has it, through points of the stop of a build."""
+    """Return the rays of a source, positioned as for ``designed``, through points of the stop of a build."""
     return reaching_by_surfaces(built, source_of_build(designed, built, source), xi, eta)
 
 
 def image_um(still: Rays, weight: np.ndarray) -> np.ndarray:
-    """Return the place about which the phase is least, x and y in µm from where the chief ray lands.
+    """Return the point about which the phase is smallest, x and y in µm from the chief ray's landing point.
 
-    About it little tilt is left in a lens with errors. A tilt is X·f with the frequencies of that lens, not of the one
-    without errors, and those times a large X would be left as aberrations.
+    About it little tilt remains in a perturbed lens. A tilt is X·f with the frequencies of that lens, and their
+    differences from those of the lens without errors, times a large X, would remain as aberrations.
     """
     flat = np.stack([np.ones_like(weight), still.fx, still.fy])
     amounts: np.ndarray = np.linalg.lstsq(flat * weight @ flat.T, flat @ (weight * still.phase), rcond=None)[0]
@@ -284,7 +284,7 @@ def _second(
 
 
 def _symmetric(second: np.ndarray, pure: np.ndarray, uneven: list[int], focuses: list[int]) -> np.ndarray:
-    """Return second derivatives by two errors in either order, and by one; irregularities meet the back focus alone."""
+    """Return second derivatives by two errors, symmetrised, and by one; irregularities mix only with the back focus."""
     every = np.arange(len(second))
     both: np.ndarray = (second + second.swapaxes(0, 1)) / 2
     both[every, every] = pure
@@ -302,7 +302,7 @@ def _cosines(rays: Rays) -> np.ndarray:
 
 
 def _back_focus(lens: Lens, tolerances: tuple[Tolerance, ...]) -> list[int]:
-    """Return which errors move the sensor along the axis, and nothing else."""
+    """Return which errors only move the sensor along the axis."""
     last = "thickness", len(lens.surfaces)
     return [place for place, one in enumerate(tolerances) if (one.kind, one.first) == last]
 
@@ -326,52 +326,79 @@ def _stretch(cosines: np.ndarray, change: np.ndarray, weight: np.ndarray) -> np.
 def _gradient(
     found: Crossings, tolerances: tuple[Tolerance, ...], wavelength_um: float, moved: int, error: float
 ) -> np.ndarray:
-    """Return ∂(path)/∂(error) of every tolerance less the chief ray's, (errors, rays) waves, by Fermat's principle.
+    """Return ∂(path)/∂(error) of every tolerance minus the chief ray's, (errors, rays) waves, by Fermat's principle.
 
-    The lens has one error, that of tolerance ``moved``.
+    The lens has one error, that of tolerance ``moved``. Where a surface moves by δ at the points of rays, their paths
+    change by −(n′K′ − nK)·δ; behind the sensor there is no K′.
     """
-    rows = [_path_change(found, tolerances, number, moved, error) for number in range(len(tolerances))]
-    change = np.stack(rows)
+    onward = np.concatenate([found.cosines[1:], np.zeros_like(found.cosines[:1])])
+    kicks = onward - found.cosines
+    change = _rigid_motions(found, tolerances, moved, error) @ _wrenches(found, kicks)
+    for number, tolerance in enumerate(tolerances):
+        if tolerance.kind not in MOVES and tolerance.kind not in IRREGULAR:
+            change[number] = _path_change(found, kicks, tolerance)
     out: np.ndarray = (change[:, :-1] - change[:, -1:]) * (UM_PER_MM / wavelength_um)
     return out
 
 
-def _path_change(
-    found: Crossings, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float
-) -> np.ndarray:
-    """Return how the optical path of every ray changes with one error, mm per unit, (rays,); 0 for irregularities."""
-    tolerance, lens = tolerances[number], found.lens
+def _path_change(found: Crossings, kicks: np.ndarray, tolerance: Tolerance) -> np.ndarray:
+    """Return the change of the optical path of every ray with a radius, thickness or index, mm per unit, (rays,)."""
     place = tolerance.first - 1
-    if tolerance.kind in IRREGULAR:
-        return np.zeros(found.points.shape[-1])
-    if tolerance.kind == "thickness":
-        behind = found.cosines[place + 1]
-        turn = _axes_behind(lens, place).rotation[:, 2]
-        along: np.ndarray = turn @ behind
-        return along
-    if tolerance.kind == "index":
-        behind = found.cosines[place + 1]
-        crossed = found.points[place + 1] - found.points[place]
-        length: np.ndarray = (crossed * behind).sum(0) / np.sqrt((behind * behind).sum(0))
-        return length
     if tolerance.kind == "radius":
-        return _push(found, place, _radius_shift(found, place))
-    change: np.ndarray = np.zeros(found.points.shape[-1])
-    for surface in range(place, tolerance.piece[1]):
-        mount, own = _mount(lens, tolerances, number, moved, error, surface)
-        change += _push(found, surface, _rigid(found, surface, tolerance, mount, own))
-    return change
+        radius: np.ndarray = -(kicks[place] * _radius_shift(found, place)).sum(0)
+        return radius
+    behind = found.cosines[place + 1]
+    if tolerance.kind == "thickness":
+        along: np.ndarray = _axes_behind(found.lens, place).rotation[:, 2] @ behind
+        return along
+    crossed = found.points[place + 1] - found.points[place]
+    length: np.ndarray = (crossed * behind).sum(0) / np.sqrt((behind * behind).sum(0))
+    return length
 
 
-def _push(found: Crossings, place: int, shift: np.ndarray) -> np.ndarray:
-    """Return −(n′K′ − nK)·δ of every ray at a surface that moves by δ, (3, rays); behind the sensor there is no K′."""
-    onward = found.cosines[place + 1] if place + 1 < len(found.cosines) else 0.0
-    push: np.ndarray = -((onward - found.cosines[place]) * shift).sum(0)
-    return push
+def _wrenches(found: Crossings, kicks: np.ndarray) -> np.ndarray:
+    """Return the kicks n′K′ − nK of rays at every surface and their moments about its vertex, (surfaces·6, rays).
+
+    A point of a rigid body moves by v + ω × p, and its product with a kick k is v·k + ω·(p × k).
+    """
+    vertices = np.array([motion.origin for motion in found.lens.frames])
+    x, y, z = (found.points - vertices[..., None]).swapaxes(0, 1)
+    p, q, r = kicks.swapaxes(0, 1)
+    return np.stack([p, q, r, y * r - z * q, z * p - x * r, x * q - y * p], axis=1).reshape(-1, x.shape[-1])
+
+
+def _rigid_motions(found: Crossings, tolerances: tuple[Tolerance, ...], moved: int, error: float) -> np.ndarray:
+    """Return −v and −ω of every surface for a unit of every decentre or tilt, (errors, surfaces·6); 0 of other errors.
+
+    v is the motion of the vertex, mm, and ω the rotation in radians.
+    """
+    lens = found.lens
+    motions = np.zeros((len(tolerances), len(lens.frames), 6))
+    for number, tolerance in enumerate(tolerances):
+        if tolerance.kind not in MOVES:
+            continue
+        for surface in range(tolerance.first - 1, tolerance.piece[1]):
+            mount, own = _mount(lens, tolerances, number, moved, error, surface)
+            motions[number, surface] = _rigid(lens.frames[surface].origin, tolerance, mount, own)
+    return -motions.reshape(len(tolerances), -1)
+
+
+def _rigid(vertex: np.ndarray, tolerance: Tolerance, mount: Motion, own: Placement) -> list[float]:
+    """Return motion and rotation of a vertex of a piece by a unit of decentre or tilt, in the axes of the lens.
+
+    ``mount``: the axes in which the piece is mounted; ``own``: its placement in them.
+    """
+    axis = 0 if tolerance.kind.endswith("x") else 1
+    if tolerance.kind.startswith("decentre"):
+        return [*mount.rotation[:, axis].tolist(), 0.0, 0.0, 0.0]
+    turned = Placement(tilt_x_deg=own.tilt_x_deg).motion.rotation[:, 1] if axis else X_AXIS
+    a, b, c = (np.deg2rad(1) * (mount.rotation @ turned)).tolist()
+    x, y, z = (vertex - mount.origin - mount.rotation @ np.array(own.decentre)).tolist()
+    return [b * z - c * y, c * x - a * z, a * y - b * x, a, b, c]
 
 
 def _radius_shift(found: Crossings, place: int) -> np.ndarray:
-    """Return by how much the surface moves along its axis where rays meet it, per percent of its radius.
+    """Return the motion of the surface along its axis at the rays, per percent of its radius.
 
     From c·r² − 2z + c(1 + K)z² = 0: ∂z/∂c = (r² + (1 + K)z²)/(2(1 − c(1 + K)z)).
     """
@@ -386,27 +413,13 @@ def _radius_shift(found: Crossings, place: int) -> np.ndarray:
     return shift
 
 
-def _rigid(found: Crossings, place: int, tolerance: Tolerance, mount: Motion, own: Placement) -> np.ndarray:
-    """Return the motion of a piece's points for a unit of decentre or tilt, in the axes that it is mounted in."""
-    axis = 0 if tolerance.kind.endswith("x") else 1
-    if tolerance.kind.startswith("decentre"):
-        return np.broadcast_to(mount.rotation[:, axis, None], found.points[place].shape)
-    turned = Placement(tilt_x_deg=own.tilt_x_deg).motion.rotation if axis else np.eye(3)
-    about = np.deg2rad(1) * (mount.rotation @ turned[:, axis])
-    centre = mount.origin + mount.rotation @ np.array(own.decentre)
-    x, y, z = about
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])  # np.cross takes four times as long
-    shift: np.ndarray = cross @ (found.points[place] - centre[:, None])
-    return shift
-
-
 def _mount(
     lens: Lens, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float, surface: int
 ) -> tuple[Motion, Placement]:
-    """Return the axes in which a piece is mounted, and how it stands in them, where only error ``moved`` is there.
+    """Return the axes in which a piece is mounted, and its placement in them, with error ``moved`` alone.
 
-    As a ``surface`` of it, from 0, sees them: of two pieces that begin together the one named later is moved on top of
-    the other, and takes along only what belongs to both.
+    For a ``surface`` of it, from 0: of two pieces that start together the later one is moved in addition to the other,
+    and carries only the surfaces that belong to both.
     """
     tolerance, other = tolerances[number], tolerances[moved]
     here, still = lens.frames[tolerance.first - 1], Placement()
@@ -422,7 +435,7 @@ def _mount(
 
 
 def _axes_behind(lens: Lens, place: int) -> Motion:
-    """Return the axes behind a surface, along whose z its thickness runs."""
+    """Return the axes behind a surface, along whose z its thickness is measured."""
     motion = lens.frames[place]
     for placement in lens.surfaces[place].after:
         motion = motion.then(placement.motion)

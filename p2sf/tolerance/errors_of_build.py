@@ -1,4 +1,4 @@
-"""What may be off in a built lens, by how much, and the lens that comes of it."""
+"""Manufacturing errors of a lens: tolerances, their usual amounts, and the perturbed lens."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -31,7 +31,7 @@ UNITS: dict[Kind, str] = {
 IRREGULAR: tuple[Kind, ...] = ("irregularity", "irregularity_45")
 MOVES: tuple[Kind, ...] = ("decentre_x", "decentre_y", "tilt_x", "tilt_y")
 Grade = Literal["commercial", "precision", "high"]
-# ± amounts in the units above, of the order that makers offer under these names.
+# ± amounts in the units above, typical of what manufacturers offer under these names.
 GRADES: dict[Grade, dict[Kind, float]] = {
     "commercial": {
         "decentre_x": 0.1,
@@ -62,13 +62,13 @@ GRADES: dict[Grade, dict[Kind, float]] = {
 
 @dataclass(frozen=True)
 class Tolerance:
-    """One number of a lens that may be off by up to ``amount`` either way, in the unit of its kind (`UNITS`).
+    """Tolerance ±``amount`` of one number of a lens, in the unit of its kind (`UNITS`).
 
-    ``first``, ``last``: the surfaces, from 1, that are decentred or tilted as one piece about the first vertex; of the
-    other kinds ``first`` alone counts: the radius, the thickness behind, the index of the glass behind, and the surface
-    that is irregular, as `Irregularity` has it over its clear radius.
+    ``first``, ``last``: the surfaces, from 1, that are decentred or tilted as one piece about the first vertex; for the
+    other kinds only ``first`` counts: the surface whose radius, thickness or index behind it, or irregularity
+    (`Irregularity` over its clear radius) has the error.
 
-    Raises GeometryError for surfaces or an amount that cannot be.
+    Raises GeometryError for impossible surfaces or amounts.
     """
 
     kind: Kind
@@ -96,10 +96,10 @@ class Tolerance:
 
 
 def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance, ...]:
-    """Return the tolerances of a grade for all that can be off: every surface, thickness and glass."""
+    """Return the tolerances of a grade for every surface, thickness and glass."""
     amounts, found = GRADES[grade], []
     for number, surface in enumerate(lens.surfaces, 1):
-        if works(lens, number) and not surface.ideal:
+        if affects_light(lens, number) and not surface.ideal:
             found += [Tolerance(kind, number, amounts["decentre_x"]) for kind in ("decentre_x", "decentre_y")]
             found += [Tolerance(kind, number, amounts["tilt_x"]) for kind in ("tilt_x", "tilt_y")]
             found += [Tolerance(kind, number, amounts["irregularity"]) for kind in IRREGULAR]
@@ -112,17 +112,17 @@ def usual_tolerances(lens: Lens, grade: Grade = "precision") -> tuple[Tolerance,
     return tuple(found)
 
 
-def works(lens: Lens, number: int) -> bool:
-    """Return whether a surface, from 1, does anything to light."""
+def affects_light(lens: Lens, number: int) -> bool:
+    """Return whether a surface, from 1, has any effect on light."""
     surface = lens.surfaces[number - 1]
     return not surface.bare or surface.medium != lens.media[number - 1]
 
 
 def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) -> Lens:
-    """Return the lens with these errors, one for each tolerance in its unit; indices are off at every wavelength alike.
+    """Return the lens with these errors, one per tolerance in its unit; index errors are the same at all wavelengths.
 
-    Errors of one piece are one break of the coordinates, and pieces named later are moved on top of earlier ones. The
-    surface behind the last one is the sensor, which can be moved alone. The radius of the stop is that of ``lens``.
+    Errors of one piece form one coordinate break, and later pieces are moved in addition to earlier ones. The surface
+    behind the last one is the sensor, which can be moved alone. The radius of the stop is that of ``lens``.
     """
     count = len(lens.surfaces)
     surfaces, moves = list(lens.surfaces), dict[tuple[int, int], dict[Kind, float]]()
@@ -153,23 +153,23 @@ def build(lens: Lens, tolerances: Sequence[Tolerance], errors: Sequence[float]) 
 
 
 def source_of_build(designed: Lens, built: Lens, source: Source) -> Source:
-    """Return the source where it stands before ``designed``, by its slope at the entrance pupil of ``built``.
+    """Return the source at its position in front of ``designed``, by its slope at the entrance pupil of ``built``.
 
-    An object at a finite depth is a place: errors move the entrance pupil, which its field angle refers to, and not the
-    object. Nearly telecentric lenses, whose pupil moves by metres, would see another object.
+    An object at a finite depth is a fixed point: errors move the entrance pupil, to which its field angle refers, but
+    not the object. Nearly telecentric lenses, whose pupil moves by metres, would otherwise image another object.
     """
     if isinf(source.depth_mm) or not source.field_slope:
         return source
     planes = (float(pupils(lens, source.wavelength_um).entrance_from_first) for lens in (designed, built))
     before, after = (source.depth_mm + plane for plane in planes)
-    # An object in a pupil, or a pupil at infinity, has no field slope; whoever traces says so.
+    # An object in a pupil, or a pupil at infinity, has no field slope; the trace raises the error.
     if before == after or not after:
         return source
     return replace(source, field_slope=source.field_slope * before / after)
 
 
 def _alter(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -> Surface:
-    """Return a surface, number ``tolerance.first``, with an error that moves nothing, on top of what is off already."""
+    """Return surface ``tolerance.first`` with an error other than a displacement, added to its earlier errors."""
     if tolerance.kind == "radius":
         return replace(surface, radius=surface.radius * (1 + error / 100))
     if tolerance.kind == "thickness":
@@ -180,19 +180,17 @@ def _alter(lens: Lens, surface: Surface, tolerance: Tolerance, error: float) -> 
         before = surface.irregularity or Irregularity(0.0, 0.0, radius)
         return replace(surface, irregularity=before.added(upright, turned, radius))
     if surface.reflects:
-        raise GeometryError(
-            "surface {surface} is a mirror, which has no index that could be wrong", surface=tolerance.first
-        )
+        raise GeometryError("surface {surface} is a mirror, which has no refractive index", surface=tolerance.first)
     return replace(surface, medium=ShiftedIndex(surface.medium, error))
 
 
 def clear_radius(lens: Lens, number: int) -> float:
-    """Return the clear radius of a surface, from 1, or where it has none, what the widest field needs, mm."""
+    """Return the clear radius of a surface, from 1, or, without one, that required by the widest field, mm."""
     stated = lens.surfaces[number - 1].semi_diameter
     return stated if isfinite(stated) else float(needed_radii(lens)[number - 1])
 
 
 def placement_of(errors: Mapping[Kind, float]) -> Placement:
-    """Return the break of a piece with these decentres and tilts."""
+    """Return the coordinate break of a piece with these decentres and tilts."""
     x, y, a, b = (errors.get(kind, 0.0) for kind in MOVES)
     return Placement(decentre_x=x, decentre_y=y, tilt_x_deg=a, tilt_y_deg=b)

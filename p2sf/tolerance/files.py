@@ -1,15 +1,15 @@
-"""A file of one's own tolerances, in TOML.
+"""Tolerance files in TOML.
 
-grade = "precision"              # where the rest comes from: commercial, precision, high, or "none"
+grade = "precision"              # tolerances not listed here: commercial, precision, high, or "none"
 
-[[tolerance]]                    # in place of the grade's, or beside them
+[[tolerance]]                    # replaces or extends those of the grade
 kind = "decentre_y"              # decentre_x, decentre_y (mm), tilt_x, tilt_y (°), radius (%), thickness (mm), index,
                                  # irregularity, irregularity_45 (fringes of 273 nm from peak to valley)
 first = 3                        # the surface; of decentres and tilts the first of a piece
-last = 4                         # left out: that surface alone
+last = 4                         # by default that surface alone
 amount = 0.02                    # either way
 
-[[compensator]]                  # what is set at assembly; left out: the back focus
+[[compensator]]                  # adjusted at assembly; by default the back focus
 kind = "thickness"
 first = 11
 
@@ -32,7 +32,7 @@ from p2sf.messages import Message
 from p2sf.tolerance.errors_of_build import GRADES, MOVES, Grade, Kind, Tolerance, usual_tolerances
 
 AMOUNT = Constraint(lambda x: isfinite(x) and x >= 0, Message("write a finite number, 0 or more"))
-COMPENSATING_MM = 0.2  # over which the effect of the back focus is looked at
+COMPENSATING_MM = 0.2  # change of the back focus by which its effect is measured
 
 
 def back_focus(lens: Lens) -> Tolerance:
@@ -43,7 +43,7 @@ def back_focus(lens: Lens) -> Tolerance:
 def with_compensators(
     tolerances: Sequence[Tolerance], compensators: Sequence[Tolerance]
 ) -> tuple[tuple[Tolerance, ...], tuple[int, ...]]:
-    """Return the tolerances with the compensators behind them, in place of their own, and where these are."""
+    """Return the tolerances with the compensators appended, replacing their own, and the indices of these."""
     named = {(one.kind, one.piece) for one in compensators}
     kept = tuple(one for one in tolerances if (one.kind, one.piece) not in named)
     return (*kept, *compensators), tuple(range(len(kept), len(kept) + len(compensators)))
@@ -52,7 +52,7 @@ def with_compensators(
 def read_tolerances(
     path: str | os.PathLike, lens: Lens, grade: Grade = "precision"
 ) -> tuple[tuple[Tolerance, ...], tuple[Tolerance, ...]]:
-    """Return the tolerances and the compensators of a file; LensFileError says line, value and remedy."""
+    """Return the tolerances and the compensators of a file; LensFileError states line, value and remedy."""
     text = read_text(path)
     try:
         top = Table(str(path), text, tomllib.loads(text))

@@ -1,13 +1,13 @@
-"""Where in the field coma and astigmatism of a misaligned lens vanish: their nodes (handbook 8.5).
+"""Nodes in the field where coma and astigmatism of a misaligned lens vanish (handbook 8.5).
 
 To third order every surface of a misaligned lens has the aberrations of an aligned one about a field centre of its own
 (R. A. Buchroeder 1976; R. V. Shack & K. Thompson, *Proc. SPIE* 251, 146 (1980)). So coma is linear in the field and
 vanishes at one point, astigmatism is quadratic and vanishes at two (K. Thompson, *JOSA A* 22, 1389 (2005)).
 
-A field, and the direction of an aberration, is a complex number here, the part along y plus i times that along x:
-H = tan(angle in y) + i·tan(angle in x). In Seidel's sums S_II and S_III of a surface the chief ray's Ā and ȳ become
-such numbers, those of the symmetric lens times H plus those of the chief ray of H = 0, which is traced exactly. Nothing
-is divided by Ā, so that a surface about the pupil needs no field centre at infinity.
+A field, and the direction of an aberration, is a complex number here, the part along y plus i times that along x: H =
+tan(angle in y) + i·tan(angle in x). In Seidel's sums S_II and S_III of a surface the chief ray's Ā and ȳ become such
+numbers, those of the symmetric lens times H plus those of the chief ray of H = 0, which is traced exactly. Nothing is
+divided by Ā, so that a surface concentric with the pupil needs no field centre at infinity.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,15 +33,15 @@ from p2sf.threads import one_blas_thread
 from p2sf.tolerance.errors_of_build import MOVES, UNITS, Kind, placement_of
 
 RAYS = 8, 16  # radii and directions: coma and astigmatism of a wavefront up to degree 12, exactly
-STEP = 1e-4  # mm and degrees: a difference's error is its square, a rounding of 1e-13 over it
+STEP = 1e-4  # mm and degrees: the error of a difference is its square plus 1e-13 divided by it
 # Seidel's W31 and W22 whose Zernike term has unit RMS: ρ³cos θ is 1/3 of coma's 3ρ³ − 2ρ with √8 and tilt, ρ²cos²θ half
 # of ρ²cos 2θ with √6 and defocus (Noll 1976, table I).
 COMA, ASTIGMATISM = 3 * np.sqrt(8), 2 * np.sqrt(6)
 TERMS = tuple(ZernikeTerm(number, n, m) for number, n, m in ((4, 2, 0), (7, 3, -1), (8, 3, 1), (5, 2, -2), (6, 2, 2)))
 NEWTON_STEPS = 12
-DIFFERENCE, SETTLED = 1e-3, 1e-5  # of the widest field: aimed rays are good to some 1e-9
+DIFFERENCE, SETTLED = 1e-3, 1e-5  # of the widest field: aimed rays are accurate to some 1e-9
 SINGULAR = 1e-3  # determinant over the sum of squares, ½ of a conformal map: on a curve of zeros there is no node
-NOTHING, APART = 1e-7, 1e-3  # waves that are none; of the widest field, within which two nodes are one
+NOTHING, APART = 1e-7, 1e-3  # waves that count as zero; share of the widest field within which two nodes are one
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +57,13 @@ class ThirdOrder:
 
     @property
     def coma_node(self) -> complex:
-        """Return the field H without coma; NaN where coma is the same all over the field."""
+        """Return the field H without coma; NaN if coma is constant over the field."""
         constant, linear = self.coma.tolist()
         return complex(-constant / linear) if linear else complex(np.nan, np.nan)
 
     @property
     def astigmatism_nodes(self) -> np.ndarray:
-        """Return the two fields H without astigmatism, (2,) complex; NaN where it is not quadratic in the field."""
+        """Return the two fields H without astigmatism, (2,) complex; NaN if it is not quadratic in the field."""
         constant, linear, square = self.astigmatism.tolist()
         if not square:
             return np.full(2, complex(np.nan, np.nan))
@@ -79,9 +79,9 @@ class ThirdOrder:
 def third_order(lens: Lens, depth_mm: float, wavelength_um: float) -> ThirdOrder:
     """Return coma and astigmatism over the field to third order, from Seidel's sums about the chief ray of H = 0.
 
-    Exact to the first power of tilts and decentres for coma, to the second for astigmatism but for what they change
-    the chief ray by at second order. Irregular surfaces add the same astigmatism to all fields. Raises GeometryError
-    where that ray does not reach the sensor, and for a surface with a term in r or r³.
+    Exact to the first power of tilts and decentres for coma, to the second for astigmatism, except for second-order
+    changes of the chief ray. Irregular surfaces add the same astigmatism to all fields. Raises GeometryError if that
+    ray does not reach the sensor, and for a surface with a term in r or r³.
     """
     rays = paraxial_rays(lens, depth_mm, wavelength_um)
     heights, angles = _base_ray(lens, Source(depth_mm, 0.0, wavelength_um))
@@ -94,13 +94,13 @@ def third_order(lens: Lens, depth_mm: float, wavelength_um: float) -> ThirdOrder
     (coma_less, less), (coma, still), (coma_more, more) = found
     linear = np.array([coma, (coma_more - coma_less) / 2])
     square = (more + less) / 2 - still
-    return ThirdOrder(linear, np.array([still + _of_irregularities(lens, rays), (more - less) / 2, square]))
+    return ThirdOrder(linear, np.array([still + _astigmatism_of_irregularities(lens, rays), (more - less) / 2, square]))
 
 
-def _of_irregularities(lens: Lens, rays: ParaxialRays) -> complex:
+def _astigmatism_of_irregularities(lens: Lens, rays: ParaxialRays) -> complex:
     """Return W22 of irregular surfaces, waves: twice the part in cos 2θ of (n′ − n)·sag over the axial beam.
 
-    A surface that is higher by δ shortens the path of a ray along the axis by (n′ − n)δ.
+    A surface raised by δ shortens the path of a ray along the axis by (n′ − n)δ.
     """
     found = 0j
     for place, surface in enumerate(lens.surfaces):
@@ -111,7 +111,7 @@ def _of_irregularities(lens: Lens, rays: ParaxialRays) -> complex:
 
 
 def _base_ray(lens: Lens, source: Source) -> tuple[np.ndarray, np.ndarray]:
-    """Return the chief ray's place on every surface, mm, and its optical cosines before each and behind the last.
+    """Return the chief ray's position on every surface, mm, and its optical cosines before each and behind the last.
 
     Both complex, y + ix in the axes of each surface, (surfaces,) and (surfaces + 1,).
     """
@@ -143,12 +143,12 @@ class Move:
 
 @dataclass(frozen=True, eq=False)
 class NodalSensitivities:
-    """What every move adds, per mm or degree of it, to third order: all arrays (moves,), complex as `ThirdOrder` is.
+    """Contribution of each move, per mm or degree, to third order: all arrays (moves,), complex as in `ThirdOrder`.
 
-    ``coma``: W31, waves, the same all over the field. ``astigmatism``: W22 over H, waves, which grows with the field.
-    ``coma_node``, ``astigmatism_middle``: how far the node of coma and the middle between those of astigmatism move,
-    in H. ``landing_um``: how far the chief ray of H = 0 moves on the sensor, µm: distortion's tilt W11 and boresight.
-    W40 does not change to first order, and W20 and Wd by a tilt of the focal surface only.
+    ``coma``: W31, waves, constant over the field. ``astigmatism``: W22 over H, waves, which grows with the field.
+    ``coma_node``, ``astigmatism_middle``: shift of the node of coma and of the middle between those of astigmatism, in
+    H. ``landing_um``: shift of the chief ray of H = 0 on the sensor, µm: the tilt W11 of distortion, and boresight. W40
+    does not change to first order, and W20 and Wd by a tilt of the focal surface only.
     """
 
     moves: tuple[Move, ...]
@@ -162,9 +162,9 @@ class NodalSensitivities:
 def nodal_sensitivities(
     lens: Lens, depth_mm: float, wavelength_um: float, pieces: Sequence[tuple[int, int]]
 ) -> NodalSensitivities:
-    """Return what decentres and tilts about x and y of some pieces (first and last surface) do to the nodes.
+    """Return the effect of decentres and tilts about x and y of pieces (first and last surface) on the nodes.
 
-    Central differences of `third_order` and of the exact chief ray. Raises GeometryError where that is lost.
+    Central differences of `third_order` and of the exact chief ray. Raises GeometryError if that is lost.
     """
     moves = tuple(Move(kind, first, last) for first, last in pieces for kind in MOVES)
     rows = []
@@ -182,7 +182,7 @@ def nodal_sensitivities(
 
 
 def _state(lens: Lens, depth_mm: float, wavelength_um: float) -> np.ndarray:
-    """Return the constant of coma, the linear part of astigmatism, and where the chief ray lands, µm."""
+    """Return the constant part of coma, the linear part of astigmatism, and the chief ray's landing point, µm."""
     found = third_order(lens, depth_mm, wavelength_um)
     heights = _landing_um(lens, Source(depth_mm, 0.0, wavelength_um))
     return np.array([found.coma[0], found.astigmatism[1], heights])
@@ -198,11 +198,11 @@ def _landing_um(lens: Lens, source: Source) -> complex:
 class FieldAberrations:
     """Coma, astigmatism and defocus of the exact wavefront over a grid of fields, and where the first two vanish.
 
-    ``x_deg``, ``y_deg``: the grid's angles, (nx,) and (ny,). ``coma``, ``astigmatism``: (ny, nx) complex, waves, as
-    `ThirdOrder` has them, of the Zernike terms of the displayed OPD, so that higher orders count; ``defocus`` the
+    ``x_deg``, ``y_deg``: the grid's angles, (nx,) and (ny,). ``coma``, ``astigmatism``: (ny, nx) complex, waves, as in
+    `ThirdOrder`, of the Zernike terms of the displayed OPD, so that higher orders are included; ``defocus`` the
     coefficient of ρ², halfway between the foci, waves. NaN where rays are lost. ``coma_nodes_deg`` and
-    ``astigmatism_nodes_deg``, (nodes, 2): the fields (x, y) as far out as the grid's corners where they vanish. Of a
-    real lens there may be more, or fewer, than to third order; those of ``third_order`` may lie outside the field.
+    ``astigmatism_nodes_deg``, (nodes, 2): the fields (x, y), up to the corners of the grid, where they vanish. There
+    may be more or fewer than to third order; those of ``third_order`` may lie outside the field.
     """
 
     x_deg: np.ndarray
@@ -221,8 +221,8 @@ def field_aberrations(
 ) -> FieldAberrations:
     """Return coma, astigmatism and defocus at all fields (x, y) of a grid, and the nodes of exact rays.
 
-    Nodes are found from those of third order, and from where an aberration is least on the grid, by Newton's method.
-    Raises GeometryError where the chief ray of the field's centre is lost.
+    Nodes are found by Newton's method from those of third order and from the minima of an aberration on the grid.
+    Raises GeometryError if the chief ray of the centre of the field is lost.
     """
     known = third_order(lens, depth_mm, wavelength_um)
     x, y = (np.asarray(angles, dtype=float) for angles in (x_deg, y_deg))
@@ -245,7 +245,7 @@ def field_aberrations(
 
 
 def _local_minima(values: np.ndarray) -> np.ndarray:
-    """Return which of the values over a grid, (ny, nx), no neighbour is below; NaN is none."""
+    """Return the local minima of values over a grid, (ny, nx), bool; NaN is never one."""
     bordered = np.pad(np.where(np.isnan(values), np.inf, values), 1, constant_values=np.inf)
     rows, columns = values.shape
     shifted = [bordered[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
@@ -260,7 +260,7 @@ def _source(depth_mm: float, wavelength_um: float, x_deg: float, y_deg: float) -
 def exact_aberrations(lens: Lens, source: Source) -> tuple[complex, complex, complex]:
     """Return coma, astigmatism and defocus of the displayed OPD of exact rays, waves; NaN where rays are lost.
 
-    In the axes of the lens, as `FieldAberrations` has them, whatever the source's azimuth.
+    In the axes of the lens, as in `FieldAberrations`, for any azimuth of the source.
     """
     lost = complex(np.nan, np.nan)
     xi, eta, weight = whole_disc(*RAYS)
@@ -276,7 +276,7 @@ def exact_aberrations(lens: Lens, source: Source) -> tuple[complex, complex, com
 
 
 def _nodes(value: Callable[[complex], complex], guesses: Sequence[complex], widest: float) -> np.ndarray:
-    """Return the different fields (x, y), degrees, to which Newton's method leads from some guesses, (nodes, 2)."""
+    """Return the distinct fields (x, y), degrees, found by Newton's method from some guesses, (nodes, 2)."""
     found: list[complex] = []
     for guess in guesses:
         field = _node(value, guess, widest)
@@ -287,7 +287,7 @@ def _nodes(value: Callable[[complex], complex], guesses: Sequence[complex], wide
 
 
 def _node(value: Callable[[complex], complex], guess: complex, widest: float) -> complex | None:
-    """Return the field H near a guess where a complex aberration vanishes, by Newton's method; None where none does."""
+    """Return the field H near a guess where a complex aberration vanishes, by Newton's method; None if not found."""
     step, field = DIFFERENCE * widest, guess
     for _ in range(NEWTON_STEPS):
         if not abs(field) <= widest:
@@ -295,7 +295,7 @@ def _node(value: Callable[[complex], complex], guess: complex, widest: float) ->
         here = value(field)
         if abs(here) < NOTHING:
             return field
-        # Central ones: the curvature in a one-sided difference would tilt the parallel slopes on a curve of zeros.
+        # Central differences: the curvature in one-sided ones would tilt the parallel slopes on a curve of zeros.
         up, aside = ((value(field + one * step) - value(field - one * step)) / (2 * step) for one in (1, 1j))
         slopes = np.array([[up.real, aside.real], [up.imag, aside.imag]])
         if not abs(np.linalg.det(slopes)) > SINGULAR * np.square(slopes).sum():  # NaN too

@@ -1,8 +1,8 @@
-"""One error at a time, by exact rays: what each tolerance does alone, either way, with the compensators set.
+"""Sensitivities by exact rays: the effect of each tolerance alone, both ways, with the compensators adjusted.
 
-The quadratic form draws thousands of builds; at the limit of a large tolerance it lacks third orders, and knows nothing
-of rays that are lost. Single errors are few, so their figures are not read off the form: the lens with the error is
-traced, and its compensators are set anew. How far the form is from that is its error.
+The quadratic form evaluates thousands of builds; at the limit of a large tolerance it lacks third orders, and it
+ignores lost rays. Single errors are few, so their figures do not come from the form: the perturbed lens is traced, and
+its compensators are adjusted anew. The difference is the error of the form.
 """
 
 from collections.abc import Callable, Sequence
@@ -28,11 +28,11 @@ from p2sf.tolerance.differentials import (
 )
 from p2sf.tolerance.errors_of_build import build
 
-STEP, LEAST_STEP = 0.01, 1e-5  # of a compensator, by which its effect on exact rays is found
-INVALID = 0.1  # of a harm: beyond, the quadratic form does not describe an error
+STEP, LEAST_STEP = 0.01, 1e-5  # of a compensator, to measure its effect on exact rays
+INVALID = 0.1  # of a degradation: beyond, the quadratic form does not describe an error
 FINER = (32, 80), (48, 112)  # radii and directions of the rays of a wavefront that is not smooth
-SMOOTH = 0.03  # of the RMS: what the form's polynomials may leave of a change of the wavefront that fewer rays follow
-SETTLED = 1e-5  # of the RMS: by how much it may differ between one number of rays and the next
+SMOOTH = 0.03  # of the RMS: allowed remainder after fitting the form's polynomials, if fewer rays are used
+SETTLED = 1e-5  # of the RMS: allowed change from one number of rays to the next
 
 
 @one_blas_thread
@@ -43,10 +43,10 @@ def sensitivities(
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Builds:
-    """Return builds with one error each, at plus and then at minus its tolerance: (2·errors) builds, and the lens last.
+    """Return builds with one error each, at plus and then at minus its tolerance, (2·errors), and the lens last.
 
-    That of a compensator is 0. By exact rays; only the contrast is that of pairs of points of the designed lens, whose
-    phases are exact. Figures are NaN where the error loses rays. Raises Cancelled.
+    Errors of compensators are 0. All figures are by exact rays; only the contrast uses the pairs of points of the
+    designed lens, with exact phases. Figures are NaN if the error causes rays to be lost. Raises Cancelled.
     """
     places = tuple(compensators)
     exact = _ExactBuilds(known, places, QuadraticForm(known, frequency_per_mm))
@@ -54,7 +54,7 @@ def sensitivities(
     last = len(found.errors) - 1
     for number in [last, *range(last)]:
         if cancelled and cancelled():
-            raise Cancelled("the sensitivities were stopped before they were known")
+            raise Cancelled("the sensitivities were cancelled before they were known")
         if number < last and number // 2 in places:
             continue
         exact.replace(found, number)
@@ -67,9 +67,9 @@ def sensitivities(
 
 
 def form_errors(form: Builds, alone: Builds, criterion: Criterion, compensators: Sequence[int] = ()) -> np.ndarray:
-    """Return by how much the harms that the form states exceed the exact ones, (errors,); NaN where rays are lost.
+    """Return the excess of the degradations by the form over the exact ones, (errors,); NaN if rays are lost.
 
-    ``form``, ``alone``: of `by_form` and of `sensitivities`, for the same compensators.
+    ``form``, ``alone``: results of `by_form` and `sensitivities` for the same compensators.
     """
     excess: np.ndarray = harms(form, criterion, compensators) - harms(alone, criterion, compensators)
     return excess
@@ -102,7 +102,7 @@ class _Opening:
         return [self._straight(k, built, rays) for k, rays in enumerate(reached)]
 
     def slopes(self, there: list[_Waves], errors: np.ndarray, place: int) -> list[_Waves]:
-        """Return what a unit of a compensator adds to the waves ``there`` of a build with these errors."""
+        """Return the change of the waves ``there`` of a build with these errors per unit of a compensator."""
         one = self._known.tolerances[place]
         step = max(STEP * one.amount, LEAST_STEP)
         if one.kind == "thickness" and one.first == len(self._known.lens.surfaces):
@@ -125,7 +125,7 @@ class _Opening:
         return built, [through_build(known.lens, built, source, rays.xi, rays.eta) for source, rays in each]
 
     def _straight(self, field: int, built: Lens, rays: Rays) -> _Waves:
-        """Return the waves of a field by its rays; those of the open rays count the mask's path as well."""
+        """Return the waves of a field by its rays; those of the open rays include the mask's path."""
         open_ = self.fine[field]
         on_sphere = wavefront_of(built, self._known.sources[field], rays) - self._on_sphere[field]
         return _Waves(
@@ -138,7 +138,7 @@ class _Opening:
 
 
 class _ExactBuilds:
-    """Figures of builds by as many exact rays as their wavefronts need."""
+    """Figures of builds by as many exact rays as their wavefronts require."""
 
     def __init__(self, known: Differentials, places: tuple[int, ...], form: QuadraticForm):
         self._known, self._places, self._form = known, places, form
@@ -150,7 +150,7 @@ class _ExactBuilds:
         return [_Opening(known, [open_rays(known.lens, one, counts) for one in known.sources]) for counts in FINER]
 
     def replace(self, found: Builds, number: int) -> None:
-        """Write the figures of one build over those of the form."""
+        """Overwrite the figures of the form by those of one build."""
         try:
             waves = self._write(found, number, self._few)
             smooth = map(_smooth, self._form.on_sphere, waves)
@@ -169,7 +169,7 @@ class _ExactBuilds:
             self._form.contrast(np.stack(change)[None], stretch[None], found.mtf[number : number + 1])
 
     def _write(self, found: Builds, number: int, opening: _Opening) -> list[_Waves]:
-        """Write all figures but the contrast, by the rays of an opening, and return its waves."""
+        """Write all figures except the contrast by the rays of an opening, and return its waves."""
         waves = self._set(found.errors[number], opening)
         quality = [_quality(one, rays) for one, rays in zip(waves, opening.fine, strict=True)]
         found.rms_waves[number], found.strehl[number] = np.transpose(quality)
@@ -178,7 +178,7 @@ class _ExactBuilds:
         return waves
 
     def _set(self, errors: np.ndarray, opening: _Opening) -> list[_Waves]:
-        """Return the waves once the compensators in ``errors`` are set, which they nearly are."""
+        """Return the waves after adjusting the compensators in ``errors``, which are nearly adjusted already."""
         waves, places = opening.waves(errors), self._places
         if not places:
             return waves
@@ -196,14 +196,14 @@ class _ExactBuilds:
 
 
 def _smooth(form: FieldForm, waves: _Waves) -> bool:
-    """Return whether the form's polynomials describe how a wavefront differs from the lens's."""
+    """Return whether the form's polynomials describe the difference of a wavefront from the lens's."""
     change = waves.wavefront - form.still
     rest = change - form.polynomials(waves.wavefront) @ form.terms
     return bool(form.mean_square(rest) <= SMOOTH**2 * form.mean_square(waves.wavefront))
 
 
 def _quality(waves: _Waves, rays: OpenRays) -> tuple[float, float]:
-    """Return the RMS and the Strehl ratio, as `Builds` has it."""
+    """Return the RMS and the Strehl ratio, as in `Builds`."""
     rms = float(np.sqrt(max(rays.share @ waves.wavefront**2, 0.0)))
     if rms > SUMMED_RMS:
         return rms, 0.0

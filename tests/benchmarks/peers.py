@@ -19,7 +19,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.quadrature import cell_areas
@@ -105,9 +105,9 @@ def lens_rows() -> dict[str, list[tuple[str, Work, str]]]:
 
     peer = _optiland()
     psfs = [
-        ours("huygens, one pass", lambda: render(lens, source, "huygens", *window, "preview")),
-        ours("traced, preview", lambda: render(lens, source, "traced", *window, "preview")),
-        ours("fitted, preview", lambda: render(lens, source, "fitted", *window, "preview")),
+        ours("huygens, one pass", lambda: render(lens, source, "huygens", *window, PsfOptions("preview"))),
+        ours("traced, preview", lambda: render(lens, source, "traced", *window, PsfOptions("preview"))),
+        ours("fitted, preview", lambda: render(lens, source, "fitted", *window, PsfOptions("preview"))),
         ours("seidel, preview", lambda: seidel_psf(coefficients(lens, *place), *window, "preview")),
     ]
     opds = [("p2sf", lambda: opd_map(lens, source, SIZE), "exact rays")]

@@ -30,7 +30,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from threadpoolctl import threadpool_limits
 
 from p2sf_explorer.charts.theme import configure_plots, screen_scale
-from p2sf_explorer.compute.quantities import OF_THE_LENS
+from p2sf_explorer.compute.quantities import RING_QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges, with_lens
 from p2sf_explorer.state.build_errors import with_error
 from p2sf_explorer.state.state import State, change, new_state
@@ -213,7 +213,7 @@ def stages(options: argparse.Namespace, lenses: tuple[str, ...], clock: Clock) -
             for lens in lenses:
                 state = with_lens(new_state(theme="light", method=method), lens)
                 title = f"{size[0]}×{size[1]} {method:6} {lens:16}"
-                rings = tuple(q.key for q in OF_THE_LENS if q.there(ranges(prescription(state))))
+                rings = tuple(q.key for q in RING_QUANTITIES if q.there(ranges(prescription(state))))
                 keys = (*rings, *SLIDERS)
                 together += measure(title, state, size, keys[:1] if options.quick else keys, clock)
             found, asked = (median(together), quantiles(together, n=20)[-1]), ASKED[size]

@@ -39,7 +39,8 @@ steps = count()
 
 def moved(method):
     from p2sf.lens.source import Source
-    from p2sf.psf.methods import render
+    from p2sf.psf import methods
+    preview = methods.PsfOptions("preview") if hasattr(methods, "PsfOptions") else "preview"
     spent = []
     for _ in range(MOVES):
         slope = 0.249328 + 1e-4 * (next(steps) % 997)
@@ -48,7 +49,7 @@ def moved(method):
             seidel_psf(coefficients(lens, np.inf, slope, 0.6562725), 64, 0.69125, "preview")
         else:
             source = Source(field_slope=slope, wavelength_um=0.6562725)
-            render(lens, source, method, 64, 0.69125, "preview")
+            methods.render(lens, source, method, 64, 0.69125, preview)
         spent.append(process_time() - begun)
     return min(spent)
 

@@ -46,7 +46,7 @@ def test_a_folder_that_is_not_there(capsys):
 
 
 def test_rims_clip_as_in_the_library(answer, refused):
-    """One colour and a spectrum of one line; what describes the whole pupil is refused."""
+    """One colour and a spectrum of one line; an FFT of square samples knows no rims."""
     lens, source, place = (
         p2sf.load_lens("double_gauss_28"),
         p2sf.Source(field_deg=14),
@@ -59,8 +59,10 @@ def test_rims_clip_as_in_the_library(answer, refused):
     assert found["radius_80_um"] == pytest.approx(all_light.radius_80_um, rel=1e-6)  # that of its root
     line = ("--spectrum", f"lines:{1000 * source.wavelength_um}", "--pixel-um", 4)
     assert answer("psf", *place, *line, "--clip")["methods"] == [own.method] != answer("psf", *place, *line)["methods"]
-    for wrong in (("--method", "seidel"), ("--sampling", "mdft"), ("--method", "fitted")):
-        assert "--clip" in refused("psf", *place, *wrong, "--clip")
+    for flags in (("--method", "seidel"), ("--sampling", "mdft"), ("--method", "fitted")):
+        rims, none = (answer("psf", *place, "--pixel-um", 4, *flags, *clip)["strehl"] for clip in (("--clip",), ()))
+        assert abs(rims / none - 1) > 0.01
+    assert "--clip" in refused("psf", *place, "--sampling", "fft", "--clip")
 
 
 def test_a_spectrum_keeps_the_tolerance(answer):

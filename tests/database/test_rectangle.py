@@ -22,7 +22,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.sensor_points import landing_mm
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
-from p2sf.pupil.basis import WHOLE
+from p2sf.pupil.domain import WHOLE
 from p2sf.pupil.mask import PupilMask
 
 ACROSS, UP = slope_from_degrees([-5.0, 0.0, 6.0]), slope_from_degrees([-6.0, 0.0, 7.0])

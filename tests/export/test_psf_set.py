@@ -24,7 +24,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, part_filled_kernel, pixel_kernel
-from p2sf.psf.methods import render
+from p2sf.psf.methods import PsfOptions, render
 from tests.support.tiers import in_tiers
 
 LENS = with_f_number(find_lens("double_gauss_28"), 8.0)
@@ -61,7 +61,7 @@ def sums_of_fine_samples(lens, field: float, grid: PixelGrid, inner: int = 5, cl
     """Return pixels as sums of the inner of 5² samples each of exact rays' waves, over all light of their window."""
     pixels = grid.pixels
     source = Source(inf, float(slope_from_degrees(field)), WAVE_NM / 1000)
-    fine = render(lens, source, "traced", 5 * pixels + 1, grid.pixel_um / 5, clip=clip).values
+    fine = render(lens, source, "traced", 5 * pixels + 1, grid.pixel_um / 5, PsfOptions(clip=clip)).values
     fine = fine[: 5 * pixels, : 5 * pixels]
     middle = (5 * pixels + 1) // 2  # the chief ray's sample
     start = middle - 2 - 5 * (pixels // 2)

@@ -1,12 +1,13 @@
 """The table of surface properties is complete: a new field of `Surface` fails here until everything knows it."""
 
 from dataclasses import fields, replace
+from inspect import isabstract
 
 import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.glass.media import ConstantIndex
+from p2sf.glass.media import AIR, ConstantIndex
 from p2sf.lens import (
     Aperture,
     Diffraction,
@@ -18,10 +19,9 @@ from p2sf.lens import (
     Transmission,
     XYPolynomial,
     ZernikeFringeSag,
-    ZernikeStandardSag,
 )
-from p2sf.lens.lens import scale_surface, seen_from
-from p2sf.lens.misalignment import straighten
+from p2sf.lens.lens import indices, scale_surface, seen_from
+from p2sf.lens.misalignment import average_azimuths, straighten
 from p2sf.lens.positions import Axis, interpolate_lens, steps_between, with_positions
 from p2sf.lens.properties import BY_NAME, CODE_V, EVERY, ISET, PROPERTIES, TOML, ZEMAX, words_of
 from p2sf.lens.shape_types import SHAPES
@@ -34,9 +34,14 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.toml.surface import ENTRIES
 from p2sf.lensfile.writing import lens_to_iset, lens_to_zmx
 from p2sf.paraxial.seidel import check_seidel
-from p2sf.raytrace.trace import trace
+from p2sf.raytrace.trace import launch, per_ray, run, trace
 
 PLAIN = Surface(40.0, 4.0, ConstantIndex(1.5), semi_diameter=8.0)
+MIXED = (0.0, 0.01, 0.0, 0.02, -0.03, 0.01, 0.02, 0.005)  # mm, of every term of a shape
+SHAPE_SAMPLES = {kind: each.of(MIXED, 8.0) for kind, each in SHAPES.items() if "odd" not in kind} | {
+    "odd asphere": SHAPES["odd asphere"].of((0.0, 1e-3, 2e-4, -1e-5), 1.0),
+    "extended odd asphere": SHAPES["extended odd asphere"].of((0.0, 0.02, 0.01), 8.0),
+}
 # A value of every property, another than the default: of a new one, state it here.
 SAMPLES = {
     "radius": 35.0,
@@ -45,7 +50,7 @@ SAMPLES = {
     "conic": -0.6,
     "aspheric": (1e-5, -2e-8),
     "semi_diameter": 6.0,
-    "shape": ZernikeStandardSag((0.0, 0.0, 0.0, 0.01, 0.02, -0.03, 0.01, 0.02, 0.005), 8.0),
+    "shape": SHAPE_SAMPLES,
     "diffraction": Diffraction((-250.0, 14.0), 10.0),
     "before": (Placement(0.1, -0.2, 0.0, 0.5, 0.3),),
     "after": (Placement(-0.1, 0.2, 0.0, -0.5, -0.3),),
@@ -55,14 +60,19 @@ SAMPLES = {
     "irregularity": Irregularity(3.0, -2.0, 8.0),
     "transmission": Transmission(0.9, -0.004),
 }
+WAVELENGTH = 0.5875618
 WRITERS = {TOML: lens_to_toml, ZEMAX: lens_to_zmx, CODE_V: lens_to_seq, ISET: lens_to_iset}
-NAMES = tuple(SAMPLES)
+CASES = [
+    *(pytest.param(name, value, id=name) for name, value in SAMPLES.items() if name != "shape"),
+    *(pytest.param("shape", shape, id=kind) for kind, shape in SHAPE_SAMPLES.items()),
+]
+each_case = pytest.mark.parametrize(("name", "value"), CASES)
 UNBOUNDED = ("ideal_focal_length", "aspheric")  # inf, and no terms at all, are nothing to interpolate from
 
 
-def sample(name: str, value: object = None) -> Surface:
+def sample(name: str, value: object) -> Surface:
     base = Surface(thickness=4.0, medium=ConstantIndex(1.5)) if name == "ideal_focal_length" else PLAIN
-    return replace(base, **{name: SAMPLES[name] if value is None else value})
+    return replace(base, **{name: value})
 
 
 def lens_of(surface: Surface) -> Lens:
@@ -75,58 +85,111 @@ def test_every_field_is_in_every_table():
     assert {each.name for each in PROPERTIES} == names == {entry.name for entry in ENTRIES} == set(SAMPLES)
 
 
-def test_the_table_of_surfaces_has_a_column_for_every_property():
+@each_case
+def test_the_table_of_surfaces_has_a_column_for_it(name, value):
     from p2sf_explorer.compute.editing import cell_text
     from p2sf_explorer.compute.views.lens_table import COLUMNS
 
-    for name in NAMES:
-        column = BY_NAME[name].column
-        assert column in COLUMNS, name
-        two = replace(sample(name), **{name: default(name)}), sample(name)
-        before, after = ((cell_text(s, column), words_of(s, column)) for s in two)
-        assert before != after, f"the table does not show {name}"
+    column = BY_NAME[name].column
+    assert column in COLUMNS
+    two = replace(sample(name, value), **{name: default(name)}), sample(name, value)
+    before, after = ((cell_text(s, column), words_of(s, column)) for s in two)
+    assert before != after
 
 
 def default(name: str) -> object:
     return getattr(PLAIN, name) if name not in ("shape", "before", "after") else getattr(Surface(), name)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_lens_file_in_toml_keeps_it(name):
-    lens = lens_of(sample(name))
+@each_case
+def test_a_lens_file_in_toml_keeps_it(name, value):
+    lens = lens_of(sample(name, value))
     text = lens_to_toml(lens)
     assert parse_toml(text, "lens.toml").surfaces == lens.surfaces
     inches = parse_toml(text.replace('unit = "mm"', 'unit = "in"'), "lens.toml").surfaces[0]
     assert inches == scale_surface(lens.surfaces[0], 25.4) != lens.surfaces[0]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each_case
 @pytest.mark.parametrize("ending", [ZEMAX, CODE_V, ISET])
-def test_every_other_format_keeps_it_or_refuses_it(name, ending):
+def test_every_other_format_keeps_it_or_refuses_it(name, value, ending):
     """Where a file is written, its lens has the same rays: a writer that forgets a property fails."""
-    lens = lens_of(sample(name))
+    lens = lens_of(sample(name, value))
     try:
         text = WRITERS[ending](lens)
     except LensFileError as error:
         assert "surface" in error.message.values and str(error)
         return
-    assert ending in BY_NAME[name].endings(SAMPLES[name])
+    assert ending in BY_NAME[name].endings(value)
     read = import_text(LensText(f"lens{ending}", "utf-8", text), GlassSources()).lens
     assert rays(read) == pytest.approx(rays(lens), rel=1e-10, abs=1e-10, nan_ok=True)
 
 
-def rays(lens: Lens) -> np.ndarray:
-    """Return the last points and cosines of a few skew rays that rims clip, and which of them are lost."""
-    x, y = np.meshgrid(np.linspace(-7, 7, 9), np.linspace(-7, 7, 9))
-    origins = np.stack([x.ravel(), y.ravel(), np.full(x.size, -5.0)], -1)
-    found = trace(lens, origins, [0.02, 0.05, 1.0], 0.5875618, clip=True)
-    return np.concatenate([found.points[-1], found.cosines], -1)
+GRID = np.stack([*(axis.ravel() for axis in np.meshgrid(np.linspace(-7, 7, 9), np.linspace(-7, 7, 9))), np.zeros(81)])
+GRID[2] = -5.0
+WAY = np.array([0.02, 0.05, 1.0])
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_it_scales_with_the_lens(name):
+def rays(lens: Lens, turn: np.ndarray = np.eye(3)) -> np.ndarray:  # noqa: B008
+    """Return points, cosines and light of skew rays, turned about the axis, that rims clip; NaN where they are lost."""
+    found = trace(lens, (turn @ GRID).T, turn @ WAY, WAVELENGTH, clip=True)
+    return np.concatenate([found.points[-1], found.cosines, light(lens, turn)[:, None]], -1)
+
+
+def light(lens: Lens, turn: np.ndarray = np.eye(3)) -> np.ndarray:  # noqa: B008
+    """Return the share of the energy of the same rays, unclipped, that reaches the sensor."""
+    index = per_ray(indices(lens, WAVELENGTH))
+    beam = run(lens, launch(index[0], WAVELENGTH, turn @ GRID, (turn @ WAY / np.linalg.norm(WAY))[:, None]), index)
+    return np.broadcast_to(beam.transmission, beam.x.shape)
+
+
+def about_the_axis(angle_deg: float) -> np.ndarray:
+    cosine, sine = np.cos(np.deg2rad(angle_deg)), np.sin(np.deg2rad(angle_deg))
+    return np.array([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1.0]])
+
+
+@each_case
+def test_a_surface_is_bare_exactly_where_it_is_a_plane_that_neither_turns_nor_dims_rays(name, value):
+    around = value if name == "medium" else AIR
+    surface = Surface(**{"medium": around, name: value})
+    lens = replace(lens_of(surface), object_medium=around)
+    plain = replace(lens_of(Surface(medium=around)), object_medium=around)
+    cosines = (trace(each, GRID.T, WAY, WAVELENGTH).cosines for each in (lens, plain))
+    same = np.allclose(*cosines, rtol=0, atol=1e-12, equal_nan=True) and np.all(light(lens) == 1)
+    assert surface.bare == (same and not surface.sag(*GRID[:2]).any())
+
+
+@each_case
+def test_a_lens_is_misaligned_exactly_where_turned_rays_are_not_the_rays_turned(name, value):
+    lens, turn = lens_of(sample(name, value)), about_the_axis(35.0)
+    own, turned = rays(lens), rays(lens, turn)
+    own[:, :3], own[:, 3:6] = own[:, :3] @ turn.T, own[:, 3:6] @ turn.T
+    assert lens.misaligned != np.allclose(turned, own, rtol=0, atol=1e-11, equal_nan=True)
+
+
+@each_case
+def test_a_lens_shades_exactly_where_light_differs_over_the_pupil(name, value):
+    lens = lens_of(sample(name, value))
+    assert (lens.shading is not None) == (np.ptp(light(lens)) > 0)
+
+
+@each_case
+def test_paraxial_rays_see_the_mean_over_all_azimuths_without_shading(name, value):
+    lens = lens_of(sample(name, value))
+    mean = average_azimuths(lens)
+    assert np.ptp(light(mean)) == 0
+    r, theta = np.linspace(0, 5, 6)[:, None], np.linspace(0, 2 * np.pi, 64, endpoint=False)
+    sags = (surface.sag(r * np.sin(theta), r * np.cos(theta)) for surface in (lens.surfaces[0], mean.surfaces[0]))
+    own, found = (sag - sag[0] for sag in sags)
+    assert found == pytest.approx(np.broadcast_to(own.mean(1, keepdims=True), own.shape), rel=1e-12, abs=1e-14)
+    if not BY_NAME[name].unseen(getattr(mean.surfaces[0], name)):
+        check_seidel(mean)
+
+
+@each_case
+def test_it_scales_with_the_lens(name, value):
     """Everything three times as large: rays from places three times as large land there, in the same directions."""
-    lens = lens_of(sample(name))
+    lens = lens_of(sample(name, value))
     if name == "diffraction":  # whose phase stays: its slope is a third, as with three times the wavelength
         pytest.skip("scales with the wavelength too; its TOML units are tested above")
     large = replace(lens, surfaces=tuple(scale_surface(s, 3.0) for s in lens.surfaces))
@@ -138,27 +201,26 @@ def test_it_scales_with_the_lens(name):
     assert three.points == pytest.approx(3 * one.points, rel=1e-12, abs=1e-12, nan_ok=True)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_it_turns_with_the_lens(name):
+@each_case
+def test_it_turns_with_the_lens(name, value):
     """A lens seen from another azimuth: the rays of the lens itself, turned."""
-    lens, angle = lens_of(sample(name)), 35.0
-    cosine, sine = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
-    turn = np.array([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1.0]])
+    lens, angle = lens_of(sample(name, value)), 35.0
+    turn = about_the_axis(angle)
     origins, way = np.array([[0.3, 1.0, -2.0], [-3.5, 3.0, -2.0], [4.5, -2.5, -2.0]]), np.array([0.03, -0.02, 1.0])
     own = trace(lens, origins, way, 0.55, clip=True)
     turned = trace(seen_from(lens, angle), origins @ turn.T, turn @ way, 0.55, clip=True)
     assert turned.points[:-1] == pytest.approx(own.points[:-1] @ turn.T, abs=1e-11, nan_ok=True)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_six_coefficients_know_it_or_refuse_it_or_the_lens_counts_as_misaligned(name):
+@each_case
+def test_six_coefficients_know_it_or_refuse_it_or_the_lens_counts_as_misaligned(name, value):
     """What six coefficients do not see changes exact rays; then they refuse, or a warning says what they leave out."""
-    lens = lens_of(sample(name))
+    lens = lens_of(sample(name, value))
     aligned = straighten(lens)
     assert not aligned.misaligned or name == "rim"
     if lens.misaligned:
         return
-    if BY_NAME[name].unseen(SAMPLES[name]):
+    if BY_NAME[name].unseen(value):
         with pytest.raises(GeometryError, match=r"surface 1 .* no six coefficients"):
             check_seidel(lens)
         return
@@ -172,9 +234,9 @@ def test_a_shape_that_is_not_of_revolution_is_refused_with_one_sentence():
             check_seidel(lens_of(sample("shape", shape)))
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_between_two_columns_of_a_zoom_it_is_interpolated_or_named(name):
-    low, high = ends = replace(sample(name), **{name: default(name)}), sample(name)
+@each_case
+def test_between_two_columns_of_a_zoom_it_is_interpolated_or_named(name, value):
+    low, high = ends = replace(sample(name, value), **{name: default(name)}), sample(name, value)
     zoom = with_positions((Axis("zoom", ("wide", "tele"), (0.0, 1.0)),), tuple(map(lens_of, ends)))
     between = interpolate_lens(zoom.positions, (0.4,))
     found = getattr(between.surfaces[0], name)
@@ -186,9 +248,15 @@ def test_between_two_columns_of_a_zoom_it_is_interpolated_or_named(name):
         assert not named and found not in (getattr(low, name), getattr(high, name))
 
 
+def _concrete(base: type) -> list[type]:
+    """Return the classes of the program at or below one of which there are objects."""
+    own = [base] * (not isabstract(base) and base.__module__.startswith("p2sf"))
+    return [*own, *(found for each in base.__subclasses__() for found in _concrete(each))]
+
+
 def test_every_shape_has_its_type_and_is_known_by_its_kind():
     """A shape without a type in lens files, or whose type makes another, fails."""
-    assert {type(each.of((0.0, 0.01, 0.0, 0.02), 9.0)) for each in SHAPES.values()} == _concrete(Shape)
+    assert {type(shape) for shape in SHAPE_SAMPLES.values()} == set(_concrete(Shape))
     for kind, each in SHAPES.items():
         numbers = (0.01, 0.0, 0.02) if kind == "extended odd asphere" else (0.0, 0.01, 0.0, 0.02)
         shape = each.of(numbers, 1.0 if kind == "odd asphere" else 9.0)
@@ -196,6 +264,30 @@ def test_every_shape_has_its_type_and_is_known_by_its_kind():
         assert str(shape.name) and str(shape.words) and TOML in shape.endings <= EVERY
 
 
-def _concrete(base: type) -> set[type]:
-    below = base.__subclasses__()
-    return {base} if not below else {found for each in below for found in _concrete(each)}
+@pytest.mark.parametrize("shape", _concrete(Shape))
+def test_every_class_of_shapes_states_its_own_words_and_files(shape):
+    assert {"kind", "name", "endings"} <= vars(shape).keys()
+
+
+class Undeclared(XYPolynomial):
+    """A shape that inherits all that it does not state."""
+
+
+class Misdeclared(XYPolynomial):
+    """A shape that is in no table of a writer."""
+
+    endings = EVERY
+
+
+@pytest.mark.parametrize("ending", list(WRITERS))
+def test_a_shape_that_states_no_files_is_refused_by_all_of_them(ending):
+    with pytest.raises(LensFileError) as refusal:
+        WRITERS[ending](lens_of(sample("shape", Undeclared(MIXED, 8.0))))
+    assert refusal.value.message.values["surface"] == 1
+
+
+@pytest.mark.parametrize("ending", [ZEMAX, CODE_V, ISET])
+def test_a_shape_that_a_writer_does_not_know_is_refused_whatever_it_states(ending):
+    with pytest.raises(LensFileError) as refusal:
+        WRITERS[ending](lens_of(sample("shape", Misdeclared(MIXED, 8.0))))
+    assert refusal.value.message.values["surface"] == 1

@@ -14,8 +14,8 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import parse_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import magnification
-from p2sf.paraxial.pupils import numerical_aperture
-from tests.support.lenses.lens_files import read
+from p2sf.paraxial.pupils import numerical_aperture, stop_rim
+from tests.support.lenses.lens_files import read, refused_at
 
 PHASE = Diffraction((-300.0, 20.0), 5.0)
 ZEMAX, TABLE = "doublet.zmx", "singlet.csv"
@@ -190,8 +190,11 @@ def test_vignetting_factors_without_rims_are_told_not_to_be_applied():
 
 
 def test_a_rim_that_is_not_round_and_a_word_nobody_knows_are_told():
-    text = read(ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  ELAP 9 8\n  XYZZY 1\n")).report.text
-    assert "its rim (ELAP) is not round" in text and "XYZZY, which is not known" in text
+    report = read(ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  ELAP 9 8\n" + "  XYZZY 1\n" * 341)).report
+    (unknown,) = report.of("unknown")  # once, not 341 times
+    assert unknown.message.values == {"name": "XYZZY", "count": 341} and unknown.line
+    assert report.of("caution")[0].message.values == {"keyword": "ELAP"}
+    assert not any("XYZZY" in str(note.sentence) for note in report.of("ignored"))
 
 
 def test_an_archive_without_a_lens_and_a_folder_are_refused(tmp_path):
@@ -202,3 +205,49 @@ def test_an_archive_without_a_lens_and_a_folder_are_refused(tmp_path):
     (tmp_path / "lens.zmx").mkdir()
     with pytest.raises(LensFileError, match="this is a folder"):
         load_lens(tmp_path / "lens.zmx")
+
+
+def test_a_gaussian_pupil_is_the_mask_of_the_lens(tmp_path):
+    """Zemax: amplitude exp(−2.25ρ²). CODE V: intensity 0.6 at half the radius, or amplitude 0.6^(1/2)."""
+    zemax, codev = read("gaussian_pupil.zmx").lens, read("gaussian.seq").lens
+    edge = np.array([0.0]), np.array([1.0])
+    assert zemax.mask.amplitude(*edge) == pytest.approx(np.exp(-2.25), rel=1e-12)
+    assert codev.mask.amplitude(np.array([0.5]), np.array([0.0])) == pytest.approx(0.6**0.5, rel=1e-12)
+    for ending, lens in (("zmx", zemax), ("seq", codev), ("seq", zemax), ("toml", codev)):
+        write_lens(lens, tmp_path / f"out.{ending}")
+        assert load_lens(tmp_path / f"out.{ending}").mask.apodisation == pytest.approx(lens.mask.apodisation, rel=1e-12)
+    plain = read("gaussian.seq", ("PUI 0.6", "PUI 1.0")).lens
+    assert plain.mask.clear
+    refused_at("gaussian.seq", ("PUY 0.5", "PUY 0.7"), "0.7")
+
+
+def test_the_plane_at_the_object_is_left_out():
+    """The object stands 80 mm before the glass, of whose rim 80·tan(asin 0.05) is filled."""
+    lens = read("gaussian_pupil.zmx").lens
+    assert (len(lens.surfaces), lens.stop_surface) == (2, 1) and "80 mm" in lens.comment
+    assert float(stop_rim(lens)) == pytest.approx(80 * np.tan(np.arcsin(0.05)), rel=1e-12)
+
+
+def test_a_private_glass_that_no_surface_has_need_not_be_whole():
+    assert read("gaussian.seq").lens.surfaces[0].medium.label == "USED"
+    refused_at("gaussian.seq", ("4.0 'USED'", "4.0 'UNUSED'"), "UNUSED")
+
+
+def test_an_obscuration_that_is_left_out_is_no_trifle():
+    cautions = read("gaussian.seq").report.of("caution")
+    assert [note.message.values["name"] for note in cautions] == ["REX", "REY"]
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [("gaussian_pupil.zmx", "ENVD 20 1 1", "ENVD 20 0 1"), ("gaussian_pupil.zmx", "ENVD 20 1 1", "ENVD -40 1 1")],
+)
+def test_glasses_in_other_air_are_refused_unless_nothing_follows_it(name, old, new):
+    refused_at(name, (old, new), "atm")
+    assert read(name, (old, f"{new[:-1]}0")).lens == read(name).lens
+    assert len(read(name, (old, "ENVD 22 1 1")).report.of("caution")) == 1
+
+
+def test_an_empty_conic_constant_is_none():
+    lens = read("triplet.json", ('"radius"', '"conic_constant": [], "radius"')).lens  # keys of later ones win
+    assert lens == read("triplet.json").lens

@@ -35,10 +35,12 @@ def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):
 def test_a_thousand_surfaces_are_read_and_one_more_refused():
     def rows(count):
         return (
-            "SURF 0\n" + "".join(f"SURF {n}\n  DISZ 1\n  DIAM 5\n" for n in range(1, count + 1)) + f"SURF {count + 1}\n"
+            "SURF 0\n  DISZ INFINITY\n"
+            + "".join(f"SURF {n}\n  DISZ 1\n  DIAM 5\n" for n in range(1, count + 1))
+            + f"SURF {count + 1}\n"
         )
 
     everything = (text_of(DOUBLET), rows(1000))
     assert len(read(DOUBLET, everything).lens.surfaces) == 1000
-    with pytest.raises(LensFileError, match="line 3002: the file holds 1001 surfaces; at most 1000 are read"):
+    with pytest.raises(LensFileError, match="line 3003: the file holds 1001 surfaces; at most 1000 are read"):
         read(DOUBLET, (text_of(DOUBLET), rows(1001)))

@@ -32,7 +32,7 @@ def with_own_glass() -> Lens:
 
 LENSES = {
     **{name: lambda name=name: find_lens(name) for name in shipped_lenses()},
-    **{name: lambda name=name: load_lens(FOLDER / name) for name in FILES},
+    **{name: lambda name=name: load_lens(FOLDER / name, accept_substitutes=True) for name in FILES},
     "own glass": with_own_glass,
 }
 
@@ -52,8 +52,8 @@ def has_line_in_zemax(lens: Lens) -> bool:
 def test_zmx_is_the_same_lens_to_this_reader(name, tmp_path):
     """1/(1/radius) may differ in the last digit, hence 1e-13 on matrices of up to 12 surfaces."""
     lens, path = LENSES[name](), tmp_path / "out.zmx"
-    if not lens.mask.clear:
-        with pytest.raises(LensFileError, match="a mask stands in the stop"):
+    if not lens.mask.clear and name not in GAUSSIAN:
+        with pytest.raises(LensFileError, match="mask"):
             write_lens(lens, path)
         lens = with_mask(lens, CLEAR)
     if not has_line_in_zemax(lens):
@@ -104,9 +104,10 @@ def test_iset_gets_qcon_as_its_even_terms(tmp_path):
     )
 
 
-# mirrors and diffraction
-NOT_IN_ISET = {"mirrors.roa", "hybrid.seq", "diffractive_singlet"}
-NOT_IN_ISET |= {"cassegrain_f10", "hubble", "maksutov", "schmidt_camera"}
+GAUSSIAN = {"gaussian.seq", "gaussian_pupil.zmx"}  # masks that Zemax and CODE V have a line for
+# mirrors, diffraction, tilts
+NOT_IN_ISET = {"mirrors.roa", "hybrid.seq", "diffractive_singlet", "tilted_fields.zmx"}
+NOT_IN_ISET |= {*GAUSSIAN, "cassegrain_f10", "hubble", "maksutov", "schmidt_camera"}
 
 
 @pytest.mark.parametrize("name", sorted({*LENSES} - NOT_IN_ISET))

@@ -31,6 +31,17 @@ def test_bench_glasses_by_name_where_exact_else_by_their_own_nd_and_vd():
     assert [s.medium.label for s in lens.surfaces[7:]] == ["nd 1.5168 vd 64.2", "1.0"]
 
 
+def test_the_numbers_of_a_bench_row_win_over_another_glass_of_its_name():
+    """J-BK7A has 1.51680, which is not what the row says; J-SF11 is 1.78472 and 25.64, which round to the row's."""
+    found = read("bench_other_melts.txt")
+    first, second, _ = found.lens.surfaces
+    assert (first.medium.nd, first.medium.vd) == (1.51612, 64.1)
+    assert second.medium.label == "HIKARI J-SF11"
+    (note,) = found.report.of("caution")
+    assert (note.surface, note.message.values["name"]) == (1, "J-BK7A")
+    assert note.message.values["own"] == pytest.approx(1.5168, abs=1e-5)
+
+
 def test_bench_aspheres_start_at_a4_or_at_a2_where_it_says_so():
     surface = read(BENCH).lens.surfaces[5]
     assert surface.conic == 0.2 and surface.aspheric == (1e-6, -3e-9)

@@ -6,6 +6,8 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.colour.colorimetry import bands, matching
+from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import LensFileError
 from p2sf.lens import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import with_sensor
@@ -104,9 +106,35 @@ def test_object_side_aperture_fills_the_cone_it_states():
 def test_primary_wavelength_beside_the_middle_one_is_respected():
     """f-number 5 at 656 nm means a rim that gives 5 there, not at the middle wavelength."""
     lens = read(DOUBLET, ("ENPD 2.0E+1", "FNUM 5.0 0"), ("PWAV 2", "PWAV 3")).lens
+    assert lens.reference_wavelength_nm == lens.reference_nm == 656.2725
+    assert read(DOUBLET).lens.reference_nm is None
     red = float(cardinal_points(lens, 0.6562725).effective_focal_length)
     assert red / float(pupils(lens, 0.6562725).entrance_diameter) == pytest.approx(5.0, rel=1e-12)
-    assert stop_rim(lens) == lens.aperture.value
+
+
+def test_the_aperture_may_be_the_half_angle_of_the_cone():
+    """6°, not a numerical aperture of 6: the stop on the first surface, 60 mm away, has a radius of 60·tan 6°."""
+    lens = read("microscope_cone.zmx").lens
+    assert stop_rim(lens) == pytest.approx(60 * np.tan(np.deg2rad(6)), rel=1e-12)
+    refused_at("microscope_cone.zmx", ("OBNA 6 1", "OBNA 95 1"), "95")
+
+
+def test_primary_wavelength_weights_and_aim_are_the_files():
+    lens = read("microscope_cone.zmx").lens
+    assert (lens.reference_nm, lens.wavelength_weights, lens.aim) == (656.2725, (1.0, 3.0, 0.5), "paraxial")
+    light = spectrum_of(lens.spectrum)
+    assert light.weights == (1.0, 3.0, 0.5) and spectrum_of(light.name) == light
+    waves, shares = bands(light, 1)
+    plain = matching(waves)[:, 1] * (1.0, 3.0, 0.5)
+    assert shares[:, 1] == pytest.approx(plain / plain.sum(), rel=1e-12)
+    aims = {mode: read("microscope_cone.zmx", ("RAIM 0 0", f"RAIM 0 {mode}")) for mode in (1, 2)}
+    assert {mode: each.lens.aim for mode, each in aims.items()} == {1: "stop", 2: "stop"}
+    assert [len(each.report.of("caution")) for each in aims.values()] == [1, 0]
+
+
+def test_a_wavelength_that_is_stated_twice_counts_twice():
+    lens = read("microscope_cone.zmx", ("WAVM 1 0.4861327 1", "WAVM 1 0.5875618 1")).lens
+    assert (lens.wavelengths_nm, lens.wavelength_weights) == ((587.5618, 656.2725), (4.0, 0.5))
 
 
 STOP_BEHIND = (("  STOP\n", ""), ("SURF 3\n", "SURF 3\n  STOP\n"))
@@ -114,7 +142,7 @@ STOP_BEHIND = (("  STOP\n", ""), ("SURF 3\n", "SURF 3\n  STOP\n"))
 
 def test_a_pupil_diameter_at_another_primary_wavelength_is_respected():
     lens = read(DOUBLET, ("PWAV 2", "PWAV 3"), *STOP_BEHIND).lens
-    assert lens.aperture.kind == "stop_semi_diameter"
+    assert (lens.aperture.kind, lens.aperture.value) == ("entrance_pupil_diameter", 20.0)
     assert float(pupils(lens, 0.6562725).entrance_diameter) == pytest.approx(20.0, rel=1e-12)
 
 
@@ -134,12 +162,13 @@ def test_image_heights_become_angles(kind):
 def test_object_heights_become_angles():
     lens = read(DOUBLET, ("FTYP 0", "FTYP 1"), ("DISZ INFINITY", "DISZ 150.0"), *STOP_BEHIND).lens
     slope = field_from_object_height(lens, 150.0, lens.reference_wavelength_um, 1.0)
-    assert np.tan(np.deg2rad(lens.fields_deg[1])) == pytest.approx(float(slope), rel=1e-10)
+    assert np.tan(np.deg2rad(lens.fields_deg[1])) == pytest.approx(-float(slope), rel=1e-10)  # above the axis
 
 
 def test_fields_in_x_and_y_lie_at_their_distance_from_the_axis():
     lens = read(DOUBLET, ("XFLN 0 0", "XFLN 0 1.0")).lens
-    assert np.tan(np.deg2rad(lens.fields_deg[1])) == pytest.approx(np.sqrt(2) * np.tan(np.deg2rad(1.0)), rel=1e-10)
+    wide = np.tan(np.deg2rad(lens.widest_field_deg))
+    assert wide == pytest.approx(np.sqrt(2) * np.tan(np.deg2rad(1.0)), rel=1e-10)
 
 
 def test_a_square_term_on_a_plane_is_the_paraboloid_it_is():
@@ -268,14 +297,18 @@ def test_an_error_of_the_lens_stands_on_the_line_of_its_surface():
     assert text_of(DOUBLET).splitlines()[caught.value.line - 1] == "SURF 3"
 
 
-def test_a_glass_in_no_catalogue_is_offered_by_the_numbers_written_beside_it():
-    change = ("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS NOBODY-7 0 0 1.62 36.4")
-    with pytest.raises(
-        LensFileError, match=r"a model glass nd 1\.62000 vd 36\.40 as the file writes it: Δn at d \+0\.0"
-    ):
-        read(DOUBLET, change)
-    taken = read(DOUBLET, change, accept=True).lens.surfaces[0].medium
-    assert (taken.nd, taken.vd) == (1.62, 36.4)
+def test_numbers_beside_a_name_are_leftovers():
+    """The triplet's file says 1.5168 beside SK16 and N-F2; a trace by hand with 1.62041 and 1.62004 gives the focus."""
+    lens = read("cooke_old_glasses.zmx", accept=True).lens
+    y, u, index = 1.0, 0.0, 1.0
+    for surface, behind in zip(lens.surfaces, (1.62041, 1.0, 1.62005, 1.0, 1.62041, 1.0), strict=True):
+        u = (index * u - y * (behind - index) / surface.radius) / behind
+        y, index = y + surface.thickness * u, behind
+    assert efl(lens) == pytest.approx(-1 / u, rel=1e-4) and -1 / u == pytest.approx(50.02, abs=0.01)
+    unknown = ("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS NOBODY-7 0 0 1.62 36.4")
+    for accept in (False, True):
+        with pytest.raises(LensFileError, match="NOBODY-7"):
+            read(DOUBLET, unknown, accept=accept)
 
 
 def test_a_substitute_is_offered_and_only_taken_with_consent():

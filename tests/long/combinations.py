@@ -43,7 +43,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from tests.long.method_choice import TOLERANCES, random_mask, random_point
 from tests.long.misaligned_methods import misaligned
-from tests.support.brute_force import AGREED, Description, brute_force, of_fit, of_rays, of_six
+from tests.support.brute_force import AGREED, Description, brute_force, of_fit, of_rays, of_six, within_rims
 from tests.support.waves import r_squared
 
 PIXELS = 24
@@ -211,13 +211,13 @@ def rendered(state: State) -> Psf:
 
 def described(state: State, psf: Psf, mask: PupilMask) -> Description | None:
     """Return the description of the pupil by the method that made the PSF; None where that is exact rays."""
-    lens, source = state.lens, state.source
+    lens, source, whole = state.lens, state.source, None
     if psf.method == "seidel":
-        return of_six(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um), mask)
+        whole = of_six(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um), mask)
     if psf.method == "fitted":
         found = fit(lens, source, psf.numbers, residual_waves=residual_for(state.tolerance))
-        return of_fit(found, mask, source.wavelength_um)
-    return None
+        whole = of_fit(found, mask, source.wavelength_um)
+    return within_rims(whole, lens, source) if whole and state.clip else whole
 
 
 def _limit(state: State, psf: Psf) -> float:

@@ -29,7 +29,7 @@ from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.fitting.pupil_model import PupilModel, pupil_model
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.listings import read_listing
-from p2sf.measure.measurement import measure_frame
+from p2sf.measure.measurement import FrameRequest, measure_frame
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
@@ -212,7 +212,7 @@ def listing() -> None:
     frame, lens = read_frame(psf), read_toml(Path(validate.__file__).with_name("telescope.toml"))
     optics = lens_optics(lens, np.inf, 0.5, frame.geometry.pixel_um)
     began = process_time()
-    (found,) = measure_frame([frame], optics, lens=lens, model="46", clip=True).fits
+    (found,) = measure_frame([frame], optics, FrameRequest(lens=lens, model="46", clip=True)).fits
     took = process_time() - began
     rows, columns = np.nonzero(wavefront.inside)
     eta, xi = ((part - middle) / CELLS for part, middle in zip((rows, columns), wavefront.centre, strict=True))
@@ -236,7 +236,7 @@ def frames(trials: int, seed: int, columns: int = 9, rows: int = 7, size_mm: tup
         exposure = Exposure(sensor_shift_um=shift, tilt_deg=tuple(tilt.tolist()), seed=trial + 1000 * seed)
         frame = simulated_frame(lens, places, geometry, exposure)
         began = process_time()
-        found = measure_frame([frame], optics, lens=lens, singly=False).whole
+        found = measure_frame([frame], optics, FrameRequest(lens=lens, singly=False)).whole
         seconds.append(process_time() - began)
         misses.append(found.values - np.array([shift, *tilt, 0.0, 0.0, 0.0, 0.0, 0.0]))
         sizes.append(found.bounds)
@@ -288,7 +288,7 @@ def misaligned(trials: int, seed: int) -> None:
     for trial in range(seed, seed + trials):
         frame = huygens_frame(built, cross_of_points(1.5, 3.0) / 50, geometry, seed=trial)
         began = process_time()
-        found = measure_frame([frame], optics, lens=lens, unknowns=unknowns, singly=False).whole
+        found = measure_frame([frame], optics, FrameRequest(lens=lens, unknowns=unknowns, singly=False)).whole
         took = process_time() - began
         print(f"misaligned triplet, seed {trial}: reduced χ² {found.chi2:.3f}, CPU {took:.1f} s")
         columns = zip((*unknowns, F_NUMBER), found.values, np.append(truth, 0.0), found.errors, strict=True)

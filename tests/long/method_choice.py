@@ -24,7 +24,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import QUICK_LEVELS, Choice, choose, render
+from p2sf.psf.methods import QUICK_LEVELS, Choice, PsfOptions, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import levels
@@ -106,7 +106,7 @@ def trial(lens: Lens, source: Source, tolerance: float) -> Trial | None:
     def error(psf) -> float:
         return 1 - r_squared(psf.values, reference.values)
 
-    chosen = render(lens, source, choice.method, PIXELS, pixel, tolerance=tolerance)
+    chosen = render(lens, source, choice.method, PIXELS, pixel, PsfOptions(tolerance=tolerance))
     errors = tuple(error(psf) for psf in _cheaper(lens, source, choice, pixel))
     return Trial(lens.name, source, tolerance, choice.method, choice.predicted_error, error(chosen), errors)
 

@@ -25,7 +25,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import first_counts, huygens_psf
-from p2sf.psf.methods import choose, render
+from p2sf.psf.methods import PsfOptions, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.psf.traced import traced_psf
@@ -87,7 +87,7 @@ def outcome(number: int, seed: int) -> Outcome:
                 reference = huygens_psf(bad, source, PIXELS, pixel)
                 choice = choose(bad, source, tolerance)
                 break
-    chosen = render(bad, source, choice.method, PIXELS, pixel, tolerance=tolerance)
+    chosen = render(bad, source, choice.method, PIXELS, pixel, PsfOptions(tolerance=tolerance))
     traced = traced_psf(bad, source, PIXELS, pixel)
     try:
         fits = [fitted_psf(bad, source, PIXELS, pixel, level.numbers) for level in NOT_SYMMETRIC[:2]]

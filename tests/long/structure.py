@@ -17,7 +17,7 @@ HERE = Path(__file__).resolve().parents[2]
 PACKAGES = ("p2sf", "app/p2sf_explorer", "tests")
 # What a lens or pupil is asked in order to take another road where it has no mirror symmetry.
 # Words that mean shapes and sides of windows, not lenses, are not counted there, nor is the function `round`.
-DRAWN = tuple(f"app/p2sf_explorer/{folder}/" for folder in ("charts", "shell", "widgets"))
+DRAWN = tuple(f"app/p2sf_explorer/{folder}/" for folder in ("charts", "widgets", "window"))
 SYMMETRY = {"misaligned", "skew", "symmetric", "even", "mirrored", "unfolded", "around", "folded", "round"}
 METHODS = {"seidel", "fitted", "traced", "huygens", "gaussian", "auto", "spherical"}
 MOST_PARAMETERS = 7

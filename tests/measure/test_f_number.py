@@ -14,7 +14,7 @@ from p2sf.measure.fitting.frame_terms import FIELD, FOCUS, FrameModel, FramePoin
 from p2sf.measure.fitting.point_model import PictureOptics
 from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.measurement import measure_frame
+from p2sf.measure.measurement import FrameRequest, measure_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.paraxial.pupils import stop_rim
 from tests.measure.test_frames import model_points
@@ -59,7 +59,8 @@ def test_an_f_number_that_is_3_per_cent_wrong_moves_nothing(triplet):
     wrong = with_f_number(triplet, 4.12)
     optics, truth = lens_optics(wrong, np.inf, 0.55, PITCH), np.array([25.0, 0.1, -0.05, 0.0, 0.0, 0.0, 0.0])
     believed, free = (
-        measure_frame([frame], optics, lens=wrong, singly=False, f_number_error=error).whole for error in (0.0, 3.0)
+        measure_frame([frame], optics, FrameRequest(lens=wrong, singly=False, f_number_error=error)).whole
+        for error in (0.0, 3.0)
     )
     assert np.abs((believed.values - truth) / believed.errors).max() > 20 and believed.chi2 < 1.1
     miss = (free.values - np.append(truth, 100 * (4.0 / 4.12 - 1))) / free.errors
@@ -91,5 +92,5 @@ def test_an_error_of_the_f_number_is_a_number(triplet):
     frame = simulated_frame(triplet, np.array([[0.0, 0.0]]), FrameGeometry(120, 120, PITCH), Exposure())
     for wrong in (-1.0, float("nan"), float("inf")):
         with pytest.raises(RequestError) as caught:
-            measure_frame([frame], lens_optics(triplet, np.inf, 0.55, PITCH), f_number_error=wrong)
+            measure_frame([frame], lens_optics(triplet, np.inf, 0.55, PITCH), FrameRequest(f_number_error=wrong))
         assert caught.value.message.values["parameter"] == "f_number_error"

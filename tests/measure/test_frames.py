@@ -23,7 +23,7 @@ from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.fitting.pupil_nodes import lens_nodes
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import listing_of, read_listing
-from p2sf.measure.measurement import measure_frame, read_measurement, write_measurement
+from p2sf.measure.measurement import FrameRequest, measure_frame, read_measurement, write_measurement
 from p2sf.measure.points import find_points, in_grid, window_half, window_of
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
@@ -158,7 +158,7 @@ def test_points_that_overlap_are_flagged_and_not_used(triplet):
     places = np.append(grid_of_points(3, 2, 1.5, 0.9), [(0.375 - 11 * PITCH / 1000, 0.0), (0.375, 0.0)], axis=0)
     frame = simulated_frame(triplet, places, FrameGeometry(380, 560, PITCH), Exposure(sensor_shift_um=60.0))
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    found = measure_frame([frame], optics, lens=triplet, unknowns=("sensor_shift_um",), singly=False)
+    found = measure_frame([frame], optics, FrameRequest(lens=triplet, unknowns=("sensor_shift_um",), singly=False))
     overlapping = [point for point in found.points if abs(point.y_mm) < 0.1]
     assert overlapping and all(point.flags for point in overlapping)
     assert len(found.whole.points) == 6 and min(abs(point.y_mm) for point in found.whole.points) > 0.4
@@ -167,7 +167,7 @@ def test_points_that_overlap_are_flagged_and_not_used(triplet):
 def test_a_frame_gives_back_how_the_sensor_stands(triplet, frame):
     """Five standard deviations, of some 0.2 µm and 0.01°."""
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    found = measure_frame([frame], optics, lens=triplet, unknowns=FOCUS, singly=False).whole
+    found = measure_frame([frame], optics, FrameRequest(lens=triplet, unknowns=FOCUS, singly=False)).whole
     assert found.model.unknowns == (*FOCUS, "f_number")
     assert np.abs((found.values - [25.0, 0.1, -0.05, 0.0]) / found.errors).max() < 5
     assert (found.errors < [0.5, 0.01, 0.02, 0.3]).all()
@@ -179,7 +179,9 @@ def test_a_sensor_far_from_where_the_design_has_it_is_found(triplet):
     """0.9 waves of defocus: from the lens as designed, the nearest minimum is another one, of 4 times the noise."""
     exposure = Exposure(sensor_shift_um=-60.0)
     taken = simulated_frame(triplet, grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, PITCH), exposure)
-    whole = measure_frame([taken], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).whole
+    whole = measure_frame(
+        [taken], lens_optics(triplet, np.inf, 0.55, PITCH), FrameRequest(lens=triplet, singly=False)
+    ).whole
     assert abs(whole.values[0] + 60) < 4 * whole.errors[0] < 4 and whole.chi2 < 1.2
 
 
@@ -355,7 +357,9 @@ def test_a_psf_lies_where_its_field_lands(triplet):
     """50 mm times the tangent of 10°, and 0.4 % of distortion."""
     made = render_integrated(triplet, Source(field_deg=10.0, wavelength_nm=550.0), "fitted", 41, PITCH)
     frame = Frame(made.values[::-1], FrameGeometry(41, 41, PITCH), Noise(read_noise=1e-5), psf=True, field_deg=10.0)
-    (point,) = measure_frame([frame], lens_optics(triplet, np.inf, 0.55, PITCH), lens=triplet, singly=False).points
+    (point,) = measure_frame(
+        [frame], lens_optics(triplet, np.inf, 0.55, PITCH), FrameRequest(lens=triplet, singly=False)
+    ).points
     assert point.x_mm == 0.0 and point.y_mm == pytest.approx(50 * np.tan(np.deg2rad(10.0)), rel=0.01)
 
 
@@ -379,7 +383,9 @@ def test_a_point_that_one_focus_has_lost_is_left_out(triplet):
     row, column = geometry.pixel_at(*places[0])
     second.values[row - 30 : row + 31, column - 30 : column + 31] = 50.0
     optics = lens_optics(triplet, np.inf, 0.55, PITCH)
-    found = measure_frame([first, second], optics, focus_um=(0.0, 20.0), lens=triplet, unknowns=FOCUS[:1], singly=False)
+    found = measure_frame(
+        [first, second], optics, FrameRequest(focus_um=(0.0, 20.0), lens=triplet, unknowns=FOCUS[:1], singly=False)
+    )
     assert sum(why is not None for why in found.failures) == 1 and len(found.whole.points) == 10
     assert abs(found.whole.values[0]) < 5 * found.whole.errors[0] < 5
 
@@ -394,7 +400,7 @@ def test_points_are_found_above_the_noise_there_is(frame):
 def test_noise_that_is_less_than_stated_is_said(triplet, frame):
     optics = lens_optics(triplet, np.inf, 0.55, PITCH)
     stated = replace(frame, noise=Noise(read_noise=20.0))
-    (why,) = measure_frame([stated], optics, lens=triplet, unknowns=FOCUS[:1], singly=False).warnings
+    (why,) = measure_frame([stated], optics, FrameRequest(lens=triplet, unknowns=FOCUS[:1], singly=False)).warnings
     assert why.values["chi2"] == pytest.approx(0.25 * 1.2, rel=0.2)  # (10/20)², and what the tilt leaves
 
 

@@ -15,7 +15,7 @@ from p2sf.measure.fitting.point_problem import PointPicture, Problem
 from p2sf.measure.fitting.pupil_model import pupil_model
 from p2sf.measure.fitting.pupil_nodes import PupilNodes, has_twin, lens_nodes, mapped_nodes, open_nodes, paraxial_nodes
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.measurement import measure_frame
+from p2sf.measure.measurement import FrameRequest, measure_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import fit
@@ -185,9 +185,7 @@ def test_a_frame_through_an_iris_gives_back_how_the_sensor_stands():
         measure_frame(
             [frame],
             lens_optics(one, np.inf, one.reference_wavelength_um, 3.45),
-            lens=one,
-            unknowns=unknowns,
-            singly=False,
+            FrameRequest(lens=one, unknowns=unknowns, singly=False),
         ).whole
         for one in (lens, round_)
     )

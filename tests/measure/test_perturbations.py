@@ -17,7 +17,7 @@ from p2sf.measure.fitting.perturbation import perturb, perturbation
 from p2sf.measure.fitting.pupil_nodes import paraxial_nodes
 from p2sf.measure.fitting.starting_values import landings, ray_moments
 from p2sf.measure.frame import FrameGeometry
-from p2sf.measure.measurement import measure_frame, read_measurement, write_measurement
+from p2sf.measure.measurement import FrameRequest, measure_frame, read_measurement, write_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.paraxial.pupils import stop_rim
 from p2sf.tolerance.errors_of_build import Tolerance, build
@@ -44,7 +44,7 @@ def test_a_decentred_element_is_told_by_a_picture_of_huygens_sums(triplet):
     frame = huygens_frame(built, slopes, FrameGeometry(1800, 1800, PITCH))
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
     unknowns = ("sensor_shift_um", "decentre_x:3-4", "decentre_y:3-4")
-    whole = measure_frame([frame], optics, lens=triplet, unknowns=unknowns, singly=False).whole
+    whole = measure_frame([frame], optics, FrameRequest(lens=triplet, unknowns=unknowns, singly=False)).whole
     assert np.abs((whole.values - [10.0, 0.012, -0.02, 0.0]) / whole.errors).max() < 5
     assert (whole.errors < [0.5, 5e-4, 5e-4, 0.3]).all() and not whole.warnings
     assert [whole.model.unit(name) for name in unknowns] == ["µm", "mm", "mm"]
@@ -65,7 +65,7 @@ def test_light_of_two_wavelengths_is_that_of_huygens_sums_in_each(triplet):
     frame = huygens_frame(built, cross_of_points(4.0) / 50, FrameGeometry(2600, 2600, PITCH), light=light)
     optics = replace(lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH), light=light)
     unknowns = ("sensor_shift_um", "decentre_y:3-4")
-    whole = measure_frame([frame], optics, lens=triplet, unknowns=unknowns, singly=False).whole
+    whole = measure_frame([frame], optics, FrameRequest(lens=triplet, unknowns=unknowns, singly=False)).whole
     assert whole.explains and np.abs((whole.values - [20.0, -0.05, 0.0]) / whole.errors).max() < 5
 
 
@@ -109,7 +109,9 @@ def test_a_frame_that_nothing_explains_has_reasons_and_no_numbers(triplet, tmp_p
     taken = simulated_frame(triplet, grid_of_points(3, 2, 1.2, 0.6), FrameGeometry(300, 480, PITCH), Exposure())
     other = with_f_number(triplet, 5.0)
     found = measure_frame(
-        [taken], lens_optics(other, np.inf, 0.55, PITCH), lens=other, unknowns=("tilt_x_deg",), f_number_error=0
+        [taken],
+        lens_optics(other, np.inf, 0.55, PITCH),
+        FrameRequest(lens=other, unknowns=("tilt_x_deg",), singly=False, f_number_error=0),
     )
     assert not found.whole.reliable and found.whole.chi2 > 3
     (why,) = found.whole.warnings

@@ -19,6 +19,7 @@ from p2sf.measure.points import find_points
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fit, sum_fit
 from p2sf.psf.pixel_integrals import render_integrated
+from tests.support.tiers import in_tiers
 
 OPTICS = PictureOptics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 SIX = np.array([1.2, -0.9, 0.7, -1.4])
@@ -130,7 +131,7 @@ def test_pixels_average_what_points_sample():
     assert light == pytest.approx(fine.reshape(9, 15, 9, 15).sum((1, 3)), abs=2e-3 * light.max())
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", in_tiers(range(3), (0,)))
 def test_two_foci_give_the_coefficients_with_their_signs(seed):
     """Five standard deviations, of some 0.01 waves each."""
     rng = np.random.default_rng(seed)
@@ -202,6 +203,7 @@ def test_a_map_for_a_field_along_x_turns_the_picture():
     assert across.light(there, 0)[0] == pytest.approx(light.T, abs=1e-4 * light.max())
 
 
+@pytest.mark.slow
 def test_26_numbers_are_fitted_at_any_azimuth():
     """Near a wave the map's numbers hardly show; W over the pupil is within a few standard deviations."""
     rng, numbers = np.random.default_rng(12), with_map(12)

@@ -8,7 +8,7 @@ from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.fitting.frame_terms import FOCUS, lens_optics
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.measure.measurement import measure_frame
+from p2sf.measure.measurement import FrameRequest, measure_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.measure.target import Target, expected_places, match_target, read_target
 
@@ -138,10 +138,10 @@ def test_a_cropped_picture_of_a_target_has_the_axis_and_the_fields_of_the_target
     whole.values[500:505, 1200:1205] += 300.0  # a speck
     frame = Frame(whole.values[:, 480:], FrameGeometry(680, 1720, PITCH))
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
-    found = measure_frame([frame], optics, lens=triplet, unknowns=FOCUS, target=target, singly=False)
+    found = measure_frame([frame], optics, FrameRequest(lens=triplet, unknowns=FOCUS, target=target, singly=False))
     assert found.target.count == 8 and found.target.axis_mm[0] == pytest.approx(-240 * PITCH / 1000, abs=3e-3)
     assert np.abs((found.whole.values - [25.0, 0.4, 0.0, 0.0]) / found.whole.errors).max() < 5
-    without = measure_frame([frame], optics, lens=triplet, unknowns=FOCUS, singly=False).whole
+    without = measure_frame([frame], optics, FrameRequest(lens=triplet, unknowns=FOCUS, singly=False)).whole
     assert abs(without.values[0] - 25.0) > 5 * without.errors[0]
     numbers = {point.number: point for point in found.points}
     assert (numbers[1].x_mm, numbers[1].y_mm) == pytest.approx(tuple(places[0]), abs=8e-3)

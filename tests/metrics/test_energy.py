@@ -19,6 +19,7 @@ from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, energy_in
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
+from p2sf.pupil.domain import WHOLE
 from p2sf.pupil.mask import CLEAR, PupilMask
 from tests.support.airy import circle_energy
 from tests.support.rays.ray_figures import ray_figures
@@ -81,7 +82,7 @@ def test_half_of_the_columns_give_what_all_do(clear):
     """With a faint filter too, which lets all light through."""
     pupil = pupil_of_coefficients(waves(w40=2.0, w31=3.0, wd=-1.5))
     mask = CLEAR if clear else PupilMask(apodisation=1e4)
-    half, other = (landing_energy(one, pupil.centroid_um) for one in (pupil, replace(pupil, even=False, mask=mask)))
+    half, other = (landing_energy(one, pupil.centroid_um) for one in (pupil, replace(pupil, domain=WHOLE, mask=mask)))
     radius = np.linspace(0, min(half.top_um, other.top_um), 60)
     np.testing.assert_allclose(half.within(radius), other.within(radius), atol=2e-5)
 

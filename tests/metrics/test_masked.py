@@ -16,6 +16,7 @@ from p2sf.metrics.measures import PupilPart, energy_in, mtf_of, parts_of, spread
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.pupil.domain import WHOLE
 from p2sf.pupil.mask import PupilMask
 from tests.raytrace.test_clear_pieces import circles_apart
 from tests.support.waves import NA, WAVELENGTH_UM, waves
@@ -105,5 +106,5 @@ def test_an_obscuration_without_size_leaves_the_centroid():
 @pytest.mark.parametrize("mask", [PupilMask(), PupilMask(obscuration=0.3, vanes=4)], ids=["clear", "spider"])
 def test_half_of_the_columns_make_the_sum_of_all(mask):
     pupil = pupil_of_coefficients(waves(w40=1.0, w31=2.0), mask)
-    for half, whole in zip(otf_slices(pupil), otf_slices(replace(pupil, even=False)), strict=True):
+    for half, whole in zip(otf_slices(pupil), otf_slices(replace(pupil, domain=WHOLE)), strict=True):
         np.testing.assert_allclose(half.values, whole.values, atol=3e-7)  # single precision

@@ -21,6 +21,7 @@ from p2sf.metrics.perfect import circle_contrast
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.polychromatic import chief_places_um, colour_psf, suitable_pitch_um
+from p2sf.pupil.domain import WHOLE
 from p2sf.pupil.mask import PupilMask
 from tests.support.airy import circle_energy
 
@@ -55,7 +56,7 @@ def contrast(lens, source=POINT, **how):
 
 
 def test_a_disc_without_symmetry_is_the_disc():
-    disc = replace(uniform_disc(0.2), even=False)
+    disc = replace(uniform_disc(0.2), domain=WHOLE)
     for one in otf_slices(disc):
         nu = np.linspace(0, 1, one.values.size)
         assert one.values == pytest.approx(circle_contrast(nu), abs=1e-6)  # what a calibrated rule leaves

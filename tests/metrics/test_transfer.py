@@ -18,6 +18,7 @@ from p2sf.metrics.transfer import OtfSlice, otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.fit import fit
 from tests.support.overlap import overlap
+from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 CUT_OFF = 2 * NA / WAVELENGTH_UM
@@ -49,7 +50,7 @@ def test_a_perfect_pupil_has_the_closed_form():
     np.testing.assert_allclose(found.tangential, found.perfect_tangential, atol=1e-7)  # the rounding of float32
 
 
-@pytest.mark.parametrize("defocus", [0.3, 1.0, 7.0, 32.0, 200.0])
+@pytest.mark.parametrize("defocus", in_tiers([0.3, 1.0, 7.0, 32.0, 200.0], (0.3, 7.0, 200.0)))
 def test_defocus_is_hopkinss_integral(defocus):
     nu = np.linspace(0, 1, 801)
     found, exact = contrast(nu * CUT_OFF, wd=defocus), defocused(nu, defocus)
@@ -77,7 +78,7 @@ SLOW = {"relay", "telecentric_relay", "fast_gauss_f14"}  # which take seconds
 
 
 @pytest.mark.parametrize("aim", ["stop", "paraxial"])
-@pytest.mark.parametrize("name", sorted(set(shipped_lenses()) - SLOW))
+@pytest.mark.parametrize("name", in_tiers(sorted(set(shipped_lenses()) - SLOW)))
 def test_nothing_is_better_than_the_same_pupil_without_phase(name, aim):
     """At the lags by the triangle inequality, to the rounding of float32, and between them; neither is cut to fit.
 

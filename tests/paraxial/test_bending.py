@@ -5,7 +5,7 @@ from math import inf
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from p2sf.errors import GeometryError
@@ -17,7 +17,6 @@ from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.seidel import coefficients
 
 INDEX = 1.5
-some = settings(deadline=None, derandomize=True)  # a busy machine takes longer than hypothesis allows
 
 
 def thin(shape: float, focal: float = 100.0) -> Lens:
@@ -39,7 +38,7 @@ def test_elements_of_the_double_gauss_are_four_singlets_and_doublets():
 
 def test_the_eye_has_its_vitreous_behind_and_no_element_in_air():
     assert elements(find_lens("eye_navarro")) == ()
-    with pytest.raises(GeometryError, match="no element"):
+    with pytest.raises(GeometryError, match="not an element"):
         bend(find_lens("eye_navarro"), 1, 2, 1e-3)
 
 
@@ -48,7 +47,6 @@ LONG = {"cassegrain_f10", "maksutov", "microscope_10x", "telecentric_relay", "zo
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(shipped_lenses()) - LONG))
-@some
 @given(by=st.floats(-0.02, 0.02))
 def test_bending_keeps_the_thin_power_at_every_wavelength(name, by):
     lens = find_lens(name)
@@ -64,7 +62,6 @@ def test_bending_keeps_the_thin_power_at_every_wavelength(name, by):
         assert all(made.surfaces[k] == lens.surfaces[k] for k in others)
 
 
-@some
 @given(shape=st.floats(-8, 8))
 def test_a_thin_lens_keeps_its_focal_length_and_has_the_shape_asked_for(shape):
     made = with_shape_factor(thin(0.3), 1, 2, shape)

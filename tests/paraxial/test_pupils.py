@@ -12,11 +12,11 @@ from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import (
+    default_stop,
     f_number,
     field_from_image_height,
     field_from_object_height,
     find_stop,
-    named_stop,
     numerical_aperture,
     paraxial_rays,
     pupils,
@@ -182,7 +182,7 @@ def test_object_in_the_entrance_pupil_is_refused():
 
 def test_a_lens_without_named_stop_lets_the_rims_decide():
     lens = replace(middle_lens("double_gauss_28"), stop_surface=None)
-    assert named_stop(lens) == 6
+    assert default_stop(lens) == 6
     named = replace(lens, stop_surface=6)
     np.testing.assert_array_equal(paraxial_rays(lens, 300.0, 0.5).y, paraxial_rays(named, 300.0, 0.5).y)
     bare = replace(lens, surfaces=tuple(replace(s, semi_diameter=inf) for s in lens.surfaces))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.seidel import seidel_sums
-from tests.support.lenses.random_lenses import depths, law, lenses, rays_or_skip, wavelengths
+from tests.support.lenses.random_lenses import depths, lenses, rays_or_skip, wavelengths
 
 
 def shifted_stop(lens: Lens, to: int, depth, wavelength) -> Lens:
@@ -28,7 +28,6 @@ CROSSED = Lens(
 )
 
 
-@law
 @given(lenses(spherical=True), depths, wavelengths, st.integers(0, 399))
 @example(CROSSED, 1.0, 1.0, 2)
 def test_a_stop_shift_leaves_spherical_aberration_and_petzval_alone(lens, depth, wavelength, to):

@@ -19,6 +19,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.binning import bin_samples
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.zernike import basis, basis_by_powers
+from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fit import levels
 from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.scene.planning.reference import exact_pixels
@@ -116,7 +117,7 @@ def test_a_view_finds_the_field_that_lands_where_it_says():
     seen = sensor_map(lens, np.inf, WAVE, 24.0)
     from p2sf.pixel_kernels.sensor_points import chief_heights
 
-    landed = chief_heights(lens, Source(np.inf, seen.fields.slopes(0.0, np.array([3.0, 20.0]))[1], WAVE))
+    landed = chief_heights(lens, Sources(np.inf, seen.fields.slopes(0.0, np.array([3.0, 20.0]))[1], WAVE))
     assert np.allclose(landed, [3.0, 20.0], atol=1e-4)  # linear between 257 chief rays
     assert seen.ideal_mm(0.0, 0.0) == (0, 0) and -0.02 < 24.0 / seen.ideal_mm(0.0, 24.0)[1] - 1 < -0.005
     assert seen.shift_mm(0.0, 10.0, WAVE) == pytest.approx((0, 0), abs=1e-5) != seen.shift_mm(0.0, 10.0, 0.45)

@@ -19,7 +19,7 @@ from p2sf.metrics.frequency_pupil import pupil_of_coefficients
 from p2sf.metrics.measures import PupilPart, energy_in
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.geometric import geometric_psf
-from p2sf.psf.methods import render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.spot import landing
@@ -156,7 +156,7 @@ def test_every_method_is_the_sum_over_a_grid(case):
     lens = displaced(lens, 3, 4, Placement(decentre_y=0.05, tilt_x_deg=0.1)) if change else lens
     known = masked_sum(lens, source, mask, 32, 1.4, 480, bool(clip))
     for method in ("huygens", "traced", *(() if clip else ("fitted",))):
-        found = render(with_mask(lens, mask), source, method, 32, 1.4, clip=bool(clip))
+        found = render(with_mask(lens, mask), source, method, 32, 1.4, PsfOptions(clip=bool(clip)))
         assert r_squared(known, found.values) > 0.9993, method
 
 

@@ -18,6 +18,7 @@ from p2sf.pupil.zernike import basis, gradient, terms
 from p2sf.raytrace.fit import LEVELS
 from p2sf.raytrace.pencil import pencil
 from tests.support.reference import LENSES, cases
+from tests.support.tiers import in_tiers
 from tests.support.waves import r_squared
 
 
@@ -76,7 +77,7 @@ def test_the_first_two_levels_have_26_and_46_numbers_from_64_rays():
     assert LEVELS[0].rays == LEVELS[1].rays == 64
 
 
-@pytest.mark.parametrize("name", [name for name in LENSES if name != "petzval"])
+@pytest.mark.parametrize("name", in_tiers([name for name in LENSES if name != "petzval"]))
 def test_sixty_four_rays_keep_the_promised_accuracy(name):
     for lens, source, pixel, stored in cases(name):
         few, more, default = (fitted_psf(lens, source, 32, pixel, n) for n in (26, 46, None))

@@ -11,7 +11,7 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
-from p2sf.psf.huygens import first_counts, huygens_psf, ray_waves
+from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.fit import FittedPencil
@@ -53,7 +53,7 @@ def test_the_matrix_products_equal_the_double_loop():
     data = pencil(lens, source, nodes.xi, nodes.eta)
     axis = centred_axis(16, pixel)
 
-    field = ray_waves(lens, source, (20, 40), 16 * pixel, False).waves.field(axis, axis)
+    field = ray_waves(RayPupil(lens, source), (20, 40), 16 * pixel).waves.field(axis, axis)
     assert np.max(np.abs(field - plain_sum(data, nodes.weight, axis, axis))) < 1e-12  # waves of 1e3 in float64
 
 
@@ -86,11 +86,11 @@ def test_the_stated_tolerance_is_the_one_that_ends_the_sum(monkeypatch, toleranc
 def test_progress_rises_to_one_and_cancel_stops():
     lens, source, pixel, _ = off_axis()
     seen = []
-    huygens_psf(lens, source, 32, pixel, progress=seen.append)
+    huygens_psf(lens, source, 32, pixel, watch=Watch(seen.append))
     assert seen == sorted(seen) and seen[-1] == 1.0
     for tolerance in (1e-4, None):
         with pytest.raises(Cancelled):
-            huygens_psf(lens, source, 32, pixel, tolerance, cancelled=lambda: True)
+            huygens_psf(lens, source, 32, pixel, tolerance, watch=Watch(cancelled=lambda: True))
 
 
 def test_all_the_light_is_found_in_a_wide_window():
@@ -166,7 +166,7 @@ def test_the_first_counts_carry_the_phase_up_to_the_corners_of_the_window():
     lens, source, pixel, _ = off_axis()
     reach, axis = window_reach_um(32, pixel), centred_axis(32, pixel)
     counts = first_counts(lens, source, reach, False)
-    first, finer = (ray_waves(lens, source, (k * counts[0], k * counts[1]), reach, False).waves for k in (1, 3))
+    first, finer = (ray_waves(RayPupil(lens, source), (k * counts[0], k * counts[1]), reach).waves for k in (1, 3))
     assert relative_l2(first.intensity(axis, axis), finer.intensity(axis, axis)) < 1e-6
 
 

@@ -18,13 +18,12 @@ from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.first_order import abcd, basis_rays, cardinal_points, image_distance, magnification
 from p2sf.paraxial.pupils import find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import coefficients, seidel_sums
-from tests.support.lenses.random_lenses import between, depths, law, lenses, rays_or_skip, slopes, wavelengths
+from tests.support.lenses.random_lenses import between, depths, lenses, rays_or_skip, slopes, wavelengths
 
 ROUNDING = 1e-13
 SHAPES = ("w40", "w31", "w22", "w20", "w11", "wd")
 
 
-@law
 @given(lenses(), wavelengths)
 def test_the_system_matrix_has_determinant_one(lens, wavelength):
     rays = basis_rays(lens, wavelength)
@@ -32,7 +31,6 @@ def test_the_system_matrix_has_determinant_one(lens, wavelength):
     assert np.all(np.abs(rays.a * rays.d - rays.b * rays.c - 1) <= ROUNDING * (1 + sizes.max()))
 
 
-@law
 @given(lenses(), depths, wavelengths)
 def test_the_lagrange_invariant_is_the_same_at_every_surface(lens, depth, wavelength):
     rays = rays_or_skip(lens, depth, wavelength)
@@ -43,7 +41,6 @@ def test_the_lagrange_invariant_is_the_same_at_every_surface(lens, depth, wavele
         np.testing.assert_allclose(values, rays.invariant, rtol=0, atol=10 * ROUNDING * sizes)
 
 
-@law
 @given(lenses(), depths, wavelengths)
 def test_the_chief_ray_crosses_the_stop_and_the_marginal_ray_touches_its_rim(lens, depth, wavelength):
     rays = rays_or_skip(lens, depth, wavelength)
@@ -68,7 +65,6 @@ def reversed_lens(lens: Lens) -> Lens:
     return replace(lens, surfaces=tuple(rows), object_medium=media[-1], stop_surface=stop)
 
 
-@law
 @given(lenses(), wavelengths)
 def test_a_reversed_lens_swaps_a_and_d_its_foci_and_its_pupils(lens, wavelength):
     turned = reversed_lens(lens)
@@ -82,7 +78,6 @@ def test_a_reversed_lens_swaps_a_and_d_its_foci_and_its_pupils(lens, wavelength)
     np.testing.assert_allclose(two.exit_diameter, one.entrance_diameter, rtol=1e-9)
 
 
-@law
 @given(lenses(), between(5.0, 500.0), wavelengths)
 def test_light_goes_back_the_way_it_came(lens, depth, wavelength):
     """The image, taken as object of the reversed lens, is imaged onto the object, at 1/m (Helmholtz), in any media.
@@ -98,7 +93,6 @@ def test_light_goes_back_the_way_it_came(lens, depth, wavelength):
     np.testing.assert_allclose(magnification(back, 10.0, wavelength) * m, 1, rtol=1e-8)
 
 
-@law
 @given(lenses(), depths, slopes, wavelengths, st.integers(-20, 20))
 def test_scaling_lens_depth_and_wavelength_by_a_power_of_two_changes_no_bit_of_w(lens, depth, slope, wavelength, power):
     k = 2.0**power
@@ -113,7 +107,6 @@ def test_scaling_lens_depth_and_wavelength_by_a_power_of_two_changes_no_bit_of_w
         np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-15, atol=0)
 
 
-@law
 @given(lenses(), depths, slopes, wavelengths, between(5.0, 300.0), st.data())
 def test_a_cemented_surface_between_equal_media_is_not_there(lens, depth, slope, wavelength, radius, data):
     """A zero-thickness surface of any shape with Δn = 0 adds exactly nothing, wherever it sits."""
@@ -139,7 +132,6 @@ def test_a_cemented_surface_between_equal_media_is_not_there(lens, depth, slope,
         np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-9, atol=1e-10 * (size + extra))
 
 
-@law
 @given(lenses(most=4), between(20.0, 500.0), wavelengths)
 def test_the_order_of_cemented_zero_power_surfaces_does_not_matter(lens, depth, wavelength):
     """Two plane-parallel foils of no thickness between equal media, in either order, are the same lens."""
@@ -158,7 +150,6 @@ def test_the_order_of_cemented_zero_power_surfaces_does_not_matter(lens, depth, 
         np.testing.assert_allclose(getattr(a, name), getattr(c, name), rtol=0, atol=ROUNDING * sizes)
 
 
-@law
 @given(lenses(), depths, slopes, wavelengths)
 def test_every_coefficient_is_its_own_power_of_the_field(lens, depth, slope, wavelength):
     rays_or_skip(lens, depth, wavelength)
@@ -167,7 +158,6 @@ def test_every_coefficient_is_its_own_power_of_the_field(lens, depth, slope, wav
         assert getattr(two, name) == 2**power * getattr(one, name)
 
 
-@law
 @given(between(1.05, 2.5), between(5.0, 500.0), between(0.5, 3.0))
 def test_a_conic_of_minus_the_square_of_the_index_ratio_focuses_collimated_light(index, radius, rim):
     """Descartes: K = −(n/n')² images infinity perfectly on the axis."""
@@ -177,7 +167,6 @@ def test_a_conic_of_minus_the_square_of_the_index_ratio_focuses_collimated_light
     assert abs(exact) <= ROUNDING * abs(plain) * 100
 
 
-@law
 @given(lenses(), st.lists(depths, min_size=2, max_size=4), st.lists(between(0.3, 2.0), min_size=2, max_size=4))
 def test_arrays_in_any_order_give_each_its_own_answer(lens, depth, wavelength):
     """Axes need not be sorted: a reversed wavelength axis reverses the answer and changes no bit."""

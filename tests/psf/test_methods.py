@@ -2,14 +2,17 @@
 
 import inspect
 import json
+import re
 from dataclasses import replace
 from io import BytesIO
 from math import inf
+from pathlib import Path
 from typing import get_args
 
 import numpy as np
 import pytest
 
+import p2sf
 from p2sf import api
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.lens.lens import Aperture, with_aim, with_f_number, with_sensor
@@ -18,20 +21,23 @@ from p2sf.lensfile.library import find_lens
 from p2sf.metrics.measures import PUPILS
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf import methods
+from p2sf.psf import cost, methods
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import (
     NAMES,
     QUICK_LEVELS,
     Choice,
+    PsfOptions,
+    PsfRequest,
     choose,
     render,
     residual_for,
 )
+from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
 from p2sf.raytrace.fit import level_rays
-from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
+from p2sf.studies.tradeoff import _point_of_trade, draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import summary, trials
 from tests.support.lenses.shaped_lenses import ODD, singlet
 from tests.support.rays.made_rays import made_rays
@@ -78,7 +84,7 @@ def test_methods_rank_by_accuracy():
 @pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens"])
 def test_quality_passes_through(method):
     lens, source, pixel, _ = off_axis()
-    preview, settled = (render(lens, source, method, 32, pixel, q) for q in ("preview", "settled"))
+    preview, settled = (render(lens, source, method, 32, pixel, PsfOptions(q)) for q in ("preview", "settled"))
     assert preview.tolerance is None and settled.tolerance is not None
     # The preview of six coefficients is a 128² grid with a hard edge: 4e-2 of the light here.
     assert r_squared(preview.values, settled.values) > (0.9 if method == "seidel" else 0.9999)
@@ -86,7 +92,8 @@ def test_quality_passes_through(method):
 
 def test_auto_takes_the_method_that_choose_names():
     lens, source, _, _ = off_axis()
-    assert choose(lens, source, 0.99).method == "fitted" == render(lens, source, tolerance=0.99).method
+    made = render(lens, source, options=PsfOptions(tolerance=0.99))
+    assert choose(lens, source, 0.99).method == "fitted" == made.method
     slow = replace(lens, aperture=Aperture("stop_semi_diameter", 1.0))
     assert choose(slow, replace(source, field_slope=0.0), 0.99).method == "seidel"
 
@@ -145,7 +152,7 @@ def test_choose_never_picks_a_method_below_the_tolerance(capsys):
 
 def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
     lens, source, pixel, _ = off_axis()
-    coarse, fine = (render(lens, source, "fitted", 32, pixel, tolerance=t) for t in (0.99, 0.9999))
+    coarse, fine = (render(lens, source, "fitted", 32, pixel, PsfOptions(tolerance=t)) for t in (0.99, 0.9999))
     assert (coarse.numbers, fine.numbers) == (26, 46)
     assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
 
@@ -178,15 +185,22 @@ def test_six_coefficients_promise_nothing_where_rays_are_lost():
     assert render(lens, source, "seidel", 32, 100.0).predicted_error == inf
 
 
-def test_clip_is_refused_by_methods_that_know_no_edge():
+def test_rims_clip_whatever_describes_the_pupil():
     lens, source, pixel, _ = off_axis()
-    for method in ("seidel", "fitted"):
-        with pytest.raises(GeometryError, match="choose traced or huygens"):
-            render(lens, source, method, 32, pixel, clip=True)
-        assert render(lens, replace(source, field_slope=0.0), method, 32, pixel, clip=True).method == method
+    exact = render(lens, source, "huygens", 32, pixel, PsfOptions(clip=True))
+    found = {name: render(lens, source, name, 32, pixel, PsfOptions(clip=True)) for name in ("seidel", "fitted")}
+    fitted = found["fitted"]
+    assert 1 - r_squared(fitted.values, exact.values) < max(fitted.predicted_error, 1e-4)
+    assert fitted.strehl == pytest.approx(exact.strehl, rel=0.02) and fitted.energy == pytest.approx(exact.energy, 0.01)
+    for name, psf in found.items():
+        whole = render(lens, source, name, 32, pixel)
+        assert psf.method == name and 1 - r_squared(psf.values, whole.values) > 1e-3
+        on_axis = replace(source, field_slope=0.0)
+        same = [render(lens, on_axis, name, 32, pixel, PsfOptions(clip=clip)).values for clip in (True, False)]
+        assert 1 - r_squared(*same) < 1e-6
     choice = choose(lens, source, clip=True)
     assert 0 < choice.lost_rays < choice.tried_rays == 64
-    auto = render(lens, source, "auto", 32, pixel, clip=True)
+    auto = render(lens, source, "auto", 32, pixel, PsfOptions(clip=True))
     reference = huygens_psf(lens, source, 32, pixel, clip=True)
     assert auto.method == "traced" and r_squared(auto.values, reference.values) > 0.99
 
@@ -196,7 +210,7 @@ def test_unknown_methods_and_qualities_and_bad_tolerances_are_refused():
     with pytest.raises(RequestError, match="choose auto, gaussian, seidel"):
         render(lens, source, "magic", 32, pixel)
     with pytest.raises(SamplingError, match="settled"):
-        render(lens, source, "traced", 32, pixel, "quick")
+        render(lens, source, "traced", 32, pixel, PsfOptions("quick"))
     with pytest.raises(RequestError, match="below 1"):
         choose(lens, source, 1.0)
     with pytest.raises(GeometryError, match="chief ray"):
@@ -234,6 +248,41 @@ def test_a_lens_without_seidel_sums_is_rendered_by_rays_and_refused_by_the_six_c
     assert r_squared(true.values, quick.values) > 0.99
     with pytest.raises(GeometryError, match="surface 2 has a term in r³"):
         render(lens, source, "seidel", pixels=32)
+
+
+def test_every_text_that_lists_the_methods_names_all_of_them():
+    """Docstrings of the library by what their signatures take; README and theory a row of a table for each."""
+    for call in vars(api).values():
+        taken = inspect.signature(call).parameters.get("method") if inspect.isfunction(call) else None
+        if taken is not None and taken.annotation in (api.Method, api.PupilMethod):
+            stated = re.search(r"^    method : \{(.*)\}$", call.__doc__ or "", re.MULTILINE)
+            assert stated is None or set(re.findall(r'"(\w+)"', stated[1])) == set(get_args(taken.annotation)), call
+    root = Path(p2sf.__file__).parents[1]
+    for path in ("README.md", "app/p2sf_explorer/handbook/theory.md"):
+        text = root.joinpath(path).read_text("utf-8")
+        table = text[text.index("| method | what describes one PSF |") :].split("\n\n")[0]
+        assert tuple(re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)) == NAMES, path
+
+
+def test_a_method_with_a_grid_of_its_own_says_what_it_costs(monkeypatch):
+    """Whatever rays do: also where rims clip them, which makes the cost of other methods of rays unknown."""
+    lens, source, pixel, _ = off_axis()
+    grid = replace(methods.TRACED, name="own grid", nodes=lambda request: 128.0**2, node_seconds=1e-6)
+    monkeypatch.setattr(methods, "METHODS", (*methods.METHODS, grid))
+    asked = PsfRequest(lens, source, "own grid", (32, pixel), PsfOptions(clip=True))
+    assert cost.node_count(asked, None) == 128.0**2 and cost.nodes_beyond(asked, None) == 0
+    assert cost.predicted_seconds(asked, None) == pytest.approx(128**2 * 1e-6 + cost.SAMPLE_SECONDS * 32**2)
+    assert cost.predicted_seconds(replace(asked, method="traced"), None) == inf
+
+
+def test_a_method_that_describes_no_pupil_makes_its_own_picture(monkeypatch):
+    """Only one that is made from the reference's picture is taken from it."""
+    lens, source, pixel, _ = off_axis()
+    own = replace(methods.FITTED, name="own", pupil=False, reason=None)
+    monkeypatch.setattr(methods, "METHODS", (*methods.METHODS, own))
+    made, fitted = (render_integrated(lens, source, method, 16, pixel) for method in ("own", "fitted"))
+    assert np.array_equal(made.values, fitted.values)
+    assert np.array_equal(_point_of_trade(lens, source, (16, pixel), made, "own", "settled").values, fitted.values)
 
 
 def test_every_list_of_methods_names_those_there_are():

@@ -11,7 +11,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.psf.methods import render
+from p2sf.psf.methods import PsfOptions, render
 
 METHODS, STATES, WINDOW = ("seidel", "fitted", "traced"), 10, (24, 1.4)
 
@@ -34,7 +34,7 @@ def answers(order: np.ndarray) -> np.ndarray:
     asked, found = states(), {}
     for number in order:
         lens, source, method, quality = asked[number]
-        psf = render(lens, source, method, *WINDOW, quality)
+        psf = render(lens, source, method, *WINDOW, PsfOptions(quality))
         found[int(number)] = [*(psf.values / psf.values.max()).ravel(), psf.strehl, psf.energy]
     return np.array([found[number] for number in range(len(asked))], float)
 

@@ -6,7 +6,7 @@ import pytest
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
-from p2sf.psf.huygens import first_counts, huygens_psf, ray_waves
+from p2sf.psf.huygens import RayPupil, first_counts, huygens_psf, ray_waves
 from p2sf.psf.smooth_pupil import interpolated_waves
 from p2sf.psf.traced import traced_psf
 from tests.support.reference import LENSES, cases
@@ -46,7 +46,7 @@ def test_a_few_rays_tell_what_all_would(name):
         few = interpolated_waves(lens, source, counts, reach)
         if few is None:
             continue
-        every = ray_waves(lens, source, counts, reach, False).waves
+        every = ray_waves(RayPupil(lens, source), counts, reach).waves
         spread = np.abs(every.amplitude).max()
         assert np.abs(few.waves.amplitude - every.amplitude).max() < 2 * np.pi * 2e-4 * spread
         assert np.abs(few.waves.fx - every.fx).max() * reach < 2e-4

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from p2sf.pupil.basis import CONSTANT, HALF, WHOLE, PupilBasis
+from p2sf.pupil.basis import CONSTANT, PupilBasis
+from p2sf.pupil.domain import HALF, WHOLE
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
 

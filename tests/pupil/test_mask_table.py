@@ -10,12 +10,12 @@ from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
-from p2sf.metrics.mask_lines import edges_of
 from p2sf.parameters import PARAMETERS
 from p2sf.pupil.mask import PupilMap, PupilMask
 from p2sf.pupil.mask_cells import open_share
 from p2sf.pupil.mask_nodes import mask_nodes, throughput
 from p2sf.pupil.mask_outline import dark_heights, obstructions, opening
+from p2sf.pupil.open_part import edges_of
 from p2sf.raytrace.clear_pieces import piece_nodes
 
 MAP = PupilMap.sampled(lambda xi, eta: 0.6 + 0.3 * xi * eta + 0.2 * xi, 9)
@@ -51,7 +51,6 @@ MIXED = {
 }
 EVERY = SAMPLES | MIXED
 NOT_ASKED = {"zernike_um", "phase_map", "amplitude_map", "turn_deg"}  # by no request: only files and Python have them
-NOT_IN_WINDOW = {"obscuration_x", "obscuration_y"}  # without a slider
 SIDE, LEAN = 1501, 0.4  # a square grid, leant so that no edge runs along it
 CENTRE = (2 * np.arange(SIDE) + 1 - SIDE) / SIDE
 WITHIN = np.hypot(*np.meshgrid(CENTRE, CENTRE)) < 1
@@ -159,6 +158,13 @@ def test_heights_of_the_drawing_are_those_that_obscuration_and_iris_cover(mask):
     assert np.array_equal(dark, ~mask.opens(np.zeros_like(eta), eta))
 
 
+def test_what_there_is_is_told_as_it_is(mask, opened):
+    xi, eta = XI[opened], ETA[opened]
+    assert mask.edged == (not opened.all())
+    assert mask.shaded == bool(np.any(mask.amplitude(xi, eta) != 1))
+    assert mask.phased == bool(np.any(mask.path_um(xi, eta) != 0))
+
+
 def test_symmetries_are_told_as_they_are(mask):
     """A mask that says it is even or round is; one that is says so, for all that a grid can tell."""
 
@@ -177,6 +183,14 @@ def test_symmetries_are_told_as_they_are(mask):
     assert part.round and not np.any(mask.opens(xi, eta) & ~part.opens(xi, eta))
 
 
+def test_without_its_phase_a_mask_lets_the_same_light_through(mask):
+    xi, eta = XI[::97], ETA[::97]
+    plain = mask.without_phase()
+    assert not plain.phased and not np.any(plain.path_um(xi, eta))
+    assert np.array_equal(plain.opens(xi, eta), mask.opens(xi, eta))
+    assert np.array_equal(plain.amplitude(xi, eta), mask.amplitude(xi, eta))
+
+
 def test_a_turned_mask_is_turned(mask):
     angle = np.deg2rad(40.0)
     xi, eta = XI[::97], ETA[::97]
@@ -193,10 +207,8 @@ def test_a_lens_file_keeps_it(mask):
 
 
 def test_a_request_states_it():
-    from p2sf_explorer.state.limits import MASK as SHOWN
-
     names = {field.name for field in fields(PupilMask)}
-    assert set(MASK) == names - NOT_ASKED and set(SHOWN) == set(MASK) - NOT_IN_WINDOW
+    assert set(MASK) == names - NOT_ASKED
     for name in MASK:
         sample = SAMPLES[name]
         stated = {other: getattr(sample, other) for other in MASK}

@@ -12,15 +12,15 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.paraxial.seidel import coefficients
+from p2sf.raytrace.aiming import Sources
+from p2sf.raytrace.fans import opd_fan, ray_fan
 from p2sf.raytrace.pencil import (
     Status,
     displayed_opd,
-    opd_fan,
     opd_map,
     pencil,
     pupil_grid,
     pupil_rays,
-    ray_fan,
     trace,
 )
 from p2sf.raytrace.trace import status_message
@@ -45,7 +45,7 @@ def test_every_leading_axis_equals_its_own_trace():
     lens, (xi, eta) = double_gauss(), disc(20)
     fields = np.array([[0.0], [0.1], [0.2]])
     depths = np.array([inf, 2000.0])
-    together = pencil(lens, Source(depths, fields, 0.6562725), xi, eta)
+    together = pencil(lens, Sources(depths, fields, 0.6562725), xi, eta)
     assert together.path.shape == (3, 2, 20)
     for i, j in np.ndindex(3, 2):
         alone = pencil(lens, Source(depths[j], fields[i, 0], 0.6562725), xi, eta)
@@ -55,7 +55,7 @@ def test_every_leading_axis_equals_its_own_trace():
 
 def test_wavelengths_may_be_an_axis():
     lens, (xi, eta) = double_gauss(), disc(20)
-    together = pencil(lens, Source(inf, 0.1, np.array([0.5, 0.6])), xi, eta)
+    together = pencil(lens, Sources(inf, 0.1, np.array([0.5, 0.6])), xi, eta)
     alone = pencil(lens, Source(inf, 0.1, 0.6), xi, eta)
     assert np.allclose(together.phase[1], alone.phase, atol=1e-12)
 

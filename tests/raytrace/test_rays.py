@@ -9,8 +9,9 @@ import pytest
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.raytrace.pencil import hexapolar, pencil, rays_through
 from p2sf.raytrace.vignetting import clear_nodes, whole_nodes
 

@@ -16,7 +16,7 @@ from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_zmx
 from p2sf.paraxial.pupils import RIM_TIE
-from p2sf.psf.methods import render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.surface import Status
@@ -104,7 +104,7 @@ def test_rays_are_stopped_where_the_rim_is_not():
 def test_a_rectangular_rim_paints_the_pattern_of_a_rectangle(method):
     sides = 1.6, 0.8
     lens = lens_with(Surface(rim=Rim(half_widths=sides)), 2.0)
-    psf = render(lens, Source(wavelength_um=UM), method, pixels=48, pixel_um=3.0, clip=True)
+    psf = render(lens, Source(wavelength_um=UM), method, 48, 3.0, PsfOptions(clip=True))
     place = (np.arange(48) - 24) * psf.pixel_um
     by_hand = np.outer(*(np.sinc(2 * side / FOCAL * place / UM) ** 2 for side in sides[::-1]))
     by_hand *= psf.values.sum() / by_hand.sum()

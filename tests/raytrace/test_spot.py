@@ -121,5 +121,5 @@ def test_one_figure_on_every_road(field_deg):
 
 def test_a_phase_in_the_stop_is_refused():
     lens = replace(find_lens("double_gauss_28"), mask=PupilMask(cubic_um=3.0))
-    with pytest.raises(GeometryError, match="mask"):
+    with pytest.raises(GeometryError, match="phase"):
         landing(lens, Source(inf, 0.0, 0.55))

@@ -115,6 +115,16 @@ def of_six(c: Coefficients, mask: PupilMask) -> Description:
     return field
 
 
+def within_rims(whole: Description, lens: Lens, source: Source) -> Description:
+    """Return a description that is dark where rims or holes stop exact rays."""
+
+    def field(xi: np.ndarray, eta: np.ndarray) -> Field:
+        light, fx, fy = whole(xi, eta)
+        return light * pencil(lens, source, xi, eta, True).passed, fx, fy
+
+    return field
+
+
 def brute_force(
     description: Description, mask: PupilMask, judged: np.ndarray, pixel_um: float
 ) -> tuple[np.ndarray, bool]:

@@ -5,7 +5,16 @@ import pytest
 
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.tolerance import GRADES, Tolerance, by_form, differentials, form_errors, harms, sensitivities, usual_sources
+from p2sf.tolerance import (
+    GRADES,
+    Tolerance,
+    by_form,
+    differentials,
+    form_errors,
+    harms,
+    sensitivities,
+    usual_sources,
+)
 from p2sf.tolerance.errors_of_build import build
 from p2sf.tolerance.files import back_focus, with_compensators
 from tests.support.depths import RELAYS_MM

@@ -29,8 +29,6 @@ Grid = tuple[str, np.ndarray, np.ndarray, np.ndarray]
 """Head, x, y and (y, x) values of a map, as it is copied."""
 FINEST = 1e-6  # of an axis: finer digits of a curve's value are not read
 TICK_PX = 4  # within the area
-AIR = 1.04  # of a picture's extent that its axes show
-FILLED = 0.6  # of its axes' length that a map fills at least, or they become shorter
 NEAR_PX = 9.0  # of a pinned marker, within which another press of its key or a click takes it away
 
 
@@ -99,6 +97,7 @@ class Chart(QWidget):
     accessible_role = QAccessible.Role.Chart
     viewed = Signal()
     takes_arrows = False
+    smooth = False  # whether the image's pixels are samples of a smooth picture, and not squares
     over = "bottom"  # the axis that the curves are functions of
     grids: tuple[Grid, ...] = ()  # copied in place of the curves
     columns: tuple[str, str] | None = None  # names of x and y where they are copied, if other than on the axes
@@ -125,7 +124,6 @@ class Chart(QWidget):
         self.left_axis = self.left_name = True
         self._labels, self.round, self.framed = (tr(bottom), tr(left)), aspect, framed
         self.x_axis, self.y_axis = AxisView(), AxisView()
-        self._half = 0.0  # of both axes of a map
         self.samples: Samples | None = None
         self.bar: Lockable | None = None  # of the image's colours
         self.ground: int | None = None  # 0xffRRGGBB beyond the image
@@ -169,15 +167,10 @@ class Chart(QWidget):
         if before != (self.x_axis.shown, self.y_axis.shown):
             self.forget_background()
 
-    def set_extent(self, half: float, steady: bool = False) -> None:
-        """Show −half to half on both axes; with ``steady`` stay as wide as before while a map fills most of that.
-
-        A map has round widths of its own, so that no rounding comes on top: it would leave much of the plot empty.
-        """
-        if not (steady and FILLED * self._half <= half <= self._half):
-            self._half = half
-        half = self._half
-        self.set_range((-AIR * half, AIR * half), (-AIR * half, AIR * half))
+    def set_view(self, middle: tuple[float, float], half: float) -> None:
+        """Show a square about ``middle`` whole, to ``half`` on either side."""
+        x, y = middle
+        self.set_range((x - half, x + half), (y - half, y + half))
 
     @property
     def moved(self) -> bool:
@@ -380,6 +373,7 @@ class Chart(QWidget):
         self._paint_ground(painter, image or QRectF())
         painter.setClipRect(self.area)
         if image and self._image:
+            painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, self.smooth)
             painter.drawImage(image, image_of(self._image[0]))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for curve in self.curves:

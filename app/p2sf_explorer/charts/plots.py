@@ -209,10 +209,14 @@ class HeatMap(QWidget):
         self.resized.emit()
 
     @property
-    def device_pixels(self) -> float:
-        """Return how many pixels of the screen the whole picture has along its shorter side, at the present zoom."""
-        area, zoom = self.chart.area, max(self.chart.magnification())
-        return min(area.width(), area.height()) * self.devicePixelRatioF() * zoom
+    def reach(self) -> float:
+        """Return how far from zero the picture shows its data along x or y."""
+        return max(abs(end) for span in self.chart.ranges() for end in span)
+
+    @property
+    def device_pixel(self) -> float:
+        """Return the width of a pixel of the screen, in data."""
+        return self.chart.per_pixel() / self.devicePixelRatioF()
 
     def show_map(self, values: np.ndarray, rect: Rect, scale: ColourScale, painted: np.ndarray | None = None) -> None:
         """Show rows +y of ``values`` over (x, y, width, height) in a scale's colours, or ``painted`` in their place.
@@ -249,10 +253,6 @@ class HeatMap(QWidget):
     def rect_shown(self) -> Rect | None:
         """Return the rectangle of the values: x, y, width, height."""
         return self._rect
-
-    def set_extent(self, half: float, steady: bool = False) -> None:
-        """Show −half to half on both axes, as `Chart.set_extent`."""
-        self.chart.set_extent(half, steady)
 
     def set_map(self, name: str) -> None:
         """Use a colour map by name."""

@@ -5,7 +5,8 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.metrics.wavefront_map import samples_of_rays
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.domain import ClearNodes
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.tilt import without_tilt
 from p2sf.raytrace.clear_pieces import CLIPPED, LOST
 from p2sf.raytrace.pencil import displayed_opd, pencil

@@ -2,7 +2,7 @@
 
 from p2sf.messages import Message
 from p2sf.psf.cost import node_count, predicted_seconds, seconds
-from p2sf.psf.methods import PsfRequest, by_six, method_of
+from p2sf.psf.methods import PsfOptions, PsfRequest, by_six, method_of
 from p2sf.psf.result import Psf
 from p2sf.raytrace.fit import FittedPencil
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -42,7 +42,9 @@ class SumCache:
         return sum(found.values.nbytes for found in self._found.values() if isinstance(found, Psf))
 
 
-def psf_request(state: State, setup: ParaxialSetup, method: str, window: tuple[int, float]) -> PsfRequest:
+def psf_request(
+    state: State, setup: ParaxialSetup, method: str, window: tuple[int, float], quality: str = "settled"
+) -> PsfRequest:
     """Return what a state asks of one method in a window: of six coefficients without rims, which they do not know.
 
     Huygens is summed once; the accuracy worker makes it converge.
@@ -53,8 +55,7 @@ def psf_request(state: State, setup: ParaxialSetup, method: str, window: tuple[i
         setup.source,
         method,
         window,
-        tolerance=state.optics.tolerance,
-        clip=state.optics.clip and six is None,
+        PsfOptions(quality, state.optics.tolerance, state.optics.clip and six is None),
         converged=False,
         six=six,
         by_hand=setup.altered,

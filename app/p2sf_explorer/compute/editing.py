@@ -14,7 +14,7 @@ from p2sf.lens.positions import KEPT, Positions
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
-from p2sf.paraxial.positions import each_column, with_columns
+from p2sf.paraxial.positions import edit_columns, with_columns
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, with_rings
@@ -227,7 +227,7 @@ def with_stop(lens: Lens, number: int) -> Lens:
     Where there is no f-number to keep, the new stop is open to its own rim, and GeometryError if it has none.
     """
     if lens.positions is not None:
-        return each_column(lens, lambda column: with_stop(column, number))
+        return edit_columns(lens, lambda column: with_stop(column, number))
     moved = replace(lens, stop_surface=number)
     if lens.aperture.kind != "stop_semi_diameter" or number == lens.stop_surface:
         return moved
@@ -296,7 +296,7 @@ def radius_through(surface: Surface, height_mm: float, sag_mm: float) -> float:
 def insert_surface(lens: Lens, number: int) -> Lens:
     """Return the lens with a plane in the middle of the space after surface ``number``: optically the same lens."""
     if lens.positions is not None:
-        return each_column(lens, lambda column: insert_surface(column, number))
+        return edit_columns(lens, lambda column: insert_surface(column, number))
     before = lens.surfaces[number - 1]
     half = before.thickness / 2
     plane = Surface(thickness=half, medium=before.medium)
@@ -311,7 +311,7 @@ def delete_surface(lens: Lens, number: int) -> Lens:
     The medium before the surface reaches on to the next one.
     """
     if lens.positions is not None:
-        return each_column(lens, lambda column: delete_surface(column, number))
+        return edit_columns(lens, lambda column: delete_surface(column, number))
     stop, before = lens.stop_surface, lens.surfaces[: number - 1]
     if len(lens.surfaces) == 1:
         raise GeometryError("a lens needs at least one surface; insert another before deleting this one")

@@ -180,7 +180,7 @@ def filling(glass: Glass, sensor: Section) -> tuple[GlassOutline, ...]:
 @lru_cache(maxsize=32)
 def widest_exit(lens: Lens) -> tuple[float, float]:
     """Return height and slope behind the last surface of the file's widest field's chief ray; zeros where it fails."""
-    slope = float(np.tan(np.deg2rad(max(abs(angle) for angle in lens.fields_deg))))
+    slope = float(np.tan(np.deg2rad(lens.widest_field_deg)))
     rays = pupil_rays(lens, Source(np.inf, slope, lens.reference_wavelength_um), np.zeros(1), np.zeros(1))
     start, direction = (a.reshape(-1, 3)[0, :0:-1].tolist() for a in (rays.origins, rays.directions))
     wave = lens.reference_wavelength_um

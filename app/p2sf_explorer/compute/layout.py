@@ -9,12 +9,11 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, indices, seen_from, with_sensor
+from p2sf.lens.lens import Lens, indices, message_if_misaligned, seen_from, with_sensor
 from p2sf.lens.misalignment import straighten
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.paraxial.lens_checks import unless_symmetric
-from p2sf.paraxial.pupils import RIM_TIE, named_stop, rim_radii
+from p2sf.paraxial.pupils import RIM_TIE, default_stop, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
 from p2sf.raytrace.surface import AT_RIM, Status
@@ -181,7 +180,7 @@ def layout(
         slope=upright * setup.source.field_slope,
         sensor_half=sensor_half(setup.lens, rays),
         groups=groups,
-        note=unless_symmetric(setup.lens, Message("not symmetric: sections seen along x")),
+        note=message_if_misaligned(setup.lens, Message("not symmetric: sections seen along x")),
     )
 
 
@@ -245,8 +244,7 @@ def fans(setup: ParaxialSetup, coloured: str) -> tuple[LayoutRays, ...]:
     source, lens = setup.source, setup.lens
     here = float(degrees_from_slope(source.field_slope)), source.wavelength_um * NM_PER_UM
     if coloured == "field":
-        side = -1.0 if here[0] < 0 else 1.0
-        stated = {side * abs(angle) for angle in lens.fields_deg if abs(abs(angle) - abs(here[0])) > SAME_FIELD_DEG}
+        stated = {y for _, y in lens.field_places_deg if abs(y - here[0]) > SAME_FIELD_DEG}
         return tuple(LayoutRays(angle, here[1]) for angle in sorted({*stated, here[0]}, key=abs))
     if coloured == "wavelength":
         return tuple(LayoutRays(here[0], nm) for nm in sorted({*lens.wavelengths_nm, round(here[1], 4)}))
@@ -392,7 +390,7 @@ def _axial_height(axial: _Entry, eta: float) -> float:
 @lru_cache(maxsize=32)
 def pencil_rims(lens: Lens) -> tuple[float, ...]:
     """Return the rim of each surface as a pencil meets it, mm, inf where none is stated; the stop's is the pupil's."""
-    return tuple((rim_radii(lens, lens.stop_surface or named_stop(lens), inf) * (1 + RIM_TIE)).tolist())
+    return tuple((rim_radii(lens, lens.stop_surface or default_stop(lens), inf) * (1 + RIM_TIE)).tolist())
 
 
 def end_at_rim(places: np.ndarray, lens: Lens, surface: int, rim: float) -> None:

@@ -75,7 +75,7 @@ def mtf_is_live(request: MeasureRequest) -> bool:
 def energy_is_live(request: MeasureRequest) -> bool:
     """Return whether the encircled energy is computed within a frame."""
     pupil = measured_parts(request)[0].pupil
-    return pupil.mask.clear and blur_waves(pupil, pupil.centroid_um) <= LIVE_WAVES
+    return pupil.plain and blur_waves(pupil, pupil.centroid_um) <= LIVE_WAVES
 
 
 def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:

@@ -9,17 +9,18 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import WavefrontMap
-from p2sf.paraxial.seidel import Coefficients, without_coefficients
+from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
 from p2sf.psf.geometric import geometric_psf, main_reach_um
 from p2sf.psf.methods import FITTED, SEIDEL, TRACED, PsfRequest, by_six, choose, psf_of
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import AIRY_RADIUS, check_focus, check_image
+from p2sf.psf.seidel import check_focus, check_image
 from p2sf.psf.smooth_pupil import all_reach
 from p2sf.pupil.mask import PupilMask, mask_slopes
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil
+from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.deferred_sums import SumCache, most_samples, psf_request, slow
 from p2sf_explorer.compute.preview import (
@@ -187,7 +188,7 @@ def render_state(
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
         method, why = (kept_method, NO_REASON) if kept_method else choose_for_state(state, setup)
-    refused = without_coefficients(setup.lens) if by_six(method) and not state.what_if.free_pupil else None
+    refused = reason_against_coefficients(setup.lens) if by_six(method) and not state.what_if.free_pupil else None
     if refused:
         method = TRACED.name  # for the pupil; the picture itself is covered
     elif by_six(method):
@@ -253,7 +254,7 @@ def moving(task: Task, quality: str) -> Rendered:
         psf = preview_psf(traced, *window, task.fitted)
         return Rendered(psf, instead(task, psf), True, task.method, pupil)
     if task.cache is None:
-        waited = replace(psf_request(task.state, task.setup, TRACED.name, window), quality="preview")
+        waited = psf_request(task.state, task.setup, TRACED.name, window, "preview")
         return Rendered(psf_of(waited), NO_REASON, True, task.method)
     found = clipped_picture(task, window, quality)
     return replace(found, why=instead(task, found.psf))

@@ -75,9 +75,9 @@ def preview_psf(traced: Preview, pixels: int, pixel_um: float, fitted: FittedPen
     """Return the PSF of the fit, float32, ``fitted`` where given; of exact rays where it misses more than `FAR`."""
     fitted, setup = fitted or best_fit(traced), traced.setup
     if fitted.error_waves > FAR:
-        from p2sf.psf.methods import render
+        from p2sf.psf.methods import PsfOptions, render
 
-        return render(setup.lens, setup.source, "traced", pixels, pixel_um, "preview")
+        return render(setup.lens, setup.source, "traced", pixels, pixel_um, PsfOptions("preview"))
     return psf_of_fit(fitted, setup.source.wavelength_um, (pixels, pixel_um), "preview", traced.begun)
 
 

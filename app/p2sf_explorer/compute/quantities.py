@@ -1,14 +1,16 @@
 """The quantities a person sets: their scale, how they are written and read, and what they mean. No Qt in here."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 from typing import Any
 
+from p2sf.errors import P2SFError
 from p2sf.lens.positions import Kind
-from p2sf.parameters import FEWEST_BLADES, LARGEST_OBSCURATION, MOST_POWER, MOST_VANES, PARAMETERS
+from p2sf.parameters import PARAMETERS, Parameter, unit_behind
 from p2sf_explorer.compute.setup import Ranges, focus_place, zoom_place
+from p2sf_explorer.state.limits import COUNTS, MASK
 from p2sf_explorer.state.scales import (
     INFINITE,
     Linear,
@@ -137,7 +139,7 @@ FIELD = Quantity(
     read=_reader("field angle", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_deg"),
     ticks=lambda ranges: _field_ticks(ranges),
-    marks=lambda state, ranges: ranges.stated_deg,
+    marks=lambda state, ranges: tuple(dict.fromkeys(y for _, y in ranges.stated_deg)),
 )
 FIELD_X = Quantity(
     key="field_x_deg",
@@ -151,6 +153,7 @@ FIELD_X = Quantity(
     read=_reader("field angle along x", **{"°": 1.0, "deg": 1.0}),
     shown=_plain("field_x_deg"),
     ticks=lambda ranges: tuple((part * ranges.field_deg, _angle_text(part * ranges.field_deg)) for part in (0, -1, 1)),
+    marks=lambda state, ranges: tuple(dict.fromkeys(x for x, _ in ranges.stated_deg)),
 )
 WAVELENGTH = Quantity(
     key="wavelength_nm",
@@ -200,24 +203,44 @@ F_NUMBER = Quantity(
 )
 
 
-def _in_the_stop(
-    key: str,
-    tip: str,
-    scale: Scale,
-    write: Callable[[float], str],
-    read: Callable[[str], float],
-    ticks: tuple[tuple[float, str], ...],
-    none: tuple[tuple[str, float | None, str], ...] = (),
-) -> Quantity:
-    """Return a quantity of the mask in the stop, whose key is its field of `PupilMask`."""
-
-    def shown(state: State, ranges: Ranges) -> float:
-        given: float | None = entry(state, key)
-        return float(getattr(ranges.mask, key)) if given is None else given
-
-    return Quantity(
-        key, PARAMETERS[key].control, tip, lambda ranges: scale, write, read, shown, none, lambda ranges: ticks
+def _in_the_stop(parameter: Parameter) -> Quantity:
+    """Return a quantity of the mask in the stop, as the table of parameters has it."""
+    low, high = parameter.travel or parameter.typed or (0.0, 1.0)
+    name, unit, words = parameter.name, unit_behind(parameter.name), str(parameter.words)
+    scale: Scale = Linear(low, high)
+    places = 1 if high - low > 100 else 2 if high - low > 0.5 else 3
+    read = _reader(words, **UNITS[parameter.unit])
+    if name in COUNTS:
+        scale, places, read = Stepped(_counts_of(parameter, int(low), int(high))), 0, _whole(words)
+    named = tuple((value, f"{value:g}{unit}".replace("-", "−")) for value in parameter.labels)
+    plain = Quantity(
+        name,
+        parameter.control,
+        parameter.tip,
+        lambda ranges: scale,
+        lambda value: f"{with_sign(value, places)}{unit}",
+        read,
+        lambda state, ranges: _mask_value(state, ranges, name),
+        ticks=lambda ranges: named,
     )
+    return replace(plain, **WIDTH) if name == "apodisation" else plain
+
+
+def _mask_value(state: State, ranges: Ranges, name: str) -> float:
+    given: float | None = entry(state, name)
+    return float(getattr(ranges.mask, name)) if given is None else given
+
+
+def _counts_of(parameter: Parameter, low: int, high: int) -> tuple[int, ...]:
+    """Return the whole numbers of a range that a mask may have: blades are 0 or 3 at least, powers even."""
+    found = []
+    for value in range(low, high + 1):
+        try:
+            parameter.check(parameter.name, value)
+        except P2SFError:
+            continue
+        found.append(value)
+    return tuple(found)
 
 
 def _whole(words: str) -> Callable[[str], float]:
@@ -230,114 +253,20 @@ def _whole(words: str) -> Callable[[str], float]:
     return read
 
 
-def _ratio(words: str) -> Callable[[str], float]:
-    return _reader(words, **{"%": 0.01})
-
-
 def _width(text: str) -> float:
-    return inf if text.strip().lower() in INFINITE else _ratio("apodisation")(text)
+    return inf if text.strip().lower() in INFINITE else _reader("apodisation", **UNITS[""])(text)
 
 
-def _labels(*values: float) -> tuple[tuple[float, str], ...]:
-    return tuple((value, f"{value:g}") for value in values)
-
-
-def _degrees(value: float) -> str:
-    return f"{with_sign(value, 1)}°"
-
-
-def _angles(*values: float) -> tuple[tuple[float, str], ...]:
-    return tuple((value, f"{with_sign(value, 0)}°") for value in values)
-
-
-READ_ANGLE = {"°": 1.0, "deg": 1.0}
-COMMON_BLADES, WIDE_VANE, NARROW_APODISATION, LARGE_CUBIC_UM = 16, 0.2, 0.3, 10.0
-OBSCURATION = _in_the_stop(
-    "obscuration",
-    "Obscuration ε: radius of the dark disc in the middle of the stop, as a share of the rim's. It blocks ε² of the "
-    "light, narrows the core and brightens the rings.",
-    Linear(0.0, LARGEST_OBSCURATION),
-    lambda value: f"{value:.2f}",
-    _ratio("obscuration"),
-    _labels(0, 0.5, 0.25, 0.75),
-)
-BLADES = _in_the_stop(
-    "blades",
-    "Blades of the iris, their corners on the rim's circle; 0: round. An even number of blades gives as many spikes "
-    "in the PSF, an odd number twice as many.",
-    Stepped((0, *range(FEWEST_BLADES, COMMON_BLADES + 1))),
-    lambda value: f"{value:.0f}",
-    _whole("number of blades"),
-    _labels(0, 5, 10, 16),
-)
-ROUNDNESS = _in_the_stop(
-    "roundness",
-    "Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.",
-    Linear(0.0, 1.0),
-    lambda value: f"{value:.2f}",
-    _ratio("roundness"),
-    _labels(0, 1, 0.5),
-)
-BLADE_ANGLE = _in_the_stop(
-    "blade_angle_deg",
-    "Blade angle: direction of the first corner, from the direction of the field (+η) towards +ξ.",
-    Linear(-60.0, 60.0),
-    _degrees,
-    _reader("blade angle", **READ_ANGLE),
-    _angles(0, -60, 60, -30, 30),
-)
-VANES = _in_the_stop(
-    "vanes",
-    "Vanes of the spider that holds the obscuration, from the middle to the rim, evenly spaced; 0: none. Each makes "
-    "a spike at right angles to itself.",
-    Stepped(tuple(range(MOST_VANES + 1))),
-    lambda value: f"{value:.0f}",
-    _whole("number of vanes"),
-    _labels(0, 3, 6, 12),
-)
-VANE_WIDTH = _in_the_stop(
-    "vane_width",
-    "Vane width, as a share of the rim's diameter.",
-    Linear(0.0, WIDE_VANE),
-    lambda value: f"{value:.3f}",
-    _ratio("vane width"),
-    _labels(0, 0.1, 0.2),
-)
-VANE_ANGLE = _in_the_stop(
-    "vane_angle_deg",
-    "Vane angle: direction of the first vane, from the direction of the field (+η) towards +ξ.",
-    Linear(-180.0, 180.0),
-    _degrees,
-    _reader("vane angle", **READ_ANGLE),
-    _angles(0, -180, 180, -90, 90),
-)
-APODISATION = _in_the_stop(
-    "apodisation",
-    "Apodisation: the radius, as a share of the rim's, where the amplitude has fallen to 1/e and the intensity to "
-    "1/e²; ∞: uniform light. It dims the rings and widens the core.",
-    Vergence(NARROW_APODISATION, 1.0),
-    lambda value: "∞" if value == inf else significant(value, 3),
-    _width,
-    ((inf, "∞"), *_labels(1, 0.5, 2)),
-    (("∞", inf, "Let light through evenly"),),
-)
-APODISATION_POWER = _in_the_stop(
-    "apodisation_power",
-    "Apodisation power p of the amplitude exp(−(ρ/width)ᵖ): 2 is a Gaussian, a larger even number a super-Gaussian.",
-    Stepped(tuple(range(2, MOST_POWER + 1, 2))),
-    lambda value: f"{value:.0f}",
-    _whole("apodisation power"),
-    _labels(2, 20, 10),
-)
-CUBIC = _in_the_stop(
-    "cubic_um",
-    "Cubic phase plate: α of the optical path α(ξ³ + η³) that it adds. It blurs every depth nearly alike, so one "
-    "deconvolution can remove the blur.",
-    Linear(-LARGE_CUBIC_UM, LARGE_CUBIC_UM),
-    lambda value: f"{with_sign(value, 2)} µm",
-    _reader("cubic phase", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
-    tuple((value, f"{with_sign(value, 0)} µm") for value in (0.0, -LARGE_CUBIC_UM, LARGE_CUBIC_UM)),
-)
+UNITS = {"": {"%": 0.01}, "°": {"°": 1.0, "deg": 1.0}, "µm": {"µm": 1.0, "um": 1.0, "mm": 1e3}}
+NARROW_APODISATION = 0.3
+# The width of an apodisation goes to infinity, evenly in its inverse.
+WIDTH: dict[str, Any] = {
+    "scale": lambda ranges: Vergence(NARROW_APODISATION, 1.0),
+    "write": lambda value: "∞" if value == inf else significant(value, 3),
+    "read": _width,
+    "ticks": lambda ranges: ((inf, "∞"), (1.0, "1"), (0.5, "0.5"), (2.0, "2")),
+    "buttons": (("∞", inf, "Let light through evenly"),),
+}
 
 
 def _ring(kind: Kind, key: str, title: str, tip: str, place: Callable[[State], float | None]) -> Quantity:
@@ -382,13 +311,17 @@ FOCUS_RING = _ring(
     "columns of the lens file.",
     focus_place,
 )
-OF_THE_LENS = (ZOOM, FOCUS_RING)
-OF_THE_SOURCE = (DEPTH, FIELD, FIELD_X, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
-OF_THE_MASK = (
-    *(OBSCURATION, BLADES, ROUNDNESS, BLADE_ANGLE, VANES, VANE_WIDTH, VANE_ANGLE),
-    *(APODISATION, APODISATION_POWER, CUBIC),
+RING_QUANTITIES = (ZOOM, FOCUS_RING)
+SOURCE_QUANTITIES = (DEPTH, FIELD, FIELD_X, WAVELENGTH, FOCUS, SHIFT, F_NUMBER)
+# The iris stands before the spider.
+BEFORE_VANES = ("obscuration", "blades", "roundness", "blade_angle_deg")
+MASK_QUANTITIES = tuple(
+    sorted(
+        (_in_the_stop(each) for each in PARAMETERS.values() if each.name in MASK),
+        key=lambda quantity: quantity.key not in BEFORE_VANES,
+    )
 )
-QUANTITIES = (*OF_THE_LENS, *OF_THE_SOURCE, *OF_THE_MASK)
+QUANTITIES = (*RING_QUANTITIES, *SOURCE_QUANTITIES, *MASK_QUANTITIES)
 
 
 def visible_colour(wavelength_nm: float) -> str:

@@ -5,7 +5,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.conventions import NM_PER_UM, angle_from_axis, slope_from_degrees
 from p2sf.glass.media import Medium
 from p2sf.lens.lens import Lens, indices
 from p2sf.paraxial.first_order import cardinal_points
@@ -106,16 +106,18 @@ def _table_range(medium: Medium) -> tuple[float, float] | None:
     return (known[0], known[-1]) if known else None
 
 
-def telling_field(lens: Lens, depth_mm: float) -> float:
-    """Return a field in degrees worth showing first: the file's middle one; near by, a share that shows diffraction.
+def telling_field(lens: Lens, depth_mm: float) -> tuple[float, float]:
+    """Return a field (x, y), degrees, worth showing first: the file's middle one; near by, a share showing diffraction.
 
     A relay's file may state fields for infinity that at its own depth are objects wider than its glass.
     """
-    fields = sorted(abs(angle) for angle in lens.fields_deg)
-    middle = fields[len(fields) // 2] or fields[-1]
+    places = lens.field_places_deg
+    middle = places[len(places) // 2]
+    middle = middle if any(middle) else places[-1]
     if not isfinite(depth_mm):
         return middle
-    slopes = slope_from_degrees(middle * np.array(SHARES))
+    slopes = slope_from_degrees(angle_from_axis(*middle) * np.array(SHARES))
     steep = steepest_slope(coefficients(lens, depth_mm, slopes, lens.reference_wavelength_um))
     good = np.flatnonzero(steep <= TELLING_WAVES)
-    return middle * SHARES[good[0]] if good.size else middle
+    share = SHARES[good[0]] if good.size else 1.0
+    return middle[0] * share, middle[1] * share

@@ -1,4 +1,4 @@
-"""How accurate the picture is: the Huygens reference at the same point, one window for every method. No Qt in here."""
+"""Accuracy of the picture against the Huygens reference at the same point, in one window for all methods. No Qt."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -7,8 +7,8 @@ from threading import Event
 
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.psf.huygens import first_counts, huygens_psf
-from p2sf.psf.methods import METHODS, REFERENCE, method_of, render
+from p2sf.psf.huygens import Watch, first_counts, huygens_psf
+from p2sf.psf.methods import METHODS, REFERENCE, PsfOptions, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf_explorer.compute.live import Live
@@ -61,9 +61,8 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
         live.setup.source,
         *window,
         REFERENCE_TOLERANCE,
-        lambda part: progress(share * part),
-        cancelled.is_set,
         live.state.optics.clip,
+        Watch(lambda part: progress(share * part), cancelled.is_set),
     )
     shown = in_window(live, reference)
     results: tuple[MethodResult, ...] = ()
@@ -110,12 +109,10 @@ def psf_by(method: str, live: Live, reference: Psf) -> Psf:
     """Return this point's PSF by one method, in the reference's window."""
     if method == REFERENCE:
         return reference
-    if not method_of(method).pupil:
-        from p2sf.psf.gaussian_fit import gaussian_psf
-
-        return gaussian_psf(reference)
+    derived = method_of(method).of_reference
+    if derived:
+        return derived(reference)
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
     setup, state = live.setup, live.state
-    return render(
-        setup.lens, setup.source, method, pixels, pitch, tolerance=state.optics.tolerance, clip=state.optics.clip
-    )
+    options = PsfOptions(tolerance=state.optics.tolerance, clip=state.optics.clip)
+    return render(setup.lens, setup.source, method, pixels, pitch, options)

@@ -1,7 +1,5 @@
 """Small PSFs of the present setup with something changed, for panels that show many of them."""
 
-from dataclasses import replace
-
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.methods import FITTED, SEIDEL, TRACED, by_six, psf_of
 from p2sf.psf.result import Psf
@@ -38,4 +36,4 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     traced = preview(setup, True) if state.optics.clip else task.traced
     if traced:
         return preview_psf(traced, *window, task.fitted)
-    return psf_of(replace(psf_request(state, setup, TRACED.name, window), quality="preview"))
+    return psf_of(psf_request(state, setup, TRACED.name, window, "preview"))

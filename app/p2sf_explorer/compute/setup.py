@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.camera import AS_IN_FILE, Camera, Request, Setup, mask_of, set_up, with_field
+from p2sf.camera import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens, with_mask
@@ -97,7 +97,7 @@ class Ranges:
     file_f_number: float
     focused_mm: float
     shift_um: float
-    stated_deg: tuple[float, ...] = ()
+    stated_deg: tuple[tuple[float, float], ...] = ()
     both_sides: bool = False
     mask: PupilMask = CLEAR
     rings: tuple[Axis, ...] = ()
@@ -250,7 +250,7 @@ def with_state_mask(lens: Lens, state: State) -> Lens:
 
 @lru_cache(maxsize=16)
 def _with_mask(lens: Lens, mask: tuple[tuple[str, float], ...]) -> Lens:
-    return with_mask(lens, mask_of(lens, Camera(**dict(mask))))  # type: ignore[arg-type]  # each of its field's own type
+    return with_mask(lens, mask_of(lens, Settings(**dict(mask))))  # type: ignore[arg-type]  # each of its field's own type
 
 
 @dataclass(frozen=True)
@@ -299,7 +299,7 @@ def ranges(lens: Lens) -> Ranges:
     focal = abs(float(cardinal.effective_focal_length))
     f_stop = float(f_number(lens, wavelength))
     finite = isfinite(f_stop)
-    widest = max(abs(angle) for angle in lens.fields_deg)
+    widest = lens.widest_field_deg
     return Ranges(
         closest_mm=closest_distance(lens),
         middle_mm=middle_distance(lens),
@@ -309,7 +309,7 @@ def ranges(lens: Lens) -> Ranges:
         file_f_number=f_stop if finite else inf,
         focused_mm=file_focus(lens),
         shift_um=nice(30 * wavelength * (f_stop**2 if finite else 16.0), (1, 2, 3, 5)) if focal else 500.0,
-        stated_deg=lens.fields_deg,
+        stated_deg=lens.field_places_deg,
         both_sides=lens.misaligned,
         mask=lens.mask,
         rings=lens.positions.axes if lens.positions else (),
@@ -344,7 +344,8 @@ def _defaults(state: State, lens: Lens) -> State:
     focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
     depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
     wavelength = lens.reference_wavelength_um * NM_PER_UM
-    return change(state, depth_mm=depth, field_deg=telling_field(lens, depth), wavelength_nm=wavelength)
+    x, y = telling_field(lens, depth)
+    return change(state, depth_mm=depth, field_deg=y, field_x_deg=x, wavelength_nm=wavelength, aim=lens.aim)
 
 
 def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
@@ -356,7 +357,7 @@ def with_lens(state: State, name: str, lens_text: str | None = None) -> State:
         lens_text=lens_text,
         depth_mm=fresh.optics.depth_mm,
         field_deg=fresh.optics.field_deg,
-        field_x_deg=0.0,
+        field_x_deg=fresh.optics.field_x_deg,
         wavelength_nm=fresh.optics.wavelength_nm,
         errors=(),
         **{name: getattr(AS_IN_FILE, name) for name in SLIDERS if hasattr(AS_IN_FILE, name)},

@@ -6,10 +6,10 @@ from math import isinf, isnan
 
 import numpy as np
 
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, message_if_misaligned
 from p2sf.messages import Message, Number
 from p2sf.metrics.wavefront_map import WavefrontMap, disc
-from p2sf.paraxial.lens_checks import lens_checks, unless_symmetric
+from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.trace import out_of_order
 from p2sf_explorer.compute.layout import RayPath
@@ -40,7 +40,7 @@ def warnings(
     """
     found = (
         _by_hand(setup),
-        unless_symmetric(setup.lens, OF_THE_ALIGNED) if pupil is None and not setup.altered else None,
+        message_if_misaligned(setup.lens, OF_THE_ALIGNED) if pupil is None and not setup.altered else None,
         _image_at_infinity(setup),
         _blur_warning(setup) if geometric else None,
         _loss_warning(sum(ray.lost for ray in rays)),

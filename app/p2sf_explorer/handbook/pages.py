@@ -18,6 +18,7 @@ PAGES = {
     "lens_files": "Write a lens file",
     "export": "Export",
     "measure": "Measure a lens",
+    "camera": "A camera in Python",
     "notebook": "In a notebook",
     "theory": "Theory",
     "numerics": "Numerical accuracy",

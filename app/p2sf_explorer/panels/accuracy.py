@@ -17,6 +17,8 @@ from p2sf_explorer.charts.painting import set_text, write
 from p2sf_explorer.charts.plots import HeatMap
 from p2sf_explorer.charts.reading import Reading, closest, value_of
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.finer import smooth
+from p2sf_explorer.compute.framing import frame_of, light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.reference import Accuracy, MethodResult
 from p2sf_explorer.compute.trade import trade_of
@@ -69,6 +71,7 @@ class AccuracyPanel:
         self.widget = Card("Accuracy", TIP)
         self.reference = HeatMap("reference, µm", "y, µm", self.widget)
         self.difference = HeatMap("picture − reference, µm", "y, µm", self.widget)
+        self.reference.chart.smooth = self.difference.chart.smooth = True
         self.reference.set_map(PSF_MAP)
         self.difference.set_map(DIFFERENCE_MAP)
         self.methods = MethodsChart()
@@ -148,15 +151,17 @@ class AccuracyPanel:
         brightness = ColourScale(
             PSF_MAP, 0.0, 100.0, "% of peak", "PSF, % of the peak", scale, measure="peak", grounded=True
         )
-        self.reference.show_map(100 * reference.values / peak, rect, brightness)
+        values = 100 * reference.values / peak
+        self.reference.show_map(values, rect, brightness, smooth(values))
         delta = 100 * (psf.values - reference.values) / peak
         limit = common_limit(delta)
         about = ColourScale(
             DIFFERENCE_MAP, -limit, limit, "% of peak", "difference, % of the peak", measure="difference", grounded=True
         )
-        self.difference.show_map(delta, rect, about)
-        for chart in (self.reference, self.difference):
-            chart.set_extent(count * step / 2)
+        self.difference.show_map(delta, rect, about, smooth(delta))
+        frame = frame_of(light_circle(reference.values, step, accuracy.live.airy_radius_um))
+        for heat in (self.reference, self.difference):
+            heat.chart.set_view((frame.x_um, frame.y_um), frame.half_um)
         self.methods.show_methods(accuracy.results, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
         wide, seconds = significant(count * step, 3), f"{reference.seconds:.2f}"

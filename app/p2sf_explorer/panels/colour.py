@@ -11,8 +11,9 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, Samples, value_of
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.framing import frame_of, light_circle
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels
+from p2sf_explorer.compute.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels, smooth_colours
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.panel_jobs import Asking
@@ -83,7 +84,8 @@ class ColourPanel:
     def __init__(self, store: Store):
         self._store = store
         self.picture = Chart("x, µm", "y, µm", aspect=True)
-        self.picture.ground = BLACK
+        self.picture.ground, self.picture.smooth = BLACK, True
+        self._airy_um = 0.0
         self.spectrum = SpectrumChart()
         self.airy = self.picture.add_curve("#ffffff", 1, 150)
         self.spectrum.set_range(EMPTY_NM, (-1.0, 1.0))
@@ -113,9 +115,7 @@ class ColourPanel:
         if isinstance(asked, Message):
             self.asking.refuse(asked)
             return
-        if self.found is None:
-            half = asked.window[0] * asked.window[1] / 2
-            self.picture.set_extent(half)
+        self._airy_um = live.airy_radius_um
         self.asking.ask(asked)
         if changed:
             self.asking.again()
@@ -126,8 +126,9 @@ class ColourPanel:
         start = -(count // 2 + 0.5) * step
         rect, luminance = (start, start, count * step, count * step), found.psf.xyz[..., 1]
         seen = Samples(luminance / (float(luminance.max()) or 1.0), rect, tr("luminance, peak = 1"))
-        self.picture.show_pixels(pixels(found.psf, self._scale), rect, seen)
-        self.picture.set_extent(count * step / 2)
+        self.picture.show_pixels(pixels(smooth_colours(found.psf), self._scale), rect, seen)
+        frame = frame_of(light_circle(luminance, step, self._airy_um))
+        self.picture.set_view((frame.x_um, frame.y_um), frame.half_um)
         self.spectrum.show_colours(found)
         spread = float(np.ptp(found.psf.shift_um))
         count_said = tr("{count} wavelengths", count=len(found.psf.wavelengths_um))

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from p2sf.raytrace.fans import Fan
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.rays import Fan
 from p2sf_explorer.state.terms import PLACES
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.curves import CurvesPanel

@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 from p2sf.conventions import degrees_from_slope
 from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.brightness import stretch
+from p2sf_explorer.compute.framing import crop
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.field_map import SHAPE, FieldMapRequest, answer, place_of, places
 from p2sf_explorer.i18n.tr import tr
@@ -181,14 +181,18 @@ class FieldMapPanel:
         self.chart.places = np.array([where[place] for place in kept]).reshape(-1, 2)
         self.chart.asked = asked
         self.chart.fields_deg = np.array([asked.field_of(where[place]) for place in kept]).reshape(-1, 2)
-        shown = (tile(stretch(found[place], self._scale), *map(float, where[place])) for place in kept)
-        self.chart.show_tiles(shown, spacing, SHAPE[0])
+        shown = crop(found.reshape(-1, *found.shape[-2:]))
+        tiles = (
+            tile(found[place][shown, shown], float(where[place][0]), float(where[place][1]), self._scale)
+            for place in kept
+        )
+        self.chart.show_tiles(tiles, spacing, SHAPE[0])
         heads = (
             tr("at ({x}, {y}) of the corner: share of the peak", x=f"{x:.3g}", y=f"{y:.3g}")
             for x, y in (where[place] for place in kept)
         )
-        self.chart.means(zip(heads, (found[place] for place in kept), strict=True), asked.window[1])
-        corner, wide = float(degrees_from_slope(asked.corner_slope)), asked.window[0] * asked.window[1]
+        self.chart.means(zip(heads, (found[place][shown, shown] for place in kept), strict=True), asked.window[1])
+        corner, wide = float(degrees_from_slope(asked.corner_slope)), (shown.stop - shown.start) * asked.window[1]
         first = tr("corner {field}", field=f"{corner:.3g}°")
         marks = {"coma": tr("× no coma"), "astigmatism": tr("+ no astigmatism (third order)")}
         first = " · ".join([first, *(marks[name] for name in marks if name in {node[0] for node in asked.nodes})])

@@ -240,11 +240,9 @@ class MeasuredPanel:
         self.note.setText("\n".join(said(warning) for warning in warnings))
 
     def _paint_pictures(self, parts: PointPictures) -> None:
-        pictures = [
-            np.sqrt(np.clip(values, 0.0, 1.0)) for values in (parts.measured, parts.modelled, abs(parts.difference))
-        ]
+        pictures = [np.clip(values, 0.0, 1.0) for values in (parts.measured, parts.modelled, abs(parts.difference))]
         self.chart.set_range((-0.5, 2.5), (-0.5, 0.5))
-        self.chart.show_tiles([tile(values, float(k), 0.0) for k, values in enumerate(pictures)], 0.95)
+        self.chart.show_tiles([tile(values, float(k), 0.0, "sqrt") for k, values in enumerate(pictures)], 0.95)
         heads = (tr(name) for name in PARTS)
         signed = parts.measured, parts.modelled, parts.difference
         self.chart.means(zip(heads, signed, strict=True), parts.pixel_um)

@@ -5,6 +5,8 @@ import numpy as np
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.finer import smooth
+from p2sf_explorer.compute.framing import frame_of, light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.pixels import SampledLight
 from p2sf_explorer.i18n.tr import tr
@@ -29,6 +31,7 @@ class BesidePanel:
         self.maps = tuple(HeatMap(words, "y, µm") for words in NAMES)
         for heat in self.maps:
             heat.set_map(BRIGHTNESS)
+            heat.chart.smooth = heat is not self.maps[-1]  # the light on pixels is squares
             heat.chart.columns = "x, µm", "y, µm"
         self.widget = ChartsCard("Perfect lens and pixels", TIP, self.maps, (1, 1, 1))
         self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
@@ -38,7 +41,7 @@ class BesidePanel:
         """Paint the three maps."""
         view: SampledLight = live.views["beside"]
         self.pixel.show_value(view.pixel_um)
-        half = view.real.shape[0] * view.sample_um / 2
+        frame = frame_of(light_circle(view.real, view.sample_um, live.airy_radius_um))
         shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels, view.pixel_um))
         for heat, (values, step), (means, unit) in zip(self.maps, shown, MEANINGS, strict=True):
             start = -(values.shape[0] // 2 + 0.5) * step
@@ -47,8 +50,8 @@ class BesidePanel:
             scale = ColourScale(
                 BRIGHTNESS, 0.0, top, unit, means, live.state.display.psf_scale, measure=means, grounded=True
             )
-            heat.show_map(np.asarray(values, float), rect, scale)
-            heat.set_extent(half, steady=live.quality == "preview")
+            heat.show_map(np.asarray(values, float), rect, scale, smooth(values) if unit == "peak" else None)
+            heat.chart.set_view((frame.x_um, frame.y_um), frame.half_um)
         self._say(live, view)
 
     def _say(self, live: Live, view: SampledLight) -> None:

@@ -11,7 +11,9 @@ from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.brightness import SCALES, UNITS
-from p2sf_explorer.compute.finer import SettledSum, answer, finer
+from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.finer import SettledSum, ShownArea, answer, covers, fade, finer, smooth
+from p2sf_explorer.compute.framing import frame_of, light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
 from p2sf_explorer.i18n.messages import said
@@ -54,41 +56,47 @@ class PsfPanel:
         self.badge = Readout(self.widget, pill=True, colour="text")
         self.widget.set_body(self.map)
         self.widget.add_footer(self.badge)
-        self._framed, self._airy = (0.0, False), 0.0
+        self.map.chart.smooth = True
+        self._airy = 0.0
         self._times: dict[str, str] = {}
         self._live: Live | None = None
-        self._finer: tuple[PsfRequest, Psf] | None = None
+        self._finer = SumCache()
         self.asking = Asking(self.widget, answer, self._take, lambda text: None)
         self._settled = QTimer(self.widget, singleShot=True, interval=RESIZED_MS)
         self._settled.timeout.connect(self._on_resized)
         self.map.resized.connect(self._settled.start)
 
     def show(self, live: Live) -> None:
-        """Paint the PSF, and have it summed with a sample for each pixel where it has fewer."""
+        """Paint the PSF about its light, and have it summed again where it is too coarse or does not fill the view."""
         self._live = live
+        self._frame_light(live)
         self.show_badge(live, None)
         self._refine(live)
 
     def _refine(self, live: Live) -> None:
-        """Paint the samples that are there, and ask for finer ones where the panel has more pixels."""
+        """Paint what fits the panel; until that is summed, the samples that are there."""
         wanted = self._finer_request(live)
-        known = self._finer is not None and self._finer[0] == wanted
-        self._paint(live, self._finer[1] if self._finer and known else live.psf)
+        self._paint(live, self.psf_shown(live))
         if wanted is None:
-            self._finer = None
             self.asking.refuse(NOTHING_FINER)
-        elif not known:
+        elif self._finer.get(wanted) is None:
             self.asking.ask(wanted)
+
+    def psf_shown(self, live: Live) -> Psf:
+        """Return the PSF as it is painted: summed again where the first one is too coarse or ends within the view."""
+        wanted = self._finer_request(live)
+        found = self._finer.get(wanted) if wanted else None
+        return found if isinstance(found, Psf) else live.psf
 
     def _finer_request(self, live: Live) -> PsfRequest | None:
         """Return the sum with a sample for each pixel of the panel; None where the picture is as fine as that."""
         found = None if live.difference else live.views.get("psf")
-        return finer(found, self.map.device_pixels) if isinstance(found, SettledSum) else None
+        return finer(found, self._view, live.airy_radius_um) if isinstance(found, SettledSum) else None
 
     def _take(self, request: PsfRequest, psf: Psf) -> str:
         """Show a finer picture if it is that of the present answer."""
         if self._live and request == self._finer_request(self._live):
-            self._finer = request, psf
+            self._finer.keep(request, psf)
             self._paint(self._live, psf)
         return ""
 
@@ -104,29 +112,36 @@ class PsfPanel:
         state = live.state
         count, step = psf.values.shape[-1], psf.pixel_um
         start = -(count // 2 + 0.5) * step
-        peak = float(psf.values.max()) or 1.0
         rect = (start, start, count * step, count * step)
+        shown = live.difference.psf if live.difference else psf.values
+        painted = smooth(shown)
+        if not covers(count * step, self._view):
+            painted = fade(painted)
         if live.difference:
-            show_signed(self.map, live.difference.psf, rect, state.display.psf_scale, "of peak")
+            show_signed(self.map, shown, rect, state.display.psf_scale, "of peak", painted)
         else:
+            peak = float(psf.values.max()) or 1.0
             top = top_value(state, psf, peak)
-            self.map.show_map(psf.values * (top / peak), rect, colour_scale(state, psf, peak))
+            painted *= top / (float(painted.max()) or 1.0)  # no light between two samples is lost in white
+            self.map.show_map(shown * (top / peak), rect, colour_scale(state, psf, peak), painted)
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
-        self._frame(count * step / 2, live)
 
-    def _frame(self, half: float, live: Live) -> None:
-        moving = live.quality == "preview"
-        if (half, moving) != self._framed:
-            self._framed = half, moving
-            self.map.set_extent(half, steady=moving)
+    @property
+    def _view(self) -> ShownArea:
+        return ShownArea(self.map.reach, self.map.device_pixel)
+
+    def _frame_light(self, live: Live) -> None:
+        """Show the light large, with the Airy circle and the arrow."""
+        frame = frame_of(light_circle(live.psf.values, live.psf.pixel_um, live.airy_radius_um))
+        side = int(np.sign(live.setup.coefficients.image_height))
+        self.map.chart.set_view((frame.x_um, frame.y_um), frame.half_um)
         if live.airy_radius_um != self._airy:
             self._airy = live.airy_radius_um
             turn = np.linspace(0, 2 * np.pi, 73)
             self.airy.set_data(self._airy * np.cos(turn), self._airy * np.sin(turn))
-        side = int(np.sign(live.setup.coefficients.image_height))
         self.map.chart.name_axes("x, µm", Y_LABELS[side or 1])
-        shown = half if side else np.nan
-        self.arrow.set_data(shown * ARROW[0], shown * side * ARROW[1])
+        shown = frame.half_um if side else np.nan
+        self.arrow.set_data(frame.x_um + shown * ARROW[0], frame.y_um + shown * side * ARROW[1])
 
     def show_badge(self, live: Live, r_squared: float | None) -> None:
         """Show method, times and R² against the Huygens sum: measured where it is known, else predicted.

@@ -93,7 +93,7 @@ class PupilPanel:
         self.map.chart.curves += [self.shade, self.dark, self.beyond_iris, self.outside]
         self.map.chart.add_curve("line").set_data(*CIRCLE)
         self.rim = self.map.chart.add_curve("muted")
-        self.map.set_extent(1.0)
+        self.map.chart.set_view((0.0, 0.0), RIM)
         self.surface = SurfaceView(self.map)
         self.surface.turned.connect(
             lambda turn, tilt: store.update(camera_surface_turn_deg=turn, camera_surface_tilt_deg=tilt)
@@ -147,6 +147,7 @@ def waves_scale(waves: np.ndarray) -> ColourScale:
     return ColourScale(WAVES_MAP, -top, top, "λ", "W, waves", measure="waves", steady=True)
 
 
+RIM = 1.04  # pupil radii that are shown
 LEAST_WAVES = 0.05  # of a full bar
 DISC = (-1.0, -1.0, 2.0, 2.0)  # the square about the pupil: x, y, width, height in its radii
 WRAPPED = ColourScale(WRAPPED_MAP, 0.0, 1.0, "λ", "W modulo 1, waves", measure="wrapped")

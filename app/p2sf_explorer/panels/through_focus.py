@@ -1,15 +1,16 @@
 """Through focus: PSFs at several sensor positions, and the sensor, which can be dragged."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen, QResizeEvent
 
 from p2sf.messages import Message
 from p2sf_explorer.charts.plots import BRIGHTNESS
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.brightness import stretch
+from p2sf_explorer.compute.framing import crop
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.compute.views.through_focus import Focused, Strip, answer
@@ -19,7 +20,7 @@ from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.differences import DIFFERENCE_MAP
-from p2sf_explorer.widgets.tiles import TilesChart, tile
+from p2sf_explorer.widgets.tiles import Tile, TilesChart, tile
 
 TIP = (
     "Through focus: the PSF at several sensor positions, brightness over that of the brightest. Drag the line or "
@@ -27,6 +28,7 @@ TIP = (
 )
 STRIP_TIP = "Drag the line or click, or use the left and right arrow keys: the sensor follows."
 NEAR_PX = 9.0
+MOST_ROWS = 4
 SIDES: dict[int, int] = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
 
 
@@ -40,12 +42,27 @@ class StripChart(TilesChart):
         self.left_axis = False
         self.sensor_um = 0.0
         self._held = False
+        self._strip: tuple[list[Tile | None], float] | None = None
         self.setAccessibleName(tr("Sensor position"))
         self.setToolTip(tr(STRIP_TIP))
 
     def takes(self, point: QPointF) -> bool:
         """Return whether a press moves the sensor."""
         return self.area.contains(point)
+
+    def show_strip(self, tiles: list[Tile | None], step: float) -> None:
+        """Show a tile at every ``step`` of sensor shift, larger ones staggered in rows where the chart is tall."""
+        self._strip = tiles, step
+        steps = self.area.height() * self.per_pixel() / step  # that a tile as high as the chart covers
+        rows = max(1, min(MOST_ROWS, int(steps**0.5)))
+        placed = (each and replace(each, y=1 - (k % rows + 0.5) / rows) for k, each in enumerate(tiles))
+        self.show_tiles(placed, rows * step, rows)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Choose again how many rows there is room for."""
+        super().resizeEvent(event)
+        if self._strip:
+            self.show_strip(*self._strip)
 
     def show_sensor(self, shift_um: float) -> None:
         """Show the position of the sensor."""
@@ -134,21 +151,23 @@ class ThroughFocusPanel:
         step = shifts[1] - shifts[0]
         self.chart.set_range((float(shifts[0] - 0.6 * step), float(shifts[-1] + 0.6 * step)), (0.0, 1.0))
         top = np.nanmax(np.abs(found.light)) if np.isfinite(found.light).any() else 1.0
-        light = np.sign(found.light) * stretch(np.abs(found.light) / (top or 1.0), self._scale)
+        shown = crop(found.light)
+        pictures = found.light[:, shown, shown]
+        light = pictures / (top or 1.0)
         low, self.chart.colours = (-1.0, DIFFERENCE_MAP) if asked.less else (0.0, BRIGHTNESS)
-        shown = zip(light, shifts, strict=True)
-        self.chart.show_tiles((tile(values, float(at), 0.46, low) for values, at in shown), step)
+        tiles = [tile(values, float(at), 0.5, self._scale, low) for values, at in zip(light, shifts, strict=True)]
+        self.chart.show_strip(tiles, step)
         heads = (
             tr("sensor shift {shift} µm: share of the perfect peak", shift=with_sign(float(at), 1)) for at in shifts
         )
-        self.chart.means(zip(heads, found.light, strict=True), asked.window[1])
+        self.chart.means(zip(heads, pictures, strict=True), asked.window[1])
         names = (("S", "marginal"), ("T", "positive"), (tr("best"), "text"))
         foci = zip(names, (found.sagittal, found.tangential, found.best), strict=True)
         self.chart.show_notes((x, inf, f"▾ {name}", token, 0) for (name, token), x in foci if np.isfinite(x))
-        wide = asked.window[0] * asked.window[1]
+        wide = light.shape[-1] * asked.window[1]
         best = tr("best {shift} µm", shift=with_sign(found.best, 1))
-        pictures = tr("pictures {wide} µm wide", wide=f"{wide:.3g}")
-        return f"S {with_sign(found.sagittal, 1)} · T {with_sign(found.tangential, 1)} · {best} · {pictures}"
+        width = tr("pictures {wide} µm wide", wide=f"{wide:.3g}")
+        return f"S {with_sign(found.sagittal, 1)} · T {with_sign(found.tangential, 1)} · {best} · {width}"
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -4,11 +4,11 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter
 
+from p2sf.paraxial.ybar import YBar
 from p2sf_explorer.charts.painting import write
 from p2sf_explorer.charts.reading import Reading, closest, point_reading
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.ybar import YBar, field_free
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.store import Store
@@ -78,7 +78,7 @@ class YBarPanel:
         self.axes[1].set_data((0, 0), FAR_LINE)
         self.chart.update()
         invariant = float(live.setup.rays.invariant) * live.setup.source.field_slope
-        if field_free(view):
+        if view.axial:
             self.widget.set_readout(tr("the source is on the axis: no chief ray, so the diagram is a line"))
             return
         self.widget.set_readout(f"{tr('Lagrange invariant H = {h} mm', h=with_sign(invariant, 4))} · {tr('stop ▪')}")

@@ -13,12 +13,15 @@ from p2sf_explorer.compute.setup import prescription, ranges
 from p2sf_explorer.state.limits import ADDED, DRAGGED
 from p2sf_explorer.state.scales import read_number, with_sign
 from p2sf_explorer.state.state import State
-from p2sf_explorer.state.terms import NAMES, TERMS
+from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.what_if import with_added
 
 RATIOS, VERGENCES = ("f_number",), ("depth_mm", "focus_mm", "apodisation")
 USUAL_WAVES = (-2.0, 2.0)
-TITLES = {key: LINK_WORDS[key] for key in DRAGGED} | {ADDED + term: f"{NAMES[term]} added" for term in TERMS}
+ADDED_TITLES = "W40 added", "W31 added", "W22 added", "W20 added", "Wd added", "W11 added"  # as TERMS are ordered
+TITLES = {key: LINK_WORDS[key] for key in DRAGGED} | {
+    ADDED + term: title for term, title in zip(TERMS, ADDED_TITLES, strict=True)
+}
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,7 @@ class Moment:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class SliderSweep:
     """The slider ``key`` from ``first`` to ``last`` in ``seconds``; ``write`` and ``read`` are its number's."""
 
     key: str
@@ -65,16 +68,18 @@ class Sweep:
         return self.value(turns if turns <= 1 else 2 - turns)
 
 
-def sweep(state: State) -> Sweep:
+def sweep(state: State) -> SliderSweep:
     """Return the sweep that the state describes, over all of the slider's travel where it names no range."""
     key = state.playback.slider
     if key.startswith(ADDED):
         first, last = state.playback.range or USUAL_WAVES
-        return Sweep(key, first, last, state.playback.seconds, waves, lambda text: read_number(text, "waves", LAMBDAS))
+        return SliderSweep(
+            key, first, last, state.playback.seconds, waves, lambda text: read_number(text, "waves", LAMBDAS)
+        )
     quantity = next(quantity for quantity in QUANTITIES if quantity.key == key)
     scale = quantity.scale(ranges(prescription(state)))
     first, last = state.playback.range or (scale.low, scale.high)
-    return Sweep(key, first, last, state.playback.seconds, quantity.write, quantity.read)
+    return SliderSweep(key, first, last, state.playback.seconds, quantity.write, quantity.read)
 
 
 LAMBDAS = {"": 1.0, "λ": 1.0}

@@ -45,7 +45,7 @@ def navigation() -> list[dict[str, object]]:
     lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
     how_to = [
         entry(f"{name}.md")
-        for name in ("import", "lens_files", "export", "measure", "notebook", "plans", "window", "panels")
+        for name in ("import", "lens_files", "export", "measure", "camera", "notebook", "plans", "window", "panels")
     ]
     return [
         {"P2SF Explorer": "index.md"},

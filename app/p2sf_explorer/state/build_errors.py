@@ -1,4 +1,4 @@
-"""What of a built lens is not as it should be, as plain numbers of a state. No Qt in here."""
+"""Manufacturing errors of a lens as plain numbers of a state. Uses no Qt."""
 
 from math import isfinite
 
@@ -11,7 +11,7 @@ BuildError = tuple[Kind, int, int, float]
 A first surface behind the last of the lens is the sensor.
 """
 BuildErrors = tuple[BuildError, ...]
-Compensator = tuple[Kind, int, int]  # kind, first and last surface of what is set at assembly
+Compensator = tuple[Kind, int, int]  # kind, first and last surface of a compensator
 MOST_ERRORS, MOST_SURFACES = 1000, 1000
 KINDS: tuple[Kind, ...] = tuple(UNITS)
 # Beyond these no lens could be called built; a sentence about the surface says where less is too much.
@@ -19,14 +19,14 @@ LARGEST: dict[Kind, float] = {
     **dict.fromkeys(("decentre_x", "decentre_y"), 1000.0),
     **dict.fromkeys(("tilt_x", "tilt_y"), 360.0),
     "radius": 99.0,
-    "thickness": 1e5,  # a telescope refocused by metres is one still
+    "thickness": 1e5,  # a telescope refocused by metres is still a telescope
     "index": 1.0,
     **dict.fromkeys(IRREGULAR, 1000.0),
 }
 
 
 def check_errors(found: object) -> None:
-    """Raise P2SFError for what are no errors of a build."""
+    """Raise P2SFError for invalid manufacturing errors."""
     if not isinstance(found, tuple) or len(found) > MOST_ERRORS:
         raise P2SFError(
             "errors is {value}; give a list of kind, first and last surface, and amount", value=f"{found!r:.60}"
@@ -63,18 +63,18 @@ def _check(found: object) -> None:
 
 
 def amount_of(errors: BuildErrors, kind: Kind, piece: tuple[int, int]) -> float:
-    """Return by how much a number of a piece is off; 0 where it is not."""
+    """Return one error of a piece; 0 if it has none."""
     return next((amount for name, *at, amount in errors if name == kind and (at[0], at[1]) == piece), 0.0)
 
 
 def with_error(errors: BuildErrors, kind: Kind, piece: tuple[int, int], amount: float) -> BuildErrors:
-    """Return the errors with one of a piece set, 0 for none; in one order, so that equal ones are equal."""
+    """Return the errors with one of a piece set, 0 for none; in a fixed order, so that equal sets compare equal."""
     kept = [one for one in errors if one[:3] != (kind, *piece)]
     return order_errors((*kept, (kind, *piece, amount)) if amount else kept)
 
 
 def without_piece(errors: BuildErrors, piece: tuple[int, int]) -> BuildErrors:
-    """Return the errors without those of a piece, nor of the surfaces, thicknesses and glasses in it."""
+    """Return the errors without those of a piece and of the surfaces, thicknesses and glasses in it."""
     first, last = piece
 
     def of_it(kind: Kind, low: int, high: int) -> bool:
@@ -89,9 +89,9 @@ def order_errors(errors: list[BuildError] | BuildErrors) -> BuildErrors:
 
 
 def renumber(errors: BuildErrors, at: int, by: int) -> BuildErrors:
-    """Return the errors after a surface was put in behind surface ``at`` (``by`` 1), or surface ``at`` deleted (−1).
+    """Return the errors after a surface was inserted behind surface ``at`` (``by`` 1) or surface ``at`` deleted (−1).
 
-    Errors of a deleted surface alone are dropped.
+    Errors of only the deleted surface are dropped.
     """
     if by > 0:
         return tuple((k, a + (a > at), b + (b > at), x) for k, a, b, x in errors)

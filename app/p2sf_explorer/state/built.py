@@ -1,4 +1,4 @@
-"""The lens with the errors of its build: pieces tilted and decentred, surfaces, thicknesses, indices off. No Qt."""
+"""The perturbed lens: tilted and decentred pieces, errors of surfaces, thicknesses and indices. Uses no Qt."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -8,7 +8,7 @@ from p2sf.glass.media import AIR
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.bending import elements
-from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Kind, Tolerance, build, works
+from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Kind, Tolerance, affects_light, build
 from p2sf_explorer.state.build_errors import BuildErrors
 
 STEEPEST_DEG = 60.0  # to which an exaggerated drawing tilts
@@ -16,10 +16,10 @@ STEEPEST_DEG = 60.0  # to which an exaggerated drawing tilts
 
 @lru_cache(maxsize=64)
 def with_errors(lens: Lens, errors: BuildErrors) -> Lens:
-    """Return the lens with the errors of a build; GeometryError, naming the surface, for one that cannot be.
+    """Return the lens with manufacturing errors; GeometryError, naming the surface, for an impossible one.
 
-    Errors at surfaces that the lens does not have are passed over: a state may be of an earlier lens in the same file.
-    A built lens has no rings to turn any more: its errors belong to where these stand.
+    Errors at surfaces that the lens does not have are ignored: the state may refer to an earlier lens in the same file.
+    The rings of a built lens cannot be turned any more: its errors belong to their present position.
     """
     count = len(lens.surfaces)
     found = [one for one in errors if one[2] <= count or one[1] == one[2] == count + 1]
@@ -44,9 +44,9 @@ def _check_thicknesses(lens: Lens, errors: dict[int, float]) -> None:
 
 
 def exaggerate(errors: BuildErrors, factor: int) -> tuple[BuildErrors, int]:
-    """Return tilts and decentres enlarged by a factor, which is smaller where it would tilt too far, and that factor.
+    """Return tilts and decentres enlarged by a factor, reduced if it would tilt too far, and that factor.
 
-    What is not a tilt or decentre stays as it is.
+    Other errors are unchanged.
     """
     steepest = max((abs(amount) for kind, *_, amount in errors if kind.startswith("tilt")), default=0.0)
     used = max(1, min(factor, int(STEEPEST_DEG / steepest))) if steepest else factor
@@ -56,7 +56,7 @@ def exaggerate(errors: BuildErrors, factor: int) -> tuple[BuildErrors, int]:
 
 @dataclass(frozen=True)
 class Piece:
-    """What is moved as one: its first and last surface, from 1, and what it is called."""
+    """A piece that moves as one: its first and last surface, from 1, and its name."""
 
     span: tuple[int, int]
     name: Message
@@ -64,9 +64,9 @@ class Piece:
 
 @lru_cache(maxsize=16)
 def pieces(lens: Lens) -> tuple[Piece, ...]:
-    """Return what may be moved as one: elements, groups before and behind the stop, all of the lens, the sensor.
+    """Return the pieces that may move as one: elements, groups before and behind the stop, the whole lens, the sensor.
 
-    Cemented elements are one; a mirror, and a surface that bounds no element in air, stand alone.
+    Cemented elements are one; a mirror, and a surface that bounds no element in air, is a piece by itself.
     """
     single = _elements(lens)
     found = [Piece(span, _element_name(number, span)) for number, span in enumerate(single, 1)]
@@ -87,7 +87,7 @@ def _elements(lens: Lens) -> tuple[tuple[int, int], ...]:
     spans = list(elements(lens))
     inside = {number for first, last in spans for number in range(first, last + 1)}
     for number in range(1, len(lens.surfaces) + 1):
-        if works(lens, number) and number not in inside:
+        if affects_light(lens, number) and number not in inside:
             spans.append((number, number))
     return tuple(sorted(spans))
 
@@ -104,7 +104,7 @@ def _span(group: list[tuple[int, int]]) -> Message:
 
 @dataclass(frozen=True)
 class Adjustment:
-    """One number of a piece that may be off: its kind, the surfaces that it is of, and how far a slider goes."""
+    """One possible error of a piece: its kind, its surfaces, and the range of its slider."""
 
     kind: Kind
     span: tuple[int, int]
@@ -112,7 +112,7 @@ class Adjustment:
 
     @property
     def key(self) -> tuple[str, int, int]:
-        """Return what tells it from all others."""
+        """Return its unique key."""
         return self.kind, *self.span
 
 
@@ -130,7 +130,7 @@ SENSOR_REACH_DEG = 10.0  # a sensor is tilted on purpose, too
 
 @lru_cache(maxsize=64)
 def adjustments(lens: Lens, span: tuple[int, int]) -> tuple[Adjustment, ...]:
-    """Return what of a piece may be off: its place as a whole, then its radii, thicknesses, glasses and surfaces."""
+    """Return the possible errors of a piece: its position as a whole, then radii, thicknesses, glasses and surfaces."""
     count = len(lens.surfaces)
     if span[0] > count:
         return tuple(Adjustment(kind, span, SENSOR_REACH_DEG) for kind in ("tilt_x", "tilt_y"))
@@ -143,6 +143,6 @@ def adjustments(lens: Lens, span: tuple[int, int]) -> tuple[Adjustment, ...]:
             found.append(Adjustment("thickness", one, REACH["thickness"]))
         if not surface.reflects and surface.medium != AIR and number < count:
             found.append(Adjustment("index", one, REACH["index"]))
-        if works(lens, number) and not surface.ideal:
+        if affects_light(lens, number) and not surface.ideal:
             found += [Adjustment(kind, one, REACH[kind]) for kind in IRREGULAR]
     return tuple(found)

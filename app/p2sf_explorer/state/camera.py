@@ -1,4 +1,4 @@
-"""Where a 3D scene is seen from. No Qt and no pyvista in here."""
+"""The viewpoint of a 3D scene. Uses neither Qt nor pyvista."""
 
 from dataclasses import dataclass, replace
 

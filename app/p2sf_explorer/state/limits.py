@@ -1,11 +1,10 @@
-"""What the entries of a State may be: choices, ranges, kinds. No Qt in here."""
-
-from math import inf
+"""Allowed values of the entries of a State: choices, ranges, kinds. Uses no Qt."""
 
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
-from p2sf.parameters import OF_THE_CAMERA, OF_THE_MASK, OF_THE_SOURCE, PARAMETERS
+from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
 from p2sf.psf.methods import AUTO, METHODS
+from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.zernike_terms import ORDERS
 from p2sf.tolerance.criteria import CRITERIA
 from p2sf.tolerance.errors_of_build import GRADES
@@ -41,7 +40,7 @@ CHOICES = {
     "curves_of": ("fields", "colours", "field", "focus", "lateral", "distortion", "illumination"),
 }
 MOST_LISTED = 5  # values of a list
-# The smallest and the largest value that make sense, and the name and unit of the quantity in a sentence.
+# The smallest and the largest meaningful value, and the name and unit of the quantity in a sentence.
 RANGES: dict[str, tuple[float, float, Message, str]] = {
     **{each.name: (*each.typed, each.words, each.unit) for each in PARAMETERS.values() if each.typed and each.words},
     "tolerance": (0.0, 1.0, Message("tolerance R²"), ""),
@@ -69,7 +68,7 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "camera_surface_turn_deg": (-360.0, 360.0, Message("turn of the wavefront's surface"), "°"),
     "camera_surface_tilt_deg": (0.0, 90.0, Message("tilt of the wavefront's surface"), "°"),
 }
-# Entries that are lists of values, and the quantity in RANGES of each.
+# Entries that are lists of values, and the quantity of each in RANGES.
 LISTED = {
     "matrix_fields_deg": "field_deg",
     "matrix_wavelengths_nm": "wavelength_nm",
@@ -78,16 +77,16 @@ LISTED = {
     "curves_frequencies_per_mm": "frequency_per_mm",
 }
 MOST_WAVES = 1000.0
-MASK = tuple(each.name for each in OF_THE_MASK if each.typed)
+MASK = tuple(each.name for each in MASK_PARAMETERS if each.typed)
 """Entries named as the fields of `p2sf.pupil.mask.PupilMask`; None: as the lens file has it."""
 # Whole numbers are those whose range is stated in whole numbers.
-COUNTS = tuple(each.name for each in OF_THE_MASK if each.typed and isinstance(each.typed[0], int))
+COUNTS = tuple(each.name for each in MASK_PARAMETERS if each.typed and isinstance(each.typed[0], int))
 SMOOTH_MASK = tuple(name for name in MASK if name not in COUNTS)
-CLEAR_PUPIL = {"obscuration": 0.0, "blades": 0, "vanes": 0, "apodisation": inf, "cubic_um": 0.0}
+CLEAR_PUPIL = {each.name: getattr(CLEAR, each.name) for each in MASK_PARAMETERS if each.typed and not each.needs}
 RINGS = ("zoom", "focus_position")
 """Where the rings of a lens stand that zooms or focuses inside; None: where the file begins."""
-# The source and the camera, but for the rings and what stands in the stop.
-SET = tuple(each.name for each in (*OF_THE_SOURCE, *OF_THE_CAMERA) if each.typed and each.name not in RINGS)
+# The source and the camera without rings and pupil mask.
+SET = tuple(each.name for each in (*SOURCE_PARAMETERS, *CAMERA_PARAMETERS) if each.typed and each.name not in RINGS)
 DRAGGED = (*SET, *RINGS, *SMOOTH_MASK)
 SLIDERS = (*DRAGGED, *COUNTS)
 LINKABLE = (*SLIDERS, "method", "added_waves", "errors")

@@ -1,4 +1,4 @@
-"""A state as one line of text that a person can paste anywhere: ``p2sf:`` and URL-safe letters. No Qt in here."""
+"""A state as one line of text that a user can paste anywhere: ``p2sf:`` and URL-safe letters. Uses no Qt."""
 
 import binascii
 import json
@@ -12,11 +12,11 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.state.state_files import VERSION, check_version, state_from_dict, state_to_dict
 
 PREFIX = "p2sf:"
-LARGEST = 4_000_000  # bytes of JSON: a state with two edited lenses is a hundredth of it
+LARGEST = 4_000_000  # bytes of JSON: a state with two edited lenses needs a hundredth of it
 
 
 def is_link(text: str) -> bool:
-    """Return whether a text says that it is a link."""
+    """Return whether a text starts as a link."""
     return text.strip().startswith(PREFIX)
 
 
@@ -30,7 +30,7 @@ def link(state: State) -> str:
 
 
 def state_of_link(text: str) -> State:
-    """Return the state of a link; P2SFError when it is cut off, changed, or of another version."""
+    """Return the state of a link; P2SFError if it is truncated, changed, or of another version."""
     letters = "".join(text.split()).removeprefix(PREFIX)
     try:
         packed = urlsafe_b64decode(letters + "=" * (-len(letters) % 4))

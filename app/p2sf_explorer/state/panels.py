@@ -1,4 +1,4 @@
-"""The list of panels: all that the window knows of each stands in its entry here. No Qt in here."""
+"""The list of panels, with one entry that describes each panel completely. Uses no Qt."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -329,5 +329,5 @@ def view_of(entry: PanelEntry) -> Callable[[Any], object] | None:
 
 
 def difference_of(entry: PanelEntry) -> Callable[[Any, Any], Any] | Message | None:
-    """Return what subtracts two views of a panel, or why nothing does; None where the answers hold its difference."""
+    """Return what subtracts two views of a panel, or why nothing does; None if results have the difference."""
     return resolve(entry.minus) if entry.minus and isinstance(entry.minus, str) else entry.minus or None

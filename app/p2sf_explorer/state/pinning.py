@@ -1,4 +1,4 @@
-"""The setup B that a person has pinned to compare with: pin, unpin, swap, link. No Qt in here."""
+"""The setup B that a user has pinned for comparison: pin, unpin, swap, link. Uses no Qt."""
 
 from dataclasses import replace
 from typing import Any
@@ -6,12 +6,12 @@ from typing import Any
 from p2sf_explorer.state.limits import LINKABLE
 from p2sf_explorer.state.state import ENTRIES, Compare, State, change
 
-# The entries that determine the picture; the others say how it is displayed, the same way for A and for B.
+# The entries that determine the picture; the others determine its display, which A and B share.
 OPTICS = tuple(name for name, (group, _) in ENTRIES.items() if group in ("optics", "what_if"))
 
 
 def optics(state: State) -> State:
-    """Return what determines the picture of a state; everything else as at first."""
+    """Return the entries that determine the picture of a state; all others have their defaults."""
     return State(optics=state.optics, what_if=state.what_if)
 
 
@@ -26,7 +26,7 @@ def unpin(state: State) -> State:
 
 
 def swap(state: State) -> State:
-    """Return the state with A and B exchanged, so that the controls move the other one."""
+    """Return the state with A and B exchanged, so that the controls act on the other one."""
     b = state.compare.pinned or state
     return change(replace(state, optics=b.optics, what_if=b.what_if), pinned=optics(state))
 

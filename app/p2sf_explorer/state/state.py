@@ -1,7 +1,7 @@
-"""Everything the window shows, as one frozen value in groups. No Qt in here.
+"""The complete state of the window as one frozen value in groups. Uses no Qt.
 
-Every entry has one name, from slider to lesson: that of its field, with the group in front where the field alone would
-not tell (`ENTRIES`). `change` and `new_state` take entries by these names; `state_files` reads and writes states.
+Every entry has one name, from slider to lesson: that of its field, with the group as a prefix if the field alone is
+ambiguous (`ENTRIES`). `change` and `new_state` take entries by these names; `state_files` reads and writes states.
 """
 
 from dataclasses import dataclass, field, fields, replace
@@ -44,7 +44,7 @@ _NAMES: dict[type, dict[str, str]] = {}
 
 
 def _entry_names(group: type[Any]) -> dict[str, str]:
-    """Return the entries that a group holds, field → entry; found once, since every frame checks a group."""
+    """Return the entries of a group, field → entry; cached, since every frame checks a group."""
     if group not in _NAMES:
         _NAMES[group] = {part.name: getattr(group, "PREFIX", "") + part.name for part in fields(group)}
     return _NAMES[group]
@@ -111,14 +111,14 @@ def _quote(value: object) -> object:
 
 @dataclass(frozen=True)
 class Optics:
-    """The lens, how it is set, the source, and the method; with `WhatIf` all that makes the picture.
+    """The lens, its settings, the source, and the method; together with `WhatIf` they determine the picture.
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while the lens is as ``lens`` names it.
-    ``focus_mm``, ``f_number`` and what stands in the stop, ``obscuration`` to ``cubic_um`` as in `PupilMask`, are None
-    where the lens file's value holds. ``aim`` is that of `p2sf.lens.lens.Lens`. ``zoom`` and ``focus_position`` are
-    places on the rings of a lens that has them, None where its file begins; with ``focus_mm`` that ring follows.
-    ``field_deg`` is the field along y and ``field_x_deg`` that along x. ``errors`` is what of the lens is not as it
-    should be (`p2sf_explorer.state.build_errors`), on top of what its file or an edit has.
+    ``focus_mm``, ``f_number`` and the pupil mask, ``obscuration`` to ``cubic_um`` as in `PupilMask`, are None for the
+    value of the lens file. ``aim`` is that of `p2sf.lens.lens.Lens`. ``zoom`` and ``focus_position`` are positions on
+    the rings of a lens that has them, None for the first column of its file; with ``focus_mm`` the focus ring follows.
+    ``field_deg`` is the field along y and ``field_x_deg`` that along x. ``errors`` are manufacturing errors
+    (`p2sf_explorer.state.build_errors`), in addition to those of its file or an edit.
     """
 
     lens: str = "double_gauss_28"
@@ -168,7 +168,7 @@ class Optics:
 
     @property
     def mask(self) -> dict[str, Any]:
-        """Return what of the mask in the stop is not as the lens file has it, by its field of `PupilMask`."""
+        """Return the entries of the pupil mask that differ from the lens file, by field of `PupilMask`."""
         return {name: value for name in MASK if (value := getattr(self, name)) is not None}
 
 
@@ -207,9 +207,20 @@ class WhatIf:
             _check_names(getattr(self, name), name, TERMS)
 
 
+CAPTION = (
+    "lens",
+    "field",
+    "depth",
+    "f_number",
+    "wavelength",
+    "rms",
+    "strehl",
+)  # possible parts of the line above the stage
+
+
 @dataclass(frozen=True)
 class Display:
-    """How the answer is shown.
+    """How results are shown.
 
     The panel ``stage`` is large; those of ``rail`` stand beside it, on ``rail_side``, and after them the tabs, with
     ``tab`` in front. ``stage_share`` is the stage's part of the room, ``rail_shares`` those of the rail's parts, () for
@@ -220,11 +231,11 @@ class Display:
     ``pixel_um`` is the pixel of a sensor, ``blur_um`` the diameter of blur that still counts as sharp, ``spectrum`` the
     light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
     ``colours`` are those of the heat maps.
-    ``show_pupil_shape``: the controls of what stands in the stop are unfolded.
+    ``show_pupil_shape``: whether the controls of the pupil mask are unfolded.
     ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
     what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off". ``exaggerated``: the factor
     by which the drawings enlarge the tilts and decentres of ``errors``; ``show_field_x``: the field along x has a
-    slider also where the lens is symmetric.
+    slider also where the lens is symmetric. ``caption`` names the parts of the line above the stage, of `CAPTION`.
     """
 
     psf_scale: str = "sqrt"
@@ -253,15 +264,14 @@ class Display:
     keep_focus: str = "paraxial"
     exaggerated: int = 1
     show_field_x: bool = False
+    caption: tuple[str, ...] = CAPTION
 
     def __post_init__(self) -> None:
         _check_entries(self)
-        for name in ("windows", "rail"):
+        for name in ("windows", "rail", "caption"):
             found = getattr(self, name)
             if not isinstance(found, list | tuple) or not all(isinstance(panel, str) for panel in found):
-                raise P2SFError(
-                    "the state's {name} must be a list of panels' names; correct it or leave it out", name=name
-                )
+                raise P2SFError("the state's {name} must be a list of names; correct it or leave it out", name=name)
             object.__setattr__(self, name, tuple(found))  # a file has a list
         if not isinstance(self.rail_shares, tuple):
             raise P2SFError("rail_shares is {value}; give a list of numbers", value=_quote(self.rail_shares))

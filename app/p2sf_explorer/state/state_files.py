@@ -1,4 +1,4 @@
-"""States as JSON, there and back, and the states that version 0.1 wrote. No Qt in here."""
+"""Conversion of states to and from JSON, including states written by version 0.1. Uses no Qt."""
 
 import json
 import os
@@ -15,8 +15,8 @@ SCHEMA = "p2sf-explorer-state"
 THE_STATE = Message("the state")
 VERSION = 6
 """1 was one flat table, 2 had no aim, 3 no stage, 4 no mask, rings, tolerances, errors, 5 no choices of panels."""
-BEFORE_AIM = {"optics": {"aim": "paraxial"}}  # what a state means that does not say how rays fill the pupil
-# Entries whose name version 0.1 (VERSION 1, one flat table) had otherwise.
+BEFORE_AIM = {"optics": {"aim": "paraxial"}}  # the aim of a state that states none
+# Entries that had another name in version 0.1 (VERSION 1, one flat table).
 RENAMED = {
     "play": "playback_slider",
     "play_range": "playback_range",
@@ -32,7 +32,7 @@ RENAMED = {
 
 
 def present_name(name: str) -> str:
-    """Return the present name of an entry that version 0.1 knew, or the name itself."""
+    """Return the present name of an entry of version 0.1, or the name itself."""
     return RENAMED.get(name, name)
 
 
@@ -50,18 +50,18 @@ def _plain(value: Any) -> Any:
 
 
 def state_from_dict(values: dict[str, Any], version: int = VERSION) -> State:
-    """Return the state of plain JSON values, defaults for what is absent; P2SFError for anything else.
+    """Return the state of plain JSON values, with defaults for absent entries; P2SFError for anything else.
 
     ``version`` 1 is the flat table of version 0.1. A state without ``aim`` is from before it, and paraxial.
     """
     try:
         return _state(_migrate(values) if version == 1 else values)
-    except RecursionError:  # lists in lists, as deep as JSON was read just so
+    except RecursionError:  # nested lists, as deep as the JSON parser allows
         raise P2SFError("the state's lists are nested too deep; save it again from the explorer") from None
 
 
 def _migrate(values: dict[str, Any]) -> dict[str, Any]:
-    """Return the groups of a flat table of version 0.1; whatever is newer keeps its default."""
+    """Return the groups of a flat table of version 0.1; newer entries keep their defaults."""
     groups: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
         if present_name(name) not in ENTRIES or name in RENAMED.values():
@@ -120,7 +120,7 @@ def state_to_json(state: State, **extra: object) -> str:
 
 
 def state_from_json(text: str, where: str | Message = THE_STATE) -> State:
-    """Return the state of a state file's text; P2SFError says what is wrong and ``where``."""
+    """Return the state of a state file's text; P2SFError states the fault and ``where``."""
     try:
         document = json.loads(text)
     except json.JSONDecodeError as error:
@@ -160,7 +160,7 @@ def check_version(found: object, where: str | Message) -> None:
 
 
 def read_state(path: str | os.PathLike[str]) -> State:
-    """Return the state saved at ``path``; P2SFError when it cannot be read."""
+    """Return the state saved at ``path``; P2SFError if it cannot be read."""
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

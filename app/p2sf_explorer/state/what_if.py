@@ -43,17 +43,17 @@ PRESETS = (
 
 
 def is_altered(state: State) -> bool:
-    """Return whether any coefficient is not the lens's own."""
+    """Return whether any coefficient differs from that of the lens."""
     return state.what_if != WhatIf()
 
 
 def is_heard(state: State, term: str) -> bool:
-    """Return whether a term counts: not muted, and among the solo ones where there are any."""
+    """Return whether a term counts: not muted, and among the solo terms if there are any."""
     return term not in state.what_if.muted and (not state.what_if.solo or term in state.what_if.solo)
 
 
 def alter(own: Coefficients, state: State) -> Coefficients:
-    """Return the coefficients as the state alters the lens's ``own``: own + added where the term counts, else 0."""
+    """Return the altered coefficients of the lens's ``own``: own + added if the term counts, else 0."""
     if not is_altered(state):
         return own
     added = dict(zip(TERMS, state.what_if.added_waves, strict=True))
@@ -63,7 +63,7 @@ def alter(own: Coefficients, state: State) -> Coefficients:
 
 
 def with_added(state: State, term: str, waves: float) -> tuple[float, ...]:
-    """Return the added waves with one term's changed."""
+    """Return the added waves with one term changed."""
     return tuple(waves if name == term else old for name, old in zip(TERMS, state.what_if.added_waves, strict=True))
 
 
@@ -73,7 +73,7 @@ def toggle(names: tuple[str, ...], term: str) -> tuple[str, ...]:
 
 
 def alterations(state: State) -> tuple[Message, ...]:
-    """Return what is altered by hand, one short message each, in the order of a reader's interest."""
+    """Return the manual changes, one short message each, the most relevant first."""
     made = state.what_if
     added = zip(TERMS, made.added_waves, strict=True)
     return (
@@ -95,7 +95,7 @@ def of_preset(preset: Preset) -> dict[str, Any]:
 
 
 def check_focusable(state: State) -> None:
-    """Raise GeometryError where moving the sensor does not change the wavefront: Wd is not the lens's own."""
+    """Raise GeometryError if moving the sensor does not change the wavefront, since Wd is not that of the lens."""
     if state.what_if.free_pupil or not is_heard(state, "wd"):
         raise GeometryError(
             "{why}, so moving the sensor does not focus; set Wd by its slider, or reset the what-if",

@@ -1,4 +1,4 @@
-"""Where panels stand: the workspaces by name, and how a panel moves. No Qt in here.
+"""The layout of panels: named workspaces, and moving a panel. Uses no Qt.
 
 A panel has one place: the stage, the rail beside it, or the tabs that end the rail, whatever windows of their own there
 are. Functions that move a panel return the changed entries of the state, for `Store.update`.
@@ -37,7 +37,7 @@ WORKSPACES = {
 
 
 def arrangement(display: Display) -> Workspace:
-    """Return where everything stands."""
+    """Return the positions of all panels."""
     return Workspace(**{part.name: getattr(display, part.name) for part in fields(Workspace)})
 
 
@@ -47,7 +47,7 @@ def with_workspace(state: State, name: str, workspace: Workspace) -> State:
 
 
 def place_panels(display: Display, panels: Sequence[str]) -> Display:
-    """Return the display with each of the known ``panels`` in one place at most; a file may say anything."""
+    """Return the display with each of the known ``panels`` at most once, whatever a file states."""
     stage = display.stage if display.stage in panels else FIRST.stage
     rail = tuple(key for key in dict.fromkeys(display.rail) if key in panels and key != stage)
     free = [key for key in (display.tab, FIRST.tab, *panels) if key in panels and key not in (stage, *rail)]
@@ -80,19 +80,19 @@ def exchange(display: Display, panel: str, other: str) -> dict[str, Any]:
 
 
 def on_stage(display: Display, panel: str) -> dict[str, Any]:
-    """Return the changes by which a panel takes the stage."""
+    """Return the changes that move a panel to the stage."""
     return exchange(display, panel, display.stage)
 
 
 def kept_in_rail(display: Display, panel: str) -> dict[str, Any]:
-    """Return the changes by which a panel of the tabs stands in the rail beside the others."""
+    """Return the changes that move a panel from the tabs to the rail."""
     if panel in (display.stage, *display.rail):
         return {}
     return {"rail": (*display.rail, panel), "rail_shares": (), "show_rail": True}
 
 
 def put_to_tabs(display: Display, panel: str) -> dict[str, Any]:
-    """Return the changes by which a panel of the rail goes to the front of the tabs."""
+    """Return the changes that move a panel from the rail to the front of the tabs."""
     if panel not in display.rail:
         return {}
     return {"rail": tuple(key for key in display.rail if key != panel), "rail_shares": (), "tab": panel}

@@ -53,6 +53,7 @@ PANEL_MIME = "application/x-p2sf-panel"  # of a panel's key while its title is d
 TALLEST = 200  # pixels at scale 1: a panel that needs more than this is cut, or scrolls, where there is less
 READOUT_LINES = 2  # at most, where it stands below the title
 DRAGGED_PX = 240  # width of the small picture under the pointer
+WIDEST_SIDE = " · A − B"
 TO_STAGE = "Put this panel on the stage (double-click its title, or drag it there)"
 APART = "Open this panel in its own window, or put it back (Ctrl+D)"
 
@@ -185,7 +186,8 @@ class Card(QFrame):
     def _fit_head(self) -> None:
         """Put tools, and then the readout, on lines of their own where they do not fit beside the title."""
         gap = self.head.spacing()
-        room = self._title_room() - self.corner.sizeHint().width() - self.title.sizeHint().width() - 2 * gap
+        title = self.title.fontMetrics().horizontalAdvance(f"{self._title}{WIDEST_SIDE}")  # tools stay with any side
+        room = self._title_room() - self.corner.sizeHint().width() - title - 2 * gap
         self._fitted = tools = self._tools_px()
         fits = tools <= room
         for tool in self.tools:

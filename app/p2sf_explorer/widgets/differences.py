@@ -11,9 +11,17 @@ SMALLEST = 1e-6  # of the peak; pictures that differ by less are equal
 
 
 def show_signed(
-    heat: HeatMap, values: np.ndarray, rect: tuple[float, float, float, float], scale: str, unit: str
+    heat: HeatMap,
+    values: np.ndarray,
+    rect: tuple[float, float, float, float],
+    scale: str,
+    unit: str,
+    painted: np.ndarray | None = None,
 ) -> None:
-    """Show a map of differences about zero over (x, y, width, height), linear or by their signed square root."""
+    """Show a map of differences about zero over (x, y, width, height), linear or by their signed square root.
+
+    ``painted``: the same map on finer samples, as it is coloured.
+    """
     top = max(SMALLEST, float(np.nanmax(np.abs(values), initial=0.0)))
     scale_shown = ColourScale(
         DIFFERENCE_MAP,
@@ -26,7 +34,7 @@ def show_signed(
         steady=True,
         grounded=True,
     )
-    heat.show_map(values, rect, scale_shown)
+    heat.show_map(values, rect, scale_shown, painted)
 
 
 def signed_range(live: Live, curves: dict[str, np.ndarray], usual: tuple[float, float]) -> tuple[float, float]:

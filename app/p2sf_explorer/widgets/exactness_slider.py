@@ -6,6 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QHideEvent, QPaintEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from p2sf.metrics.bounds import mtf_error, r80_sensitivity
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method_bounds import (
@@ -13,8 +14,6 @@ from p2sf_explorer.compute.method_bounds import (
     EXACTEST,
     PredictedCost,
     costs,
-    mtf_error,
-    r80_sensitivity,
     within,
 )
 from p2sf_explorer.compute.trade import TradeCurve, curves, trade_of, typical_costs

@@ -11,6 +11,8 @@ from p2sf.conventions import centred_axis
 from p2sf_explorer.charts.chart import image_of
 from p2sf_explorer.charts.plots import BRIGHTNESS, as_indices, colour_map_name, lookup
 from p2sf_explorer.charts.reading import Reading, Samples, split_label, value_of, worded_both
+from p2sf_explorer.compute.brightness import stretch
+from p2sf_explorer.compute.finer import smooth
 from p2sf_explorer.widgets.chart_card import NotedChart
 
 LOCAL = ("x, µm", "y, µm")
@@ -25,11 +27,16 @@ class Tile:
     y: float
 
 
-def tile(values: np.ndarray, x: float, y: float, low: float = 0.0) -> Tile | None:
-    """Return brightness ``low`` to 1, rows +y, as a tile; None where all is NaN."""
-    if np.isnan(values).all():
+def tile(values: np.ndarray, x: float, y: float, scale: str, low: float = 0.0) -> Tile | None:
+    """Return light ``low`` to 1, rows +y, on a brightness scale as a smooth tile; None where some is NaN.
+
+    Where ``low`` is negative, differences are shown about zero.
+    """
+    if np.isnan(values).any():
         return None
-    return Tile(as_indices(values.astype(float), low, 1.0)[::-1], x, y)
+    light = smooth(values)
+    bright = stretch(light, scale) if low == 0 else np.sign(light) * stretch(np.abs(light), scale)
+    return Tile(as_indices(bright, low, 1.0)[::-1], x, y)
 
 
 class TilesChart(NotedChart):

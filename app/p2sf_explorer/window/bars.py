@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, Q
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf.psf.methods import AUTO, METHODS
 from p2sf_explorer.charts.painting import width_of
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
@@ -27,16 +28,10 @@ from p2sf_explorer.window.lens_chooser import LensChooser
 from p2sf_explorer.window.no_answer import UNKNOWN
 from p2sf_explorer.window.workspace_bar import WorkspaceBar
 
-METHOD_WORDS = {
-    "auto": "auto",
-    "seidel": "seidel: six coefficients",
-    "fitted": "fitted: polynomial from real rays",
-    "traced": "traced: exact wavefront",
-    "huygens": "huygens: the reference sum",
-}
 GAP = 6  # pixels at scale 1 between two parts of the bar
 FACTS_PX, SHORT_FACTS_PX = 490, 230  # widths of the figures at the right of the status line, at scale 1
 MARGINS_PX = 16  # about both parts of the status line and between them
+METHOD_WORDS = {AUTO: AUTO} | {method.name: str(method.words) for method in METHODS if method.name in CHOICES["method"]}
 METHOD_TIP = (
     "Method: what describes the PSF. auto takes the cheapest method whose predicted R² against Huygens is good enough."
 )
@@ -65,7 +60,7 @@ class TopBar(QFrame):
         self.edited = QLabel(tr("edited"), self)
         self.edited.setObjectName("badge")
         self.edited.setToolTip(tr("The lens differs from its file; save it from the lens table (Ctrl+Shift+S)"))
-        self.method = combo_of({name: METHOD_WORDS.get(name, name) for name in CHOICES["method"]}, METHOD_TIP, self)
+        self.method = combo_of(METHOD_WORDS, METHOD_TIP, self)
         self.tolerance = ExactnessButton(store, self)
         self.method.setObjectName("")
         self.named = QLabel(tr("Method"), self)

@@ -15,7 +15,7 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compare.contrasts import AIM_WORDS
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.quantities import FIELD_X, OF_THE_LENS, OF_THE_SOURCE
+from p2sf_explorer.compute.quantities import FIELD_X, RING_QUANTITIES, SOURCE_QUANTITIES
 from p2sf_explorer.compute.setup import Ranges, state_ranges
 from p2sf_explorer.compute.views.first_order import OF_A, ring_note, rows
 from p2sf_explorer.i18n.messages import WINDOW, said
@@ -91,7 +91,7 @@ def asked(state: State, limits: Ranges) -> bool:
     return limits.both_sides or state.display.show_field_x or bool(state.optics.field_x_deg)
 
 
-ABOVE = (*OF_THE_LENS, *OF_THE_SOURCE)  # the pupil's shape
+ABOVE = (*RING_QUANTITIES, *SOURCE_QUANTITIES)  # the pupil's shape
 WIDTH = 292  # pixels of the column at scale 1
 
 
@@ -181,7 +181,7 @@ class Controls(QWidget):
         image = float(live.setup.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=with_sign(height, 2))
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=with_sign(image, 3)))
-        for quantity in OF_THE_LENS:
+        for quantity in RING_QUANTITIES:
             self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
         apart = live.state.compare.shown != "a"  # B or A − B is on screen, and this column stays A's
         dominant = said(live.dominant)

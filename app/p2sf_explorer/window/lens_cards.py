@@ -62,7 +62,7 @@ def facts(lens: Lens) -> str:
     wavelength = lens.reference_wavelength_um
     focal = float(cardinal_points(lens, wavelength).effective_focal_length)
     speed = float(f_number(lens, wavelength))
-    widest = max(abs(angle) for angle in lens.fields_deg)
+    widest = lens.widest_field_deg
     parts = [f"f′ {significant(focal, 3)} mm" if isfinite(focal) else "afocal"]
     if isfinite(speed):
         parts.append(f"f/{speed:.2g}")

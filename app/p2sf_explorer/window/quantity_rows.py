@@ -1,14 +1,13 @@
 """A row for each quantity, a name, an editable number and a slider, and the rows of what stands in the stop."""
 
-from math import inf
-
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
+from p2sf.parameters import PARAMETERS
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf_explorer.charts.theme import SPACE, Tokens
-from p2sf_explorer.compute.quantities import FIELD, OF_THE_MASK, WAVELENGTH, Quantity, Scale, visible_colour
+from p2sf_explorer.compute.quantities import FIELD, MASK_QUANTITIES, WAVELENGTH, Quantity, Scale, visible_colour
 from p2sf_explorer.compute.setup import Ranges, default_state, prescription, with_state_mask
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import COUNTS, MASK
@@ -192,7 +191,7 @@ class PupilShape(QWidget):
         self.reset.setObjectName("small")
         self.reset.setToolTip(tr(AS_FILE_TIP))
         self.reset.clicked.connect(lambda: store.update(**dict.fromkeys(MASK)))
-        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in OF_THE_MASK}
+        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in MASK_QUANTITIES}
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -249,7 +248,5 @@ def parts_of(mask: PupilMask) -> list[str]:
 
 def wanted_rows(mask: PupilMask) -> tuple[str, ...]:
     """Return the rows that can change something: a roundness needs blades, a width vanes."""
-    blades = ("roundness", "blade_angle_deg") if mask.blades else ()
-    vanes = ("vane_width", "vane_angle_deg") if mask.vanes else ()
-    power = ("apodisation_power",) if mask.apodisation < inf else ()
-    return "obscuration", "blades", *blades, "vanes", *vanes, "apodisation", *power, "cubic_um"
+    needs = {name: PARAMETERS[name].needs for name in MASK}
+    return tuple(name for name, other in needs.items() if not other or getattr(mask, other) != getattr(CLEAR, other))

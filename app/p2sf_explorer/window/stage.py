@@ -25,14 +25,19 @@ class PanelPlace(QFrame):
         super().__init__(parent)
         self.setObjectName("place")
         self.setAcceptDrops(True)
-        column = QVBoxLayout(self)
+        self.column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
         self.note = QLabel(tr("This panel stands in its own window; close that window to have it back here."), self)
         self.note.setObjectName("muted")
         self.note.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.note.setWordWrap(True)  # so that it fits a narrow place
         self.note.hide()
         column.addWidget(self.note)
+
+    def put_above(self, widget: QWidget) -> None:
+        """Have a widget above the panel."""
+        self.column.insertWidget(0, widget)
 
     def show_note(self, shown: bool) -> None:
         """Say, or no longer say, where the panel is."""

@@ -70,12 +70,22 @@ class View(QObject):
 
 def stops(part: QWidget) -> list[QWidget]:
     """Return the widgets of a part at which Tab stops: in a bar from left to right, else in Qt's own order."""
-    found, at = [], part.nextInFocusChain()
-    while at is not None and at is not part:
-        able = at.focusPolicy() & Qt.FocusPolicy.TabFocus and not at.focusProxy()
-        if able and at.isEnabled() and at.isVisibleTo(part) and part.isAncestorOf(at):
-            found.append(at)
-        at = at.nextInFocusChain()
+    return _stops_within(part, _focus_ring(part))
+
+
+def _focus_ring(first: QWidget) -> list[QWidget]:
+    """Return a widget and those that follow it in Qt's own order, which is a ring."""
+    ring = [first]
+    while (after := ring[-1].nextInFocusChain()) is not None and after is not first:
+        ring.append(after)
+    return ring
+
+
+def _stops_within(part: QWidget, ring: list[QWidget]) -> list[QWidget]:
+    at = ring.index(part)
+    inside = [each for each in (*ring[at + 1 :], *ring[:at]) if part.isAncestorOf(each) and each.isVisibleTo(part)]
+    able = [each for each in inside if each.focusPolicy() & Qt.FocusPolicy.TabFocus and not each.focusProxy()]
+    found = [each for each in able if each.isEnabled()]
     return sorted(found, key=lambda each: each.mapTo(part, QPoint()).x()) if part.objectName() == BAR else found
 
 
@@ -85,8 +95,10 @@ def next_stop(window: QWidget, parts: Iterable[QWidget], focused: QWidget | None
     Qt's own order cannot be kept up while panels move: `QWidget.setTabOrder` breaks the ring that it is at widgets
     which lend their focus to a parent, such as the viewport of a scroll area.
     """
-    inside = [stop for part in parts if part.isVisible() for stop in stops(part)]
-    every = list(dict.fromkeys((*inside, *stops(window))))
+    ring = _focus_ring(window)
+    shown = (part for part in (*parts, window) if part.isVisible())
+    found = (_stops_within(part, ring) if part in ring else stops(part) for part in shown)  # some in other windows
+    every = list(dict.fromkeys(stop for each in found for stop in each))
     if focused not in every:
         return None
     return every[(every.index(focused) + step) % len(every)]

@@ -19,12 +19,13 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
+from p2sf.lens.lens import message_if_misaligned
 from p2sf.messages import Message
-from p2sf.paraxial.lens_checks import unless_symmetric
 from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, stylesheet, tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.live import Live, Refused
 from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
 from p2sf_explorer.files.file_watcher import FileWatcher
@@ -45,6 +46,7 @@ from p2sf_explorer.store.deferred import DeferredWorker
 from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
+from p2sf_explorer.widgets.caption import Caption
 from p2sf_explorer.widgets.copying import card_in_hand
 from p2sf_explorer.widgets.drop import DropFrame, dropped_path, is_photo
 from p2sf_explorer.widgets.roles import install_roles
@@ -52,6 +54,7 @@ from p2sf_explorer.window.bars import Banner, StatusLine, TopBar
 from p2sf_explorer.window.commands.actions import Actions, PanelAccess
 from p2sf_explorer.window.commands.sharing import Sharing
 from p2sf_explorer.window.controls import WIDTH, Controls
+from p2sf_explorer.window.edge import StageEdge
 from p2sf_explorer.window.floating_panels import FloatingPanels, Home
 from p2sf_explorer.window.memory_trim import MemoryTrim
 from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
@@ -103,6 +106,8 @@ class MainWindow(QMainWindow):
         self.top, self.controls = TopBar(self.store, self), Controls(self.store, self)
         self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(REGISTRY, self)
         self.room = PanelRoom(self.tabs, self)
+        self.caption = Caption(self.room.stage)
+        self.room.stage.put_above(self.caption)
         self.floating = FloatingPanels(self, self.store, {entry.key: entry.title for entry in REGISTRY})
         self.compare = CompareBar(self, self.store)
         filming = Filming(self.store, self.refresh, self.is_busy, self._pause_accuracy, self)
@@ -155,6 +160,7 @@ class MainWindow(QMainWindow):
         self.tabs.dropped.connect(lambda key: self._exchange(key, self.display.tab))
         self.room.dropped.connect(lambda key, number: self._exchange(key, self._places()[number]))
         self.room.resized.connect(lambda entries: self.store.update(**entries))
+        self.caption.chosen.connect(lambda names: self.store.update(caption=names))
         self.tabs.currentChanged.connect(self._on_tab)
         self.tabs.chosen.connect(self.open_panel)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_scheme)
@@ -172,8 +178,6 @@ class MainWindow(QMainWindow):
         self._middle = middle
         self._right = right = QVBoxLayout()
         right.setSpacing(SPACE)
-        right.addWidget(self.compare)
-        right.addWidget(self.play)
         right.addWidget(self.room, 1)
         middle.addLayout(right, 1)
         body = QWidget(self)
@@ -182,9 +186,9 @@ class MainWindow(QMainWindow):
         self.column.setContentsMargins(SPACE, SPACE, SPACE, SPACE // 2)
         self.column.setSpacing(SPACE)
         self.column.addWidget(self.top)
-        self.column.addWidget(self.banner)
         self.column.addLayout(middle, 1)
         self.column.addWidget(self.status)
+        self.edge = StageEdge(self.room.stage, (self.banner, self.compare, self.play), body)
         self.setCentralWidget(body)
         self.resize(*FIRST_SIZE)
 
@@ -213,6 +217,7 @@ class MainWindow(QMainWindow):
         self.top.show_state(state, self._theme)
         self.top.tolerance.show_live(live)
         self.controls.show_live(self._answers.a)
+        self.caption.show_parts(caption(live), state.display.caption, live.quality == "preview")
         for key in self._visible():
             paint(self.panels[key], key, live)
         self.status.show_live(live, self.frame_ms)
@@ -401,6 +406,7 @@ class MainWindow(QMainWindow):
         on = self.presentation.on
         larger = replace(self._theme, scale=LARGER * self._theme.scale)
         self.room.stage.setStyleSheet(stylesheet(larger) if on else "")
+        self.caption.restyle(larger if on else self._theme, self.screen().size().height() if on else 0)
         self.controls.make_slim(on)
         self._placed_from = None
         self.refresh(self.store.state)
@@ -453,8 +459,10 @@ class MainWindow(QMainWindow):
         for parts in (self.room, self.room.parts):
             parts.rescale(self._theme.scale)
         self.top.rescale(self._theme.scale)
+        self.edge.rescale(self._theme.scale)
         self.top.tolerance.restyle(self._theme)
         self.status.restyle(self._theme)
+        self.caption.restyle(self._theme)
 
     def _style(self, key: str) -> None:
         """Give a panel the present theme, when it is first shown after a change."""
@@ -546,5 +554,5 @@ def paint(panel: Panel, key: str, live: Live) -> None:
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None
-    note = why or unless_symmetric(live.setup.lens, PANELS[key].aligned)
+    note = why or message_if_misaligned(live.setup.lens, PANELS[key].aligned)
     panel.widget.show_side("A" if why else live.side, said(note) if note else "")

@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
-from p2sf.camera import AS_IN_FILE, AimChoice, Camera, Request, StopChoice, set_up, with_camera
+from p2sf.camera import AS_IN_FILE, AimChoice, Camera, Request, StopChoice, explicit_values, set_up, with_camera
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space
 from p2sf.database.accuracy import build_by, check_kind
-from p2sf.database.files.npz import save_database
 from p2sf.database.files.provenance import Stored, provenance
 from p2sf.errors import P2SFWarning
 from p2sf.files.writing import check_ending, check_place
@@ -66,7 +65,8 @@ def build_database(
     Returns
     -------
     Stored
-        ``.psf(source)`` and ``.coefficients(source)`` look up a source. ``.accuracy`` is the predicted 1 − R² of its
+        ``.psf(source)`` and ``.coefficients(source)`` look up a source, ``.psfs`` and ``.coefficients`` of arrays of
+        depths, fields and wavelengths many at once. ``.accuracy`` is the predicted 1 − R² of its
         PSFs against exact rays, and above 1e-3 a ``P2SFWarning`` says so; ``.meta`` says where the numbers come from,
         and ``.meta["errors_waves"]`` how exactly they are looked up.
 
@@ -93,13 +93,13 @@ def build_database(
     check_kind(method, interpolant, fields_x_deg is not None)
     fields = _slopes("fields_deg", fields_deg)
     fields_x = None if fields_x_deg is None else _slopes("fields_x_deg", fields_x_deg)
-    setup = set_up(lens, Request(**vars(camera)))
+    setup = set_up(lens, Request(**explicit_values(camera)))
     depths, waves = real_array("depths_mm", depths_mm), real_array("wavelengths_nm", wavelengths_nm)
     space = Space(depths, fields, waves / NM_PER_UM, fields_x)
     database = build_by(setup.lens, space, method, interpolant, setup.stop)
-    if path is not None:
-        save_database(database, setup.lens, path, setup.stop)
     stored = Stored(database, provenance(database, setup.lens, setup.stop))
+    if path is not None:
+        stored.save(path)
     if stored.accuracy.caution:
         warnings.warn(str(stored.accuracy.caution), P2SFWarning, stacklevel=4)
     return stored

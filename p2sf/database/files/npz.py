@@ -32,13 +32,18 @@ Meta = dict[str, Any]
 
 
 def save_database(database: Database, lens: Lens, path: str | PathLike[str], stop: Stop | None = None) -> Path:
-    """Write a database and its provenance as .npz, whole or not at all; ExportError where that is impossible."""
-    return write_sealed(path, _arrays(database, lens, stop))
+    """Write a database and its provenance as .npz atomically; ExportError if that is impossible."""
+    return save_stored(Stored(database, provenance(database, lens, stop)), path)
+
+
+def save_stored(stored: Stored, path: str | PathLike[str]) -> Path:
+    """Write a database with its existing provenance; ExportError as `save_database`."""
+    return write_sealed(path, _arrays(stored))
 
 
 def database_bytes(database: Database, lens: Lens, stop: Stop | None = None) -> bytes:
-    """Return what `save_database` writes."""
-    return seal(_arrays(database, lens, stop))
+    """Return the bytes that `save_database` writes."""
+    return seal(_arrays(Stored(database, provenance(database, lens, stop))))
 
 
 def load_database(path: str | PathLike[str]) -> Stored:
@@ -55,7 +60,7 @@ def database_from_bytes(raw: bytes, name: str | PathLike[str]) -> Stored:
 
 
 def same_database(one: bytes, other: bytes) -> bool:
-    """Return whether two files hold the same database, whatever versions of the software wrote them."""
+    """Return whether two files contain the same database, regardless of the versions of the software."""
     (first, first_meta), (second, second_meta) = _content(one), _content(other)
     same = first.keys() == second.keys() and all(np.array_equal(first[key], second[key]) for key in first)
     return same and first_meta == second_meta
@@ -69,10 +74,13 @@ def _content(raw: bytes) -> tuple[Arrays, Meta]:
 
 def _meta(mark: np.ndarray) -> Meta:
     """Return what a file says about its database; one from before `Lens.aim` filled the paraxial entrance pupil."""
-    return {"aim": "paraxial", **json.loads(str(mark))}
+    stated: Meta = json.loads(str(mark))
+    stated.setdefault("aim", "paraxial")
+    return stated
 
 
-def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
+def _arrays(stored: Stored) -> Arrays:
+    database, own = stored.database, {"schema", "kind", "numbers"}
     pack, _ = _KINDS[type(database).__name__]
     arrays, numbers = pack(database)
     mask = database.mask
@@ -82,7 +90,8 @@ def _arrays(database: Database, lens: Lens, stop: Stop | None) -> Arrays:
     schema = WITHOUT_MASK if mask.clear else WITH_MASK
     if space.field_x_slopes is not None:
         axes["field_x_slopes"], schema = space.field_x_slopes, SCHEMA
-    head = {"schema": schema, "kind": type(database).__name__, **provenance(database, lens, stop), "numbers": numbers}
+    about = {name: value for name, value in stored.meta.items() if name not in own}
+    head = {"schema": schema, "kind": type(database).__name__, **about, "numbers": numbers}
     return {MARK: np.array(json.dumps(head, ensure_ascii=False)), **axes, **arrays}
 
 

@@ -1,4 +1,4 @@
-"""Where a stack lies: a folder, or any place that fsspec knows by a URL, such as a bucket of an object store.
+"""Location of a stack: a folder, or any URL known to fsspec, such as a bucket of an object store.
 
 A URL is opened with the settings and credentials of the machine that opens it, as fsspec and the library of its
 protocol find them in the environment and in files; a stack stores none.
@@ -17,7 +17,7 @@ from p2sf.errors import DatabaseError
 Place = Path | str
 """A folder, or the URL of a place elsewhere."""
 HEADER = "zarr.json"
-# What object stores raise beside OSError, by the library that raises it.
+# Errors of object stores other than OSError, by the library that raises them.
 ELSEWHERE = (
     ("botocore.exceptions", "BotoCoreError"),
     ("botocore.exceptions", "ClientError"),
@@ -26,13 +26,13 @@ ELSEWHERE = (
 
 
 def is_url(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path is the URL of a place that is no folder of this machine."""
+    """Return whether a path is a URL and not a local folder."""
     text = os.fspath(path)
     return "://" in text and not text.startswith(("file://", "local://"))
 
 
 def place_of(path: str | os.PathLike[str]) -> Place:
-    """Return a path as a place; a ``file://`` URL is the folder it names."""
+    """Return a path as a location; a ``file://`` URL is the folder it names."""
     text = os.fspath(path)
     if is_url(text):
         return text.rstrip("/")
@@ -45,7 +45,7 @@ def is_stack(path: str | os.PathLike[str]) -> bool:
 
 
 def exists(place: Place) -> bool:
-    """Return whether a stack, or anything else in the way of one, is there; DatabaseError where nothing answers."""
+    """Return whether a stack, or anything else, exists there; DatabaseError if there is no answer."""
     if isinstance(place, Path):
         return place.exists()
     with translate_errors(place):
@@ -62,7 +62,7 @@ def chunk_names(place: str) -> set[str]:
 
 
 def send(draft: Path, place: str) -> None:
-    """Copy the files of an empty stack to a URL, the header of the whole last: without it there is no stack."""
+    """Copy the files of an empty stack to a URL, the main header last: without it there is no stack."""
     with translate_errors(place):
         files, root = _elsewhere(place)
         for file in sorted((file for file in draft.rglob("*") if file.is_file()), key=lambda f: f == draft / HEADER):
@@ -70,7 +70,7 @@ def send(draft: Path, place: str) -> None:
 
 
 def size_bytes(place: Place) -> int:
-    """Return how many bytes the files at a place have."""
+    """Return the total size of the files at a location, bytes."""
     if isinstance(place, Path):
         return sum(file.stat().st_size for file in place.rglob("*") if file.is_file())
     with translate_errors(place):
@@ -79,7 +79,7 @@ def size_bytes(place: Place) -> int:
 
 
 def _elsewhere(place: str) -> tuple[Any, str]:
-    """Return the file system of a URL and the path in it; what others have written meanwhile is seen."""
+    """Return the file system of a URL and the path in it; files written by others in the meantime are seen."""
     try:
         from fsspec.core import url_to_fs
 
@@ -94,7 +94,7 @@ def _elsewhere(place: str) -> tuple[Any, str]:
 
 @contextmanager
 def translate_errors(place: Place) -> Iterator[None]:
-    """Turn what a place elsewhere raises into a DatabaseError; errors of a folder pass."""
+    """Turn errors of a remote location into a DatabaseError; errors of a folder pass."""
     if isinstance(place, Path):
         yield
         return
@@ -109,12 +109,12 @@ def translate_errors(place: Place) -> Iterator[None]:
 
 
 def failures() -> tuple[type[Exception], ...]:
-    """Return what reading and writing raise, in a folder or by any of the libraries that are loaded."""
+    """Return the errors of reading and writing, in a folder or by any of the loaded libraries."""
     loaded = ((sys.modules.get(module), name) for module, name in ELSEWHERE)
     return (OSError, *(getattr(module, name) for module, name in loaded if module))
 
 
 def reason(error: Exception) -> str:
-    """Return what an error says, for the middle of a sentence."""
+    """Return the text of an error for the middle of a sentence."""
     text = " ".join((getattr(error, "strerror", None) or str(error) or type(error).__name__).split()).rstrip(".")
     return text[:1].lower() + text[1:]

@@ -1,29 +1,36 @@
-"""What a file says about its database: lens, glasses, method, units, conventions, versions."""
+"""Provenance stored with a database: lens, glasses, method, units, conventions, versions."""
 
 import hashlib
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, reduce
 from math import inf
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.accuracy import DatabaseAccuracy, accuracy, accuracy_from
-from p2sf.database.render import Database, pixels_psf
-from p2sf.files.writing import plain
+from p2sf.database.points import points_of, psfs_into
+from p2sf.database.render import Database, Sampling, pixels_psf
+from p2sf.database.space import Space
+from p2sf.files.writing import check_ending, plain
 from p2sf.glass.media import Medium
 from p2sf.glass.pages import data_version
 from p2sf.html import html_table
 from p2sf.io.record import position_of, versions
 from p2sf.lens.lens import Lens, with_aim
-from p2sf.lens.positions import alone
+from p2sf.lens.positions import without_positions
 from p2sf.lens.source import Source, check_one
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.result import Psf, warn_of_window
+from p2sf.psf.seidel import check_samples
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 COEFFICIENT_UNITS = {
@@ -51,7 +58,7 @@ MAPS = ("phase_map", "amplitude_map")
 
 @dataclass(frozen=True, eq=False)
 class Stored:
-    """A database as a file holds it: the database, and ``meta``, the provenance stored with it."""
+    """A database together with ``meta``, the provenance stored with it."""
 
     database: Any  # an ExactDatabase, GridDatabase or FittedDatabase: `method` and `interpolant` say which
     meta: dict[str, Any]
@@ -63,17 +70,131 @@ class Stored:
 
     @cached_property
     def accuracy(self) -> DatabaseAccuracy:
-        """Return the predicted 1 − R² of the PSFs against exact rays; where no file states it, from the lens."""
+        """Return the predicted 1 − R² of the PSFs against exact rays, from the file or else computed from the lens."""
         stated = self.meta.get("predicted_error")
         return accuracy_from(stated, self.meta["method"]) if stated else accuracy(self.database, self.lens)
 
+    @property
+    def depths_mm(self) -> np.ndarray:
+        """Return the nodes along depth, (n,), mm from the first vertex."""
+        return self._space.depths_mm
+
+    @property
+    def fields_deg(self) -> np.ndarray:
+        """Return the nodes along the field, (n,), degrees; for a rectangle of fields those along y."""
+        return degrees_from_slope(self._space.field_slopes)
+
+    @property
+    def fields_x_deg(self) -> np.ndarray | None:
+        """Return the nodes along x of fields that fill a rectangle, (n,), degrees; None of others."""
+        slopes = self._space.field_x_slopes
+        return None if slopes is None else degrees_from_slope(slopes)
+
+    @property
+    def wavelengths_nm(self) -> np.ndarray:
+        """Return the nodes along wavelength, (n,), nm."""
+        return self._space.wavelengths_um * NM_PER_UM
+
+    @property
+    def _space(self) -> Space:
+        space: Space = self.database.space
+        return space
+
     @check_arguments
-    def coefficients(self, source: Source) -> Coefficients:
-        """Return the six coefficients of one source, looked up; DatabaseError outside what is covered."""
-        check_one(source)
-        place = source.depth_mm, source.field_slope, source.wavelength_um
-        found: Coefficients = self.database.coefficients(*map(float, place))
+    def coefficients(
+        self,
+        source: Source | None = None,
+        *,
+        depth_mm: ArrayLike = inf,
+        field_deg: ArrayLike = 0.0,
+        wavelength_nm: ArrayLike | None = None,
+        field_x_deg: ArrayLike | None = None,
+    ) -> Coefficients:
+        """Return the six coefficients of one source, or of arrays of depths, fields and wavelengths, looked up.
+
+        Parameters
+        ----------
+        source : Source, optional
+            One source, in place of the arrays.
+        depth_mm, field_deg, wavelength_nm, field_x_deg : array_like
+            Object distances, mm, by default infinite; angles, degrees, by default on the axis; wavelengths, nm, by
+            default the middle one. Of any shapes that broadcast, which is the shape of every coefficient.
+
+        Raises
+        ------
+        DatabaseError
+            Outside what is covered.
+        RequestError
+            For what are no numbers or do not broadcast.
+
+        Examples
+        --------
+        >>> import p2sf
+        >>> nodes = [500, float("inf")], [0, 7, 14], [400, 550, 700]
+        >>> database = p2sf.build_database(p2sf.load_lens("double_gauss_28"), *nodes, interpolant="exact")
+        >>> database.coefficients(depth_mm=[[500], [3000]], field_deg=[0, 2, 5]).w31.shape
+        (2, 3)
+        """
+        if source is not None:
+            check_one(source)
+            place = source.depth_mm, source.field_slope, source.wavelength_um
+            one: Coefficients = self.database.coefficients(*map(float, place))
+            return one
+        depth, *slopes, wavelength = points_of(self._space, depth_mm, field_deg, wavelength_nm, field_x_deg)
+        many: Coefficients = self.database.coefficients(depth, reduce(np.hypot, slopes), wavelength)
+        return Coefficients(**dict(zip(vars(many), np.broadcast_arrays(*vars(many).values()), strict=True)))
+
+    @check_arguments
+    def psfs(
+        self,
+        *,
+        depth_mm: ArrayLike = inf,
+        field_deg: ArrayLike = 0.0,
+        wavelength_nm: ArrayLike | None = None,
+        field_x_deg: ArrayLike | None = None,
+        pixels: int = 64,
+        pixel_um: float | None = None,
+        out: Any = None,
+    ) -> np.ndarray:
+        """Return PSFs of arrays of depths, fields and wavelengths, each of unit sum, looked up and not traced.
+
+        The work is distributed over all cores, or as many threads as the environment variable P2SF_THREADS states.
+
+        Parameters
+        ----------
+        depth_mm, field_deg, wavelength_nm, field_x_deg : array_like
+            As for `coefficients`.
+        pixels : int
+            Samples along each side.
+        pixel_um : float, optional
+            Distance between samples, µm, by default λ/(4 NA) of the finest PSF; wider pixels hold the light that falls
+            on each.
+        out : array, optional
+            Where they are written, an array of numpy, a memory map or one of zarr; by default a new one of float32.
+
+        Returns
+        -------
+        numpy.ndarray
+            ``out``, the shape to which the arrays broadcast and behind it (pixels, pixels).
+
+        Raises
+        ------
+        DatabaseError, RequestError
+            As for `coefficients`; RequestError also for an ``out`` of another shape.
+        GeometryError, SamplingError
+            Where there is no PSF to sample.
+        """
+        points = points_of(self._space, depth_mm, field_deg, wavelength_nm, field_x_deg)
+        check_samples(pixels, pixel_um)
+        found: np.ndarray = psfs_into(self.database, points, Sampling(pixels, pixel_um), out)
         return found
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the database as a .npz file, which `p2sf.open_database` opens; ExportError where that is impossible."""
+        from p2sf.database.files.npz import save_stored
+
+        check_ending("path", path, ".npz", Message("a database is a .npz file"))
+        return save_stored(self, path)
 
     @check_arguments
     def psf(
@@ -100,14 +221,14 @@ class Stored:
 
 
 def axis_names(meta: dict[str, Any]) -> str:
-    """Return what the nodes of a database are counted along."""
+    """Return the names of the axes of a database."""
     fields = "field y × field x" if "field_x_deg" in meta["covers"] else "field"
     return f"depth × {fields} × wavelength"
 
 
 def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict[str, Any]:
-    """Return what a file says about a database of this lens, as plain JSON values."""
-    stop, toml, space = stop or find_stop(lens), lens_to_toml(alone(lens)), database.space
+    """Return the provenance of a database of this lens as plain JSON values."""
+    stop, toml, space = stop or find_stop(lens), lens_to_toml(without_positions(lens)), database.space
     fields = {"field_deg": _ends_deg(space.field_slopes)}
     if space.field_x_slopes is not None:
         fields["field_x_deg"] = _ends_deg(space.field_x_slopes)
@@ -166,7 +287,7 @@ def _glasses(lens: Lens) -> dict[tuple[str, str], None]:
 
 
 def data_source(medium: Medium) -> str:
-    """Return where the index of a medium comes from, in a few words."""
+    """Return the source of the index of a medium in a few words."""
     entry = getattr(medium, "entry", None)
     if entry is not None:
         return f"{data_version()}, {entry.label}"

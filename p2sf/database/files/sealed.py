@@ -1,7 +1,7 @@
-"""npz files sealed against damage: a hash of all other bytes stands in the archive's comment.
+"""npz files sealed against damage: the archive's comment contains a hash of all other bytes.
 
 Any .npz reader opens them. The checksums of a zip file cover its members but not its directory, so that without the
-hash a changed byte could pass unnoticed.
+hash a changed byte might go unnoticed.
 """
 
 import hashlib
@@ -22,7 +22,7 @@ SEALED = re.compile(re.escape(SEAL) + b"[0-9a-f]{%d}" % DIGITS)
 
 
 def write_sealed(path: str | PathLike[str], arrays: dict[str, np.ndarray]) -> Path:
-    """Write arrays to a sealed .npz, whole or not at all; the same arrays give the same bytes. Raises ExportError."""
+    """Write arrays to a sealed .npz atomically; the same arrays give the same bytes. Raises ExportError."""
     return write_beside(path, lambda handle: handle.write(seal(arrays)))
 
 
@@ -55,7 +55,7 @@ def unseal(raw: bytes, mark: str, name: str | PathLike[str]) -> dict[str, np.nda
         )
     try:
         return read_arrays(io.BytesIO(raw))
-    except (ValueError, OSError) as error:  # a seal is no signature: anybody may have sealed anything
+    except (ValueError, OSError) as error:  # a seal is not a signature: anybody can seal anything
         raise DatabaseError(
             "{name} is sealed but {reason}; build it again", name=str(name), reason=str(error)
         ) from error

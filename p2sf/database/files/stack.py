@@ -21,7 +21,7 @@ from p2sf.errors import DatabaseError
 from p2sf.files.writing import plain
 
 SCHEMA = 1
-CHUNK_BYTES = 1 << 20  # a chunk is what is lost when a writer is killed, and the least that a reader loads
+CHUNK_BYTES = 1 << 20  # a chunk is lost if a writer is killed, and is the least that a reader loads
 AXES = ("depth_mm", "field_deg", "wavelength_nm", "y_um", "x_um")
 RECTANGLE_AXES = ("depth_mm", "field_y_deg", "field_x_deg", *AXES[2:])
 TEMPORARY = ".part"
@@ -34,8 +34,8 @@ Chunk = tuple[int, ...]
 class Stack:
     """An open PSF stack: ``psf`` (depth, field, wavelength, y, x) is indexed like an array and loads only what is read.
 
-    Over a rectangle of fields field y and field x stand in the place of field, as in `Space.nodes`.
-    ``complete``: whether every chunk is there; a missing one reads as NaN. ``raw``: the file of its database.
+    Over a rectangle of fields, field y and field x replace field, as in `Space.nodes`.
+    ``complete``: whether every chunk exists; a missing one reads as NaN. ``raw``: the file of its database.
     ``integrated``: whether a sample is the light of a whole pixel and not the intensity at its place.
     """
 
@@ -54,7 +54,7 @@ class Stack:
 
     @property
     def missing(self) -> list[Chunk]:
-        """Return the chunks not written yet; each is written whole or not at all."""
+        """Return the chunks not written yet; each is written atomically."""
         if isinstance(self.path, str):
             written = chunk_names(self.path)
             return [chunk for chunk in self.chunks if _name(chunk) not in written]
@@ -63,7 +63,7 @@ class Stack:
 
     @property
     def complete(self) -> bool:
-        """Return whether every PSF is there."""
+        """Return whether every PSF exists."""
         return not self.missing
 
     @property
@@ -90,7 +90,7 @@ def _name(chunk: Chunk) -> str:
 
 
 def import_optional(name: str) -> Any:
-    """Return the module of an optional library; DatabaseError, with how to install it, where it is missing."""
+    """Return the module of an optional library; if it is missing, DatabaseError states how to install it."""
     from importlib import import_module
 
     try:

@@ -1,7 +1,7 @@
 """Filling a PSF stack by the workers of a dask.distributed scheduler.
 
-What goes to a worker is the name of the stack and of some chunks: it opens the stack itself, keeps it for the chunks to
-come, renders, writes, and answers with the seconds that this took.
+A worker receives the names of the stack and of some chunks: it opens the stack itself, keeps it for later chunks,
+renders, writes, and returns the seconds taken.
 """
 
 import ctypes
@@ -23,14 +23,14 @@ from p2sf.database.files.stack_write import StackWork, write_chunk
 from p2sf.errors import DatabaseError
 from p2sf.threads import one_blas_thread
 
-AHEAD = 2  # groups of chunks per thread that are under way: while one is rendered, the next is there
+AHEAD = 2  # groups of chunks per thread in flight: while one is rendered, the next is ready
 GROUP_S = 0.5  # of work, a hundred times what sending a group and its answer takes
-SHARE = 4  # groups that each thread has still to come, at least: they become smaller towards the end
-RETRIES = 2  # of a group that could not be written, before its error counts
+SHARE = 4  # fewest remaining groups per thread: groups become smaller towards the end
+RETRIES = 2  # attempts to write a group before its error is raised
 LATE = 4.0  # times the longest group's seconds, after which one is given to another worker too
-ANSWER_S = 10.0  # for the scheduler to answer, and for the first worker to come
-ABSENCE_S = 60.0  # for which all workers may be gone, to be started again
-LOOK_S = 0.25  # between looks at whoever cancels, and at the workers
+ANSWER_S = 10.0  # for the scheduler to answer, and for the first worker to appear
+ABSENCE_S = 60.0  # for which all workers may be absent while they are restarted
+LOOK_S = 0.25  # between checks for cancellation and of the workers
 SCHEDULER = "dask scheduler"
 WORKER = "dask worker {address} --nworkers -1 --nthreads 1"
 Group = tuple[Chunk, ...]
@@ -39,17 +39,17 @@ LARGEST_MMAP_THRESHOLD = 4 * 1024 * 1024 * 8  # DEFAULT_MMAP_THRESHOLD_MAX there
 
 
 def fill(work: StackWork, scheduler: str) -> None:
-    """Fill a stack by the workers of a scheduler; DatabaseError where that cannot go on, done chunks stay."""
+    """Fill a stack by the workers of a scheduler; DatabaseError if that cannot continue, finished chunks stay."""
     _check_shared(work.stack.path)
     if work.chunks and not work.watch.cancelled():
         with connect(scheduler) as client:
             check_versions(worker_versions(client, scheduler))
-            _Filling(work, client, scheduler).run()
+            _Dispatch(work, client, scheduler).run()
 
 
 @contextmanager
 def connect(scheduler: str) -> Iterator[Any]:
-    """Connect to a scheduler; DatabaseError where none answers."""
+    """Connect to a scheduler; DatabaseError if none answers."""
     distributed = import_optional("distributed")
     try:
         distributed.comm.resolve_address(scheduler)
@@ -90,7 +90,7 @@ def worker_versions(client: Any, scheduler: str) -> dict[str, str | Exception]:
     found: dict[str, str | Exception] = {}
     deadline = time.monotonic() + ANSWER_S
     for address, future in asked.items():
-        with suppress(TimeoutError):  # whoever does not answer may be frozen: the others will do
+        with suppress(TimeoutError):  # a worker that does not answer may be frozen: the others suffice
             failure = future.exception(timeout=max(deadline - time.monotonic(), LOOK_S))
             found[address] = failure or future.result()
     return found
@@ -118,7 +118,7 @@ def _check_shared(place: Place) -> None:
         )
 
 
-class _Filling:
+class _Dispatch:
     """Groups of chunks on their way to the workers and back."""
 
     def __init__(self, work: StackWork, client: Any, scheduler: str) -> None:
@@ -134,7 +134,7 @@ class _Filling:
         self._place = place if isinstance(place, str) else str(place.absolute())
         self._content = content(work.stack)
         errors = import_optional("distributed").client
-        self._gone = OSError, errors.ClosedClientError, errors.FutureCancelledError  # what a lost scheduler raises
+        self._gone = OSError, errors.ClosedClientError, errors.FutureCancelledError  # raised for a lost scheduler
 
     def run(self) -> None:
         """Send groups and take answers until all are done, or cancelled."""
@@ -159,7 +159,7 @@ class _Filling:
         return tuple(group)
 
     def _look(self) -> None:
-        """Count the workers' threads, now and then; DatabaseError once the scheduler or all workers are gone."""
+        """Count the workers' threads from time to time; DatabaseError once the scheduler or all workers are gone."""
         now = time.monotonic()
         if now - self._looked < LOOK_S:
             return

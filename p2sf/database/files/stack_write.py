@@ -21,7 +21,7 @@ from p2sf.threads import for_each
 
 @dataclass(frozen=True)
 class StackStatus:
-    """How far a stack is: chunks that are there and all chunks, the PSFs of this run and its rate, what is left."""
+    """Progress of a stack: finished and total chunks, the PSFs of this run and its rate, the remaining time."""
 
     done: int
     total: int
@@ -40,7 +40,7 @@ class StackProgress:
 
 UNWATCHED = StackProgress()
 USUAL = Sampling()
-COSTS_AT_ONCE = 1000  # chunks whose costs are found together, which takes some mebibytes
+COSTS_AT_ONCE = 1000  # chunks whose costs are computed together, which takes some mebibytes
 
 
 def write_stack(
@@ -100,7 +100,7 @@ def _write_errors(path: str | PathLike[str]) -> Iterator[None]:
 
 
 class StackWork:
-    """The chunks that a stack lacks, the costliest first, so that at the end no worker waits for a long one.
+    """The missing chunks of a stack, the most expensive first, so that at the end no worker waits for a long one.
 
     ``costs``: about how many products each takes that is not done (`database.cost`).
     """
@@ -116,7 +116,7 @@ class StackWork:
         self._start, self._cost, self._psfs, self._done = time.monotonic(), 0.0, 0, 0
 
     def finished(self, chunk: Chunk) -> None:
-        """Count a chunk that is written, and tell the watch."""
+        """Count a written chunk and report it to the watch."""
         cost = self.costs.pop(chunk)
         self._cost, self._left = self._cost + cost, self._left - cost
         self._psfs, self._done = self._psfs + psf_count(self.stack, chunk), self._done + 1
@@ -127,12 +127,12 @@ class StackWork:
 
 
 def psf_count(stack: Stack, chunk: Chunk) -> int:
-    """Return how many PSFs a chunk holds."""
+    """Return the number of PSFs in a chunk."""
     return int(np.prod([part.stop - part.start for part in stack.region(chunk)]))
 
 
 def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
-    """Return about how many products each chunk takes, from the first and last field at its middle depth and colour."""
+    """Return the estimated products of each chunk, from the first and last field at its middle depth and colour."""
     database, space = stack.stored.database, stack.stored.database.space
     regions = [stack.region(chunk) for chunk in chunks]
     middle = [[(part.start + part.stop) // 2 for part in region] for region in regions]
@@ -151,7 +151,7 @@ def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
 
 
 class _Stopped(Exception):
-    """Whoever watches has cancelled."""
+    """The caller has cancelled."""
 
 
 def _fill_here(work: StackWork, threads: int | None) -> None:
@@ -172,7 +172,7 @@ def _fill_here(work: StackWork, threads: int | None) -> None:
 
 
 def write_chunk(stack: Stack, chunk: Chunk) -> None:
-    """Render the PSFs of a chunk in this thread and write them, whole or not at all."""
+    """Render the PSFs of a chunk in this thread and write them atomically."""
     space, region = stack.stored.database.space, stack.region(chunk)
     points = np.ix_(*(nodes[part] for nodes, part in zip(space.nodes, region, strict=True)))
     stack.psf[region] = light_of(stack.stored.database, points, stack.sampling, stack.across, threads=1)

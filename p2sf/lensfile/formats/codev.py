@@ -8,11 +8,11 @@ numbers are told by their size (`_finish`).
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from math import inf, pi
+from math import inf, log, nan, pi
 from typing import NamedTuple
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.errors import GeometryError
+from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import MIRROR, Medium
 from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.lens import Lens
@@ -46,11 +46,10 @@ REFUSED = {
 HARMLESS = (
     (Message("control codes of the optimiser"), "CCY THC KC AC BC CC DC EC FC GC HC GLC CUM THM CCX DEL CCF"),
     (Message("solves and pickups, whose stored values are read"), "PIM PIK SOL UMY CUS RED"),
-    (Message("weights"), "WTW WTF WTA"),
-    (Message("edges, and rims and obscurations in other shapes"), "ELX ELY"),
+    (Message("weights of fields"), "WTF WTA"),
     (
         Message("titles, sessions and computing settings"),
-        "LEN INI TEM PRE GO DER CLS VER OUT CON ASP SPH POL CA APE ROT PIV CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
+        "LEN INI GO DER CLS VER OUT CON ASP SPH POL CA APE ROT PIV CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
     ),
 )
 REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
@@ -59,14 +58,14 @@ REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
 VIGNETTING = ("VUY", "VLY", "VUX", "VLX", "SET")
 
 
-def note(notes: Notebook, raw: RawLens, name: str, words: tuple[str, ...], surface: int | None, line: int) -> None:
+def note(notes: Notebook, raw: RawLens, name: str, words: tuple[str, ...], line: int) -> None:
     """Note a command that is not read: harmless ones once per reason, unknown ones by name."""
     if name in VIGNETTING:
         raw.add_vignetting(words)
     elif name in REASON:
         notes.add("ignored", REASON[name])
     else:
-        notes.add("ignored", "{name}, which is not known to describe the lens", surface, line, name=name[:20])
+        notes.add_unknown(name, line)
 
 
 @dataclass(frozen=True)
@@ -121,6 +120,7 @@ FIELD_KINDS: dict[str, RawFieldKind] = {
 }
 # No lens of a file has a surface of a shorter radius than this, mm.
 SMALLEST_LENS_MM = 0.1
+MM_HG = 760.0  # an atmosphere, in mm of mercury
 
 
 class Places(NamedTuple):
@@ -161,6 +161,9 @@ class CodeVReading:
     private_nm: list[float] | None = None
     in_private: bool = False
     position: str = ""  # the name of the zoom position
+    pupil: dict[str, float] = field(default_factory=dict)  # PUX, PUY, PUI
+    pupil_line: int = 0
+    faulty: dict[str, LensFileError] = field(default_factory=dict)  # private glasses that cannot be read
 
     def number(self, command: CodeVCommand, place: int, what: Message, default: float | None = None) -> float:
         """Return the number at a place of a command; LensFileError where it is missing without a ``default``."""
@@ -235,8 +238,12 @@ def read_private(reading: CodeVReading, command: CodeVCommand) -> None:
         raise reading.source.error(
             "private glass {name} has no wavelengths (PWL) before it; add them", command.line, name=name
         )
-    waves, values = [w / NM_PER_UM for w in reading.private_nm], reading.numbers(command, Message("index"))
-    table = private_glass(name, waves, values, reading.source, command.line)
+    waves = [w / NM_PER_UM for w in reading.private_nm]
+    try:
+        table = private_glass(name, waves, reading.numbers(command, Message("index")), reading.source, command.line)
+    except LensFileError as failure:
+        reading.faulty[name.upper()] = failure  # which matters only if a surface has this glass
+        return
     reading.private[name] = replace(table, label=name)
     reading.notes.add(
         "read",
@@ -278,6 +285,31 @@ def _wavelengths(reading: CodeVReading, command: CodeVCommand) -> None:
     if not all(50 <= value <= 50_000 for value in values):
         raise reading.source.error("a wavelength is not that of light; give nanometres", command.line)
     reading.raw.wavelengths_um, reading.raw.wavelength_line = [value / NM_PER_UM for value in values], command.line
+
+
+def _ellipse(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    told = "its rim ({keyword}) is not round; the round semi-diameter is used instead"
+    if not any(word.upper() == "EDG" for word in command.words):
+        reading.notes.add("caution", told, surface.number, command.line, keyword=command.name[:3])
+
+
+def _apodisation(reading: CodeVReading, command: CodeVCommand) -> None:
+    """Read PUX, PUY, where the Gaussian intensity over the pupil has fallen to PUI, as shares of the pupil's radius."""
+    reading.pupil[command.name[:3]] = reading.number(command, 0, Message("apodisation"))
+    reading.pupil_line = command.line
+
+
+def _environment(reading: CodeVReading, command: CodeVCommand) -> None:
+    """Read TEM, °C, and PRE, mm of mercury."""
+    temperature, pressure = reading.raw.environment
+    value = reading.number(command, 0, Message("temperature or pressure"))
+    reading.raw.environment_line = command.line
+    reading.raw.environment = (value, pressure) if command.name[:3] == "TEM" else (temperature, value / MM_HG)
+
+
+def _weights(reading: CodeVReading, command: CodeVCommand) -> None:
+    before = reading.raw.weights or [1.0] * len(reading.raw.wavelengths_um)
+    reading.raw.weights = _split_values(reading, command, "W", before, Message("weight of a wavelength"))
 
 
 def _reference(reading: CodeVReading, command: CodeVCommand) -> None:
@@ -380,9 +412,11 @@ def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> N
         return
     value = reading.number(command, len(command.words) - 1, Message("clear rim")) if command.words else 0.0
     if command.name[:3] in RIM_NAMES:
-        if kind:
-            note(reading.notes, reading.raw, "ELX", command.words, surface.number, command.line)
-        else:
+        if kind and value:
+            told = "its obscuration or hole ({name} {kind}) is left out, so the picture shows the full aperture"
+            names = {"name": command.name[:3], "kind": kind}
+            reading.notes.add("caution", told, surface.number, command.line, **names)
+        elif not kind:
             reading.rims.setdefault(id(surface), {})[command.name[:3]] = value
     elif kind:
         surface.inner_radius = max(value, 0.0)
@@ -420,6 +454,7 @@ ON_SURFACE = {
     "THI": _thickness,
     "K": _set("conic", Message("conic constant")),
     **dict.fromkeys(("CIR", *RIM_NAMES), _rim),
+    **dict.fromkeys(("ELX", "ELY"), _ellipse),
     "SPS": _special,
     "SCO": _special_value,
     **dict.fromkeys(("DIF", "HOR", "HWL", "HCT", "HCO"), _diffracts),
@@ -432,6 +467,9 @@ IN_SYSTEM = {
     "DIM": _unit,
     "WL": _wavelengths,
     "REF": _reference,
+    "WTW": _weights,
+    **dict.fromkeys(("TEM", "PRE"), _environment),
+    **dict.fromkeys(("PUX", "PUY", "PUI"), _apodisation),
     "PRV": _set_private,
     "END": _set_private,
     **dict.fromkeys(APERTURES, _aperture),
@@ -527,7 +565,7 @@ def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
         listed[:] = _split_values(reading, command, "F", listed, Message("field"))
         reading.raw.field_line = command.line
     else:
-        note(reading.notes, reading.raw, name, command.words, surface.number if surface else None, command.line)
+        note(reading.notes, reading.raw, name, command.words, command.line)
 
 
 def _split_values(
@@ -641,6 +679,25 @@ def _finish(reading: CodeVReading) -> None:
         surface.rim = _shaped_rim(reading.rims.get(id(surface), {}))
     _place(reading)
     _gather_fields(reading)
+    _apodise(reading)
+    for surface in raw.surfaces:
+        if surface.glass and surface.glass.name.upper() in reading.faulty:
+            raise reading.faulty[surface.glass.name.upper()]
+
+
+def _apodise(reading: CodeVReading) -> None:
+    """Let the pupil's amplitude fall as its Gaussian says; a PUI of 1, as where it is not stated, or 0 means none."""
+    x, y, intensity = (reading.pupil.get(name, 1.0) for name in ("PUX", "PUY", "PUI"))
+    if not 0 < intensity < 1:
+        return
+    if x != y:
+        raise reading.source.error(
+            "the pupil's apodisation differs between x and y ({x:g}, {y:g}), which is not read; give it round",
+            reading.pupil_line,
+            x=x,
+            y=y,
+        )
+    reading.raw.apodise(-log(intensity) / 2 / x**2 if x else nan, reading.source, reading.pupil_line)
 
 
 def _shaped_rim(numbers: dict[str, float]) -> Rim | None:

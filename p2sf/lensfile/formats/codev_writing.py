@@ -1,29 +1,30 @@
 """Write a lens as a CODE V .seq file."""
 
 from functools import reduce
-from math import isfinite, pi
+from math import exp, isfinite, pi
 from typing import NamedTuple
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
 from p2sf.lens.even_terms import power_terms
-from p2sf.lens.freeform import Freeform, XYPolynomial, ZernikeStandardSag
+from p2sf.lens.freeform import Freeform, XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
 from p2sf.lens.properties import CODE_V
-from p2sf.lens.shapes import Diffraction
+from p2sf.lens.shapes import Diffraction, Shape
 from p2sf.lens.tilts import decentred_surface
 from p2sf.lensfile.conjugates import FAR, limiting_rim
 from p2sf.lensfile.formats.codev import BORN_WOLF, FREEFORMS, ORDERS, TILT_NAMES
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits
-from p2sf.lensfile.surface_endings import check_endings
+from p2sf.lensfile.surface_endings import check_endings, type_in_file
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
 ANY_WAVELENGTH_NM = 50.0, 50_000.0
+FREEFORM_TYPES: dict[type[Shape], str] = {XYPolynomial: "XYP", ZernikeStandardSag: "ZRN", ZernikeFringeSag: "ZFR"}
 LETTERS = {power: letter for letter, power in ORDERS.items()}
 
 
@@ -59,7 +60,8 @@ def lens_to_seq(lens: Lens) -> str:
 
 
 def _head(lens: Lens) -> list[str]:
-    waves = sorted(lens.wavelengths_nm)
+    lines = dict(zip(lens.wavelengths_nm, lens.wavelength_weights or (1.0,) * len(lens.wavelengths_nm), strict=True))
+    waves = sorted(lines)
     title = " ".join(f"{lens.title or lens.name}{f', {lens.positions.words}' if lens.positions else ''}".split())
     keyword = APERTURES.get(lens.aperture.kind)
     return [
@@ -69,7 +71,11 @@ def _head(lens: Lens) -> list[str]:
         "DIM M",
         *[f"{keyword} {digits(lens.aperture.value)}"] * bool(keyword),
         f"WL {' '.join(map(digits, waves))}",
-        f"REF {waves.index(sorted(waves)[len(waves) // 2]) + 1}",
+        f"REF {waves.index(lens.reference_wavelength_nm) + 1}",
+        *[f"PUX {digits(lens.mask.apodisation)}; PUY {digits(lens.mask.apodisation)}; PUI {digits(exp(-2))}"]
+        * (not lens.mask.clear),
+        *[f"WTW {' '.join(digits(lines[wave]) for wave in waves)}"] * bool(lens.wavelength_weights),
+        *[f"XAN {' '.join(map(digits, lens.fields_x_deg))}"] * bool(lens.fields_x_deg),
         f"YAN {' '.join(map(digits, lens.fields_deg))}",
     ]
 
@@ -147,11 +153,11 @@ def _shape(surface: Surface, number: int) -> list[str]:
 
 def _freeform(surface: Surface, shape: Freeform, number: int) -> list[str]:
     """Return XYP, ZRN or ZFR, with K and coefficients by their places; LensFileError for what these do not hold."""
+    kind = type_in_file(FREEFORM_TYPES, shape, number, CODE_V)
     if isinstance(shape, ZernikeStandardSag):
-        kind, places = "ZRN", {key: place for place, key in enumerate(BORN_WOLF)}
+        places = {key: place for place, key in enumerate(BORN_WOLF)}
         numbers = {places.get(key, -1): value for key, value in shape.terms.items() if value}
     else:
-        kind = "XYP" if isinstance(shape, XYPolynomial) else "ZFR"
         numbers = {place: value for place, value in enumerate(shape.coefficients) if value}
     first, count = FREEFORMS[kind]
     if any(surface.aspheric) or not all(0 <= place < count for place in numbers):

@@ -1,13 +1,14 @@
 """Plain tables with named columns: one header row, one row per surface, "# key: value" lines for the rest.
 
 Columns: radius, thickness, and any of glass, nd, vd, index, diameter, semi_diameter, conic, A4, A6, …, stop,
-label. Keys: title, unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg. Cells are separated by
-comma, semicolon or tab; with semicolons a decimal comma is understood.
+label. Keys: title, unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg, fields_x_deg. Cells are
+separated by comma, semicolon or tab; with semicolons a decimal comma is understood.
 """
 
 import csv
 import re
 from collections.abc import Callable
+from itertools import zip_longest
 from math import inf
 
 from p2sf.lens.lens import Lens
@@ -92,8 +93,10 @@ def _key(raw: RawLens, text: str, line: int, source: LensText) -> None:
         raw.wavelengths_um, raw.wavelength_line = [x / 1000 for x in _list(value, name, line, source)], line
         if not all(0.05 <= x <= 50 for x in raw.wavelengths_um):
             raise source.error("a wavelength is not that of light; give nanometres", line)
-    elif name == "fields_deg":
-        raw.fields, raw.field_line = [(0.0, x) for x in _list(value, name, line, source)], line
+    elif name in ("fields_x_deg", "fields_deg"):
+        raw.field_line, old = line, list(zip(*raw.fields, strict=True)) or [(), ()]
+        old[name == "fields_deg"] = tuple(_list(value, name, line, source))
+        raw.fields = list(zip_longest(*old, fillvalue=0.0))
 
 
 def _list(text: str, name: str, line: int, source: LensText) -> list[float]:

@@ -108,9 +108,9 @@ def _surface(values: dict, count: int, line: int, source: LensText, notes: Noteb
     def one(key: str, default: float | None = None) -> float:
         return _one(values, key, default, count, line, source)
 
-    unknown = [key for key in values if key not in KEYS]
-    if unknown:
-        notes.add("ignored", "key {name}, which is not known to describe the lens", count, line, name=unknown[0][:40])
+    for key in values:
+        if key not in KEYS:
+            notes.add_unknown(key, line)
     if values.get("transform") is not None and values["transform"] != [list(row) for row in IDENTITY]:
         raise source.error(
             "surface {surface} is tilted or decentred (transform); only centred lenses are read", line, surface=count
@@ -129,6 +129,7 @@ def _surface(values: dict, count: int, line: int, source: LensText, notes: Noteb
 def _one(values: dict, key: str, default: float | None, count: int, line: int, source: LensText) -> float:
     """Return a number; a pair for x and y is one number where both are the same."""
     value = values.get(key, default)
+    value = default if value == [] else value  # MATLAB's for nothing
     if isinstance(value, list) and len(value) == 2 and value[0] != value[1]:
         raise source.error(
             "surface {surface}: {name} differs between x and y; only round lenses are read",

@@ -32,7 +32,6 @@ REFUSED = {
 HARMLESS = {
     **dict.fromkeys("DES SNO NOT".split(), Message("titles, sessions and computing settings")),
     **dict.fromkeys("TCE DRW LME".split(), Message("drawing and editor settings")),
-    **dict.fromkeys("WW".split(), Message("weights")),
 }
 SOLVES = ("PY", "PYC", "PU", "PUC", "PK", "CVM", "THM")
 
@@ -91,6 +90,9 @@ def _command(reading: OsloReading, words: list[str]) -> None:
         _on_surface(reading, name, reading.value(words))
     elif re.fullmatch(r"WV\d*", name):
         _wavelengths(reading, name, words)
+    elif re.fullmatch(r"WW\d*", name):
+        values = [number(word, Message("weight of a wavelength"), reading.source, reading.line) for word in words[1:]]
+        reading.raw.weights[int(name[2:] or 1) - 1 :] = values
     elif name in SYSTEM:
         _system(reading, name, words)
     elif name == "AST":
@@ -99,9 +101,7 @@ def _command(reading: OsloReading, words: list[str]) -> None:
         reading.notes.add("ignored", "variables, pickups and solves, whose stored values are read")
     else:
         known = HARMLESS.get(name.rstrip("0123456789"))
-        reading.notes.add("ignored", known) if known else reading.notes.add(
-            "ignored", "{name}, which is not known to describe the lens", None, reading.line, name=name[:20]
-        )
+        reading.notes.add("ignored", known) if known else reading.notes.add_unknown(name, reading.line)
 
 
 ON_SURFACE = ("RD", "CV", "TH", "CC", "AP", "LN")

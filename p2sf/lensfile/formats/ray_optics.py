@@ -202,4 +202,5 @@ def _conditions(raw: RawLens, conditions: dict[str, Any]) -> None:
     scale = float(view["value"]) if view.get("is_relative") else 1.0
     raw.fields = [(scale * float(_inside(f)["x"]), scale * float(_inside(f)["y"])) for f in view["fields"]]
     raw.wavelengths_um = [float(nm) / NM_PER_UM for nm in light["wavelengths"]]
+    raw.weights = [float(weight) for weight in light.get("spectral_wts", ())]
     raw.primary = int(light["reference_wvl"])

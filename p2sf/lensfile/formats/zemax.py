@@ -62,16 +62,16 @@ HARMLESS = (
         "TOL TOLE MOFF DMFS OPDX EFLY EFFL REAY REAX TRAC MNCA MNEA MNCG MNEG MXCA MXCG "
         "TCMM PMAG TOTR TCED RGLA WFNO GLCB ACOS ISNA DBDT",
     ),
-    (Message("coatings, polarisation, scatter"), "COAT COFN POLS FIMP FLAP PFIL GFAC"),
+    (Message("coatings, polarisation, scatter"), "COAT COFN POLS FIMP FLAP PFIL"),
     (
         Message("computing settings"),
-        "VERS GSTD NSCD RAIM ROPD POPS PUPD CONF HYPR RCMF ENVD GLRS YDAT AUTH NOTE",
+        "VERS WAVN GSTD NSCD ROPD POPS PUPD CONF HYPR RCMF GLRS YDAT AUTH NOTE",
     ),
     (
         Message("variables, pickups and solves, whose stored values are read"),
         "VCON VDSZ VPAR PPAR PKUP PZUP MAZH EDGE TCOM VCUR SOLV",
     ),
-    (Message("weights of fields and wavelengths"), "FWGN FWGT WWGT WWGN WAVN"),
+    (Message("weights of fields"), "FWGN FWGT"),
 )
 REASON = {keyword: reason for reason, keywords in HARMLESS for keyword in keywords.split()}
 VIGNETTING = ("VDXN", "VDYN", "VCXN", "VCYN", "VANN", "ZVDX", "ZVDY", "ZVCX", "ZVCY", "ZVAN")
@@ -94,19 +94,17 @@ def note(notes: Notebook, raw: RawLens, words: list[str], surface: int | None, l
             keyword=keyword,
         )
     else:
-        notes.add("ignored", "{name}, which is not known to describe the lens", None, line, name=keyword[:20])
+        notes.add_unknown(keyword, line)
 
 
 UNITS_MM = {"MM": 1.0, "CM": 10.0, "M": 1000.0, "METER": 1000.0, "METERS": 1000.0, "IN": 25.4, "INCH": 25.4}
 APERTURES: dict[str, RawApertureKind] = {
     "ENPD": "entrance_pupil_diameter",
     "FNUM": "f_number",
-    "OBNA": "object_na",
+    "OBNA": "object_na",  # or, flag 1, the half angle of the cone
     "FLOA": "stop_semi_diameter",
 }
 FIELD_KINDS: tuple[RawFieldKind, ...] = ("angle", "object_height", "image_height", "real_image_height")
-# The nd and vd that OpticStudio writes beside any catalogue glass, whatever its own are.
-PLACEHOLDERS = ((1.5, 40.0), (0.0, 0.0))
 
 
 @dataclass(frozen=True)
@@ -185,6 +183,8 @@ def _aperture(reading: ZemaxReading, words: list[str]) -> None:
         return
     if kind == "f_number" and reading.number(words, 2, Message("f-number flag"), 0.0) == 1:
         kind = "image_f_number"
+    if kind == "object_na" and reading.number(words, 2, Message("flag of the aperture"), 0.0) == 1:
+        kind = "object_cone_angle"
     value = reading.number(words, 1, Message("aperture"))
     if value > 0 or reading.raw.aperture is None:  # other statements are left in the file as zeros
         reading.raw.aperture = (kind, value)
@@ -220,6 +220,42 @@ def _wavelength(reading: ZemaxReading, words: list[str]) -> None:
     place = whole(words[1] if len(words) > 1 else "", Message("wavelength number"), reading.source, reading.line)
     if place == len(reading.raw.wavelengths_um) + 1:
         _add_wavelength(reading, reading.number(words, 2, Message("wavelength")))
+        reading.raw.weights.append(reading.number(words, 3, Message("weight of a wavelength"), 1.0))
+
+
+def _weights(reading: ZemaxReading, words: list[str]) -> None:
+    reading.raw.weights = [
+        number(word, Message("weight of a wavelength"), reading.source, reading.line) for word in words[1:]
+    ]
+
+
+def _aim(reading: ZemaxReading, words: list[str]) -> None:
+    """Read RAIM a mode: rays fill the paraxial entrance pupil, 0, or are aimed at the stop, paraxial, 1, or real, 2."""
+    mode = reading.number(words, 2, Message("ray aiming"), 0.0)
+    reading.raw.aim = "stop" if mode else "paraxial"
+    if mode == 1:
+        told = "the file aims rays at the paraxial image of the stop; here they are aimed at the stop itself"
+        reading.notes.add("caution", told, None, reading.line)
+
+
+def _apodisation(reading: ZemaxReading, words: list[str]) -> None:
+    """Read GFAC kind factor: amplitude exp(−Gρ²) for kind 1, and that of an even source on a plane, cos³, for 2."""
+    kind, factor = (reading.number(words, place, Message("apodisation"), 0.0) for place in (1, 2))
+    if kind == 1 and factor:
+        reading.raw.apodise(factor, reading.source, reading.line)
+    elif kind not in (0, 1):
+        told = "the pupil's apodisation (GFAC {kind:g}) is left out; its light is even here"
+        reading.notes.add("caution", told, None, reading.line, kind=kind)
+
+
+def _environment(reading: ZemaxReading, words: list[str]) -> None:
+    """Read ENVD temperature pressure adjust, °C and atmospheres; indices follow them only where adjust is 1."""
+    temperature, pressure, adjust = (
+        reading.number(words, place, Message("temperature or pressure"), usual)
+        for place, usual in ((1, 20.0), (2, 1.0), (3, 0.0))
+    )
+    if adjust:
+        reading.raw.environment, reading.raw.environment_line = (temperature, pressure), reading.line
 
 
 def _wavelengths(reading: ZemaxReading, words: list[str]) -> None:
@@ -370,14 +406,13 @@ def _own_tilt(reading: ZemaxReading, words: list[str]) -> None:
 
 
 def _glass(reading: ZemaxReading, words: list[str]) -> None:
-    """Read GLAS name mode pickup nd vd …; mode 1 to 3 with the name ___BLANK is a model glass."""
+    """Read GLAS name mode pickup nd vd …; nd and vd count only for the name ___BLANK, a model glass."""
     name = words[1] if len(words) > 1 else ""
     if name.upper() == "MIRROR":
         reading.surface.glass = RawGlass(medium=MIRROR, line=reading.line)
         return
-    nd, vd = (reading.number(words, place, what, 0.0) for place, what in ((4, "nd"), (5, "vd")))
-    beside = None if (nd, vd) in PLACEHOLDERS or not (1.2 < nd < 2.5 and 15 < vd < 100) else (nd, vd)
     if name.upper() == "___BLANK":
+        nd, vd = (reading.number(words, place, what, 0.0) for place, what in ((4, "nd"), (5, "vd")))
         line = reading.line
         reading.surface.glass = RawGlass(model=(nd, vd), line=line) if vd else RawGlass(index=nd, line=line)
         if reading.number(words, 6, Message("partial dispersion"), 0.0):
@@ -390,7 +425,7 @@ def _glass(reading: ZemaxReading, words: list[str]) -> None:
     elif name.isdigit() and len(name) == 6:
         reading.surface.glass = RawGlass(model=(1 + int(name[:3]) / 1000, int(name[3:]) / 10), line=reading.line)
     elif name:
-        reading.surface.glass = RawGlass(name, beside=beside, line=reading.line)
+        reading.surface.glass = RawGlass(name, line=reading.line)
 
 
 ON_SURFACE = {
@@ -415,7 +450,11 @@ IN_SYSTEM = {
     "FTYP": _field_type,
     "WAVM": _wavelength,
     "WAVL": _wavelengths,
+    **dict.fromkeys(("WWGT", "WWGN"), _weights),
     "PWAV": _primary,
+    "RAIM": _aim,
+    "GFAC": _apodisation,
+    "ENVD": _environment,
     "GCAT": _glass_catalogues,
     "MNUM": _configurations,
     **dict.fromkeys(APERTURES, _aperture),
@@ -610,9 +649,7 @@ def _finish(reading: ZemaxReading) -> None:
         raise reading.source.error("the file contains no surface between object and image", len(reading.source.lines))
     for surface in reading.surfaces:
         if surface.glass and surface.glass.name:
-            surface.glass = RawGlass(
-                surface.glass.name, reading.catalogues, beside=surface.glass.beside, line=surface.glass.line
-            )
+            surface.glass = replace(surface.glass, makers=reading.catalogues)
         _shape(reading, surface)
     first, *raw.surfaces, image = reading.surfaces
     raw.object_distance, raw.object_glass = first.thickness, first.glass

@@ -3,8 +3,11 @@
 title = "Biconvex singlet"       # also: name, character (one line), source, comment
 unit = "mm"                      # of every length below; cm, m, in as well
 stop_surface = 1                 # from 1; left out, the narrowest rim is the stop
-fields_deg = [0, 5]              # chief-ray angle at the entrance pupil
+fields_deg = [0, 5]              # chief-ray angle at the entrance pupil along y; also fields_x_deg, left out: 0
 wavelengths_nm = [486.1327, 587.5618, 656.2725]
+wavelength_weights = [1, 2, 1]   # of their light; left out: all the same
+reference_nm = 587.5618          # where pupil and f-number hold; left out: the middle one
+aim = "stop"                     # rays fill the real stop; or "paraxial", the paraxial entrance pupil
 object_medium = "air"
 absorption = true                # rays lose what the media of catalogues absorb; left out: false
 
@@ -52,13 +55,26 @@ import tomllib
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.lens.lens import Aperture, ApertureKind, Lens, Surface, with_absorption, with_mask
-from p2sf.lens.positions import KEPT, Axis, alone
+from p2sf.lens.lens import (
+    D_NM,
+    USUAL_AIM,
+    Aim,
+    Aperture,
+    ApertureKind,
+    Lens,
+    Surface,
+    with_absorption,
+    with_aim,
+    with_mask,
+)
+from p2sf.lens.positions import KEPT, Axis, without_positions
+from p2sf.lens.properties import TOML
 from p2sf.lensfile.source_text import digits, read_text, write_text
+from p2sf.lensfile.surface_endings import check_endings
 from p2sf.lensfile.toml.columns import KINDS as RINGS
 from p2sf.lensfile.toml.columns import axis_text, columns_of, join_columns, read_columns
 from p2sf.lensfile.toml.mask import mask_lines, read_mask
@@ -66,7 +82,7 @@ from p2sf.lensfile.toml.placement import apply_misalignments, placements_text, r
 from p2sf.lensfile.toml.surface import OPENING, medium_text, read_surface, surface_lines
 from p2sf.lensfile.toml.table import Constraint, Table, find_line, list_text, shorten, text_of
 from p2sf.messages import Message
-from p2sf.paraxial.positions import as_in_columns
+from p2sf.paraxial.positions import matches_columns
 from p2sf.pupil.mask import PupilMask
 
 
@@ -86,9 +102,10 @@ def lens_to_toml(lens: Lens) -> str:
     """Return the lens as TOML; reading it gives an equal lens, of a zoom its first column.
 
     A lens that is not what its columns say for its position is written as it is, without them. LensFileError for a
-    medium that no file can hold, and for columns with different stops or kinds of aperture.
+    medium or a shape that no file can hold, and for columns with different stops or kinds of aperture.
     """
-    lens = lens if as_in_columns(lens) else alone(lens)
+    check_endings(lens, TOML)
+    lens = lens if matches_columns(lens) else without_positions(lens)
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()
     same = {name: getattr(lens, name) for name in KEPT}
     head = _join_lines(axes, [_head(replace(column, **same)) for column in columns])
@@ -111,7 +128,11 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
         _Line("unit", '"mm"'),
         _Line("stop_surface", stop),
         _Line("fields_deg", list_text(lens.fields_deg)),
+        _Line("fields_x_deg", list_text(lens.fields_x_deg), "[]"),
         _Line("wavelengths_nm", list_text(lens.wavelengths_nm)),
+        _Line("wavelength_weights", list_text(lens.wavelength_weights), "[]"),
+        _Line("reference_nm", "" if lens.reference_nm is None else digits(lens.reference_nm)),
+        _Line("aim", text_of(lens.aim), text_of(USUAL_AIM)),
         _Line("object_medium", medium_text(lens.object_medium), '"air"'),
         _Line("sensor_before", placements_text(lens.sensor_before), "[]"),
         _Line("absorption", str(lens.absorption).lower(), "false"),
@@ -139,14 +160,17 @@ def _lines(surface: Surface) -> tuple[_Line, ...]:
 MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (
-    *(*TEXTS, "unit", "stop_surface", "fields_deg", "wavelengths_nm", "object_medium", "absorption"),
-    *("aperture", "pupil", "surface"),
+    *(*TEXTS, "unit", "stop_surface", "fields_deg", "fields_x_deg", "wavelengths_nm", "wavelength_weights"),
+    *("reference_nm", "aim", "object_medium", "absorption", "aperture", "pupil", "surface"),
 )
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 
 FIELD = Constraint(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
 WAVELENGTH = Constraint(lambda x: 50 <= x <= 50_000, Message("write a wavelength in nanometres, 50 to 50000"))
+
+
+WEIGHT = Constraint(lambda x: 0 <= x < inf, Message("write a weight that is not negative"))
 
 
 def read_toml(path: str | os.PathLike) -> Lens:
@@ -261,14 +285,17 @@ def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: 
             number=stop,
             count=len(surfaces),
         )
-    fields = top.numbers("fields_deg", FIELD, (0.0,))
-    waves = top.numbers("wavelengths_nm", WAVELENGTH, (587.5618,))
+    fields, across = top.numbers("fields_deg", FIELD, (0.0,)), top.numbers("fields_x_deg", FIELD, ())
+    waves = top.numbers("wavelengths_nm", WAVELENGTH, (D_NM,))
+    weights, reference = top.numbers("wavelength_weights", WEIGHT, ()), top.number("reference_nm", WAVELENGTH, 0.0)
     for key, values in (("fields_deg", fields), ("wavelengths_nm", waves)):
         if not values:
             top.fail("{name} is an empty list; write at least one number", key, name=key)
     medium = top.medium("object_medium")
     try:
-        return Lens(surfaces, aperture, stop, **texts, fields_deg=fields, wavelengths_nm=waves, object_medium=medium)
+        lens = Lens(surfaces, aperture, stop, **texts, fields_deg=fields, wavelengths_nm=waves, object_medium=medium)
+        lens = replace(lens, fields_x_deg=across, wavelength_weights=weights, reference_nm=reference or None)
+        return with_aim(lens, cast("Aim", top.string("aim", USUAL_AIM)))
     except GeometryError as error:
         raise LensFileError(error.message, top.path) from None
 

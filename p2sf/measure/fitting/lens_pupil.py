@@ -9,7 +9,8 @@ from p2sf.lens.source import Source
 from p2sf.measure.fitting.pupil_model import PupilModel
 from p2sf.measure.fitting.pupil_nodes import counts_for
 from p2sf.psf.sums.plane_waves import Counts
-from p2sf.pupil.mask_nodes import ClearNodes, throughput
+from p2sf.pupil.domain import ClearNodes
+from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.fit import fit
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.vignetting import pupil_nodes

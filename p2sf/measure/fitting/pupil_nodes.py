@@ -7,8 +7,9 @@ import numpy as np
 
 from p2sf.measure.fitting.pupil_model import PupilModel, rotate
 from p2sf.psf.sums.plane_waves import Counts
+from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import ClearNodes, mask_nodes
+from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.raytrace.fit import FittedPencil
 

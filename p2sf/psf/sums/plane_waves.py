@@ -1,4 +1,4 @@
-"""A pupil as plane waves at the sensor, one per node: their sum is the field, its square the PSF."""
+"""A pupil as plane waves at the sensor, one per node: their sum is the field, its squared modulus the PSF."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +15,7 @@ from p2sf.raytrace.ray_field import Steepness
 
 Counts = tuple[int, int]
 """Radial and angular node counts of the whole disc."""
-RADIAL_STEP, ANGULAR_STEP = 4, 16  # of node counts, so that nodes that are kept serve the next picture too
+RADIAL_STEP, ANGULAR_STEP = 4, 16  # of node counts, so that cached nodes serve the next picture too
 
 
 def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike = np.float64) -> np.ndarray:
@@ -28,12 +28,12 @@ def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike
 
 
 def window_reach_um(pixels: int, pixel_um: float) -> float:
-    """Return how far the corner of a window is from the chief ray, µm."""
+    """Return the distance of the corner of a window from the chief ray, µm."""
     return pixel_um * (pixels // 2) * sqrt(2)
 
 
 def counts_for(steepness: Steepness, reach_um: float, share: float = 1.0) -> Counts:
-    """Return (radial, angular) node counts that carry this phase up to a distance from the chief ray, µm.
+    """Return (radial, angular) node counts that resolve this phase up to a distance from the chief ray, µm.
 
     ``share``: of the counts of `nodes_for`.
     """
@@ -52,8 +52,8 @@ def disc_words(counts: Counts) -> Message:
 class Waves:
     """Plane waves whose sum is the field, 1 at most: complex amplitudes (…, nodes), frequencies in cycles per µm.
 
-    ``even``: the nodes are one half of a set that is even in fx, whose amplitudes count the other too. ``blur_um``: how
-    far from the chief ray rays land. ``reach_um``: how far from it the nodes are close enough to carry the phase.
+    ``even``: the nodes are one half of a set that is even in fx, and amplitudes include the other half. ``blur_um``:
+    largest distance of rays from the chief ray. ``reach_um``: distance from it up to which the nodes resolve the phase.
     """
 
     amplitude: np.ndarray
@@ -91,9 +91,9 @@ class Waves:
         return moments
 
     def near(self, x: float, y: float) -> tuple[float, float, float, float]:
-        """Return the intensity at a place, how far Newton's step goes from there, x and y, and what it would gain.
+        """Return the intensity at a point, Newton's step from there in x and y, and its expected gain.
 
-        Where the intensity does not bend down, the step goes along the gradient.
+        Where the intensity is not concave, the step is along the gradient.
         """
         along = self.amplitude * np.exp((2j * pi * y) * self.fy)
         turn = (2 * pi * x) * self.fx

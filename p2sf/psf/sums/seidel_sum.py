@@ -1,6 +1,6 @@
-"""The sum of `seidel.plain_intensity`, arranged so that almost nothing is left to compute.
+"""The sum of `seidel.plain_intensity`, arranged for the least computation.
 
-What makes it fast, the largest gain first:
+It is fast by, the largest gain first:
 
 * **Symmetry.** With the field along y the pupil is even in ξ. Let P± be its value at (ξ, ±η), η > 0: there W differs
   in the sign of coma alone. A node and its three mirror images, each of weight w, then add up to
@@ -26,12 +26,12 @@ from p2sf.paraxial.wavefront import shape_coefficients, spread
 from p2sf.pupil.phasors import TURN, cosine_sine, cosine_sine_of_radians
 from p2sf.pupil.quadrature import RowNodes
 
-BATCH = 32  # PSFs at a time: with fewer, two threads wait for the interpreter between them
-KERNEL_BYTES = 2**22  # the most that one kernel may take; more rows than that are summed block by block
+BATCH = 32  # PSFs at a time: with fewer, threads wait for the interpreter lock
+KERNEL_BYTES = 2**22  # largest size of one kernel; more rows are summed block by block
 SINGLE_COLUMNS = 128  # most columns of half a chord for float32 phases: they reach 60 waves, rounded to 4e-6 wave
 
 Setting = tuple[float, int, np.dtype]
-"""What kernels depend on beside the nodes: cycles per unit pupil radius and pixel, pixels, precision."""
+"""Parameters of kernels besides the nodes: cycles per unit pupil radius and pixel, pixels, precision."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class DftKernels:
 class Monomials:
     """Factors of W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns).
 
-    They give phases in waves in float64, or in radians in float32 where phases are small enough for it.
+    They give phases in waves in float64, or in radians in float32 if phases are small enough.
     """
 
     phases: np.ndarray
@@ -111,7 +111,7 @@ def _fields(shape: np.ndarray, rows: RowNodes, setting: Setting) -> tuple[np.nda
 
 
 def _block_fields(shape: np.ndarray, rows: RowNodes, setting: Setting) -> tuple[np.ndarray, np.ndarray]:
-    # A single PSF is likely to be asked for again; a batch of a stack is not, and would only fill the cache.
+    # A single PSF is likely to be requested again; a batch of a stack is not and would only fill the cache.
     kernels = (kernels_for if len(shape) == 1 else kernels_for.__wrapped__)(rows, *setting)
     half = _across(half_pupils(shape, rows, setting[2]), kernels.across)
     upper, lower = half[:, :, 0], half[:, :, 1]

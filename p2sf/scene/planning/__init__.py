@@ -1,1 +1,1 @@
-"""The plan of a scene: what is studied, what it costs, what is shared, and the check against exact sums."""
+"""The plan of a scene: measured errors, cost, shared pupils, and verification against exact sums."""

@@ -17,8 +17,8 @@ from p2sf.scene.scene import Scene
 def check_colours(lens: Lens, scene: Scene) -> None:
     """Raise GlassError, naming the wavelength, where a glass has no data for a wavelength of the scene.
 
-    A plan may replace a channel's wavelengths by fewer others, so an error found later could name a wavelength that
-    nobody asked for.
+    A plan may replace the wavelengths of a channel by fewer others, so a later error could name a wavelength that was
+    not requested.
     """
     for channel in scene.channels:
         for medium in lens.media:
@@ -29,7 +29,7 @@ def check_colours(lens: Lens, scene: Scene) -> None:
 
 
 def check_blur(study: Study) -> None:
-    """Raise SamplingError where the finest sampling that a plan may ask for exceeds the largest transform.
+    """Raise SamplingError if the finest sampling that a plan may require exceeds the largest transform.
 
     Blurs are widest at one end of the depths, and the shortest wavelength needs the most samples.
     """

@@ -1,22 +1,22 @@
-"""What a plan costs, from counts; the constants are medians measured on one core of an ordinary 2020s computer."""
+"""Cost of a plan from counts; the constants are medians measured on one core of an ordinary 2020s computer."""
 
 from dataclasses import dataclass
 from math import ceil, log2
 
-PUPIL_SECONDS = {"seidel": 1e-3, "fitted": 1.8e-3}  # rays, fit and its change of variables, per wavelength and height
-TERM_SECONDS = 3e-5  # more for each of the fit's numbers beyond the first 26
-ALONE_SECONDS, TOGETHER_SECONDS = 6e-4, 1e-4  # of any kernel: rotating its pupil, adding up; by itself, among many
+PUPIL_SECONDS = {"seidel": 1e-3, "fitted": 1.8e-3}  # rays, fit and change of variables, per wavelength and height
+TERM_SECONDS = 3e-5  # additionally for each coefficient of the fit beyond 26
+ALONE_SECONDS, TOGETHER_SECONDS = 6e-4, 1e-4  # of any kernel: rotation of its pupil, summation; alone, among many
 SAMPLE_SECONDS = 5e-9  # per sample of a transform and binary digit of its side
-PIXEL_SECONDS = 3.2e-9  # the same for the convolutions, there and back
+PIXEL_SECONDS = 3.2e-9  # the same for the convolutions, forward and inverse
 BYTES = 4
 
 
 @dataclass(frozen=True)
 class Work:
-    """How much is computed: ``kernels`` of single wavelengths, each by a ``side``² transform; patches and pixels.
+    """Amount of work: ``kernels`` of single wavelengths, each by a ``side``² transform; patches and pixels.
 
-    ``each_seconds``: of any kernel beside its transform. ``pupil_seconds``: of all fits of pupils together. ``half``:
-    pixels beside the middle of a kernel.
+    ``each_seconds``: of any kernel in addition to its transform. ``pupil_seconds``: of all fits of pupils together.
+    ``half``: pixels on either side of the centre of a kernel.
     """
 
     kernels: float
@@ -46,12 +46,12 @@ class Cost:
 
 
 def pupil_seconds(method: str, numbers: int) -> float:
-    """Return the seconds of one pupil by its own rays."""
+    """Return the seconds for one pupil by its own rays."""
     return PUPIL_SECONDS[method] + TERM_SECONDS * max(0, numbers - 26)
 
 
 def predicted_cost(work: Work) -> Cost:
-    """Return the cost of this much work."""
+    """Return the cost of an amount of work."""
     kernel = work.each_seconds + SAMPLE_SECONDS * work.side**2 * log2(max(work.side, 2))
     patch = [_support(n, count) + 2 * work.half for n, count in zip((work.rows, work.columns), work.nodes, strict=True)]
     area = patch[0] * patch[1]

@@ -1,4 +1,4 @@
-"""Which field lands where on the sensor, at every depth of a scene, by chief rays."""
+"""Maps from fields to points of the sensor at every depth of a scene, by chief rays."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -27,10 +27,10 @@ from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.threads import map_threads
 
-ORDER, REACH = 9, 1.12  # of the polynomial that finds fields; how far beyond the sensor they are traced
+ORDER, REACH = 9, 1.12  # of the polynomial for fields; how far beyond the sensor they are traced
 AZIMUTHS, ALONG = 24, 9  # of the fields traced, and how many in each
 DEPTHS = 3  # at which they are traced: chief rays of one slope hardly change with the depth
-MOST_MISS_PX = 0.1  # by which that polynomial may miss
+MOST_MISS_PX = 0.1  # allowed error of that polynomial
 
 
 def scene_maps(
@@ -38,8 +38,8 @@ def scene_maps(
 ) -> list[SensorMap]:
     """Return the maps of a scene's sensor at several vergences, 1/mm, within its depths.
 
-    About an axis of symmetry they follow from one line of ``rays`` chief rays. Raises GeometryError where chief rays do
-    not reach all of the sensor in good order.
+    With rotational symmetry they follow from one line of ``rays`` chief rays. Raises GeometryError unless chief rays
+    reach all of the sensor monotonically.
     """
     depths, sensor, clip = [depth_of(v) for v in vergences], scene.sensor, scene.clip
     if not lens.misaligned:
@@ -70,7 +70,7 @@ def _series(lens: Lens, sensor: Sensor, ends: tuple[float, float], wavelength_um
     nodes = chebyshev(min(ends), max(ends), DEPTHS if ends[0] != ends[1] else 1)
     depths, (x, y) = [depth_of(v) for v in nodes.tolist()], sensor.ends_mm()
     scale = _scale_mm(lens, depths[0], wavelength_um)
-    # A lens that is out of line moves the whole picture, by more than a small sensor's own width.
+    # A misaligned lens may shift the whole picture by more than the width of a small sensor.
     middle = float(x.mean()), float(y.mean())
     landed = landing_mm(lens, source_at(depths[0], middle[0] / scale, middle[1] / scale, wavelength_um))
     wide, high = (
@@ -89,7 +89,7 @@ def _series(lens: Lens, sensor: Sensor, ends: tuple[float, float], wavelength_um
 def _lines(x: np.ndarray, y: np.ndarray) -> Iterator[tuple[float, list[float]]]:
     """Yield azimuths, degrees, and slopes along them that fill a rectangle of fields: those of one are traced together.
 
-    All the way round where the rectangle holds the origin, else over the angle that it fills.
+    All azimuths if the rectangle contains the origin, else those that it spans.
     """
     corners = np.array([complex(up, across) for across in x for up in y])
     inside = x[0] < 0 < x[1] and y[0] < 0 < y[1]
@@ -103,7 +103,7 @@ def _lines(x: np.ndarray, y: np.ndarray) -> Iterator[tuple[float, list[float]]]:
 
 
 def _places(lens: Lens, sources: Sequence[Source]) -> np.ndarray:
-    """Return where chief rays of one azimuth land, (source, 2) mm; NaN beyond what the lens sees."""
+    """Return the landing points of chief rays of one azimuth, (source, 2) mm; NaN beyond the field of the lens."""
     try:
         return landings_mm(lens, sources)
     except GeometryError:
@@ -116,7 +116,7 @@ def _places(lens: Lens, sources: Sequence[Source]) -> np.ndarray:
 def _fit_pupils(
     slopes: np.ndarray, places: np.ndarray, sensor: Sensor, scale_mm: float, vergences: tuple[float, ...]
 ) -> _FieldSeries:
-    """Return the polynomials through fields, (n, 2), and where they land at each depth, (n, depths, 2) mm or NaN."""
+    """Return the polynomials through fields, (n, 2), and their points at each depth, (n, depths, 2) mm or NaN."""
     landed = np.isfinite(places).all((1, 2))
     slopes, places = slopes[landed], places[landed]
     ends = np.stack(sensor.ends_mm())

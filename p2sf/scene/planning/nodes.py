@@ -12,13 +12,13 @@ from p2sf.scene.planning.study import Place, Study, distance, weighted_sum
 NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
 DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
 TRIED = (0.5, 0.5), (0.5, 0.2), (0.2, 0.5)  # down and right in a cell
-CELLS = 3  # nearest to the axis, between, and farthest from it; without symmetry those in the corners too
-EVERY = 8  # up to so many intervals of depth are all tried
+CELLS = 3  # nearest to the axis, between, and farthest from it; without symmetry also those in the corners
+EVERY = 8  # up to this many intervals of depth are all tried
 
 
 @dataclass(frozen=True)
 class Between:
-    """A kernel, and those that it is interpolated from with these weights."""
+    """A kernel, and those from which it is interpolated with these weights."""
 
     true: Place
     nodes: tuple[Place, ...]
@@ -49,7 +49,7 @@ FieldPlace = tuple[float, float, int]  # wavelength, vergence, cell
 
 
 def field_places(study: Study) -> list[FieldPlace]:
-    """Return where field nodes are tried: the likeliest to fail first, sharp, blue and far out."""
+    """Return the points where field nodes are tried, the likeliest to fail first: sharp, blue and far out."""
     blue, *others = study.waves_um
     axis, _, corner = study.sharpest(blue)
     far, between, near = CELLS - 1, CELLS // 2, 0
@@ -61,7 +61,7 @@ def field_places(study: Study) -> list[FieldPlace]:
 
 
 def between_field_nodes(study: Study, number: int, place: FieldPlace) -> list[Between]:
-    """Return what an entry of NODE_COUNTS interpolates at a place."""
+    """Return the interpolation at a point by an entry of NODE_COUNTS."""
     counts, sensor, (wave, vergence, cell) = field_counts(study, number), study.scene.sensor, place
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
     if len(rows) == 1:
@@ -80,7 +80,7 @@ def _pixel(study: Study, row: float, column: float, wave: float, vergence: float
 
 
 def _about_one(study: Study, wave: float, vergence: float) -> list[Between]:
-    """Return the sensor's corners, whose kernels a single node in the middle gives."""
+    """Return the corners of the sensor, approximated by a single node in the middle."""
     last_row, last_column = study.scene.sensor.rows - 1.0, study.scene.sensor.columns - 1.0
     middle = _pixel(study, last_row / 2, last_column / 2, wave, vergence)
     corners = [_pixel(study, row, column, wave, vergence) for row in (0.0, last_row) for column in (0.0, last_column)]
@@ -88,7 +88,7 @@ def _about_one(study: Study, wave: float, vergence: float) -> list[Between]:
 
 
 def _in_cell(study: Study, rows: np.ndarray, columns: np.ndarray, wave: float, vergence: float) -> list[Between]:
-    """Return TRIED points of a cell, whose kernels its corners give."""
+    """Return TRIED points of a cell, interpolated from its corners."""
     corners = tuple(_pixel(study, row, column, wave, vergence) for row in rows for column in columns)
     found = []
     for down, right in TRIED:
@@ -102,7 +102,7 @@ DepthPlace = tuple[float, Point, float]  # wavelength, point of the area, vergen
 
 
 def depth_places(study: Study) -> list[DepthPlace]:
-    """Return where depth nodes are tried: sharpest of all in the corner, in blue, then the axis and both ends."""
+    """Return the points where depth nodes are tried: first the sharpest corner in blue, then the axis and both ends."""
     blue, *others = study.waves_um
     axis, middle, corner = study.sharpest(blue)
     far, *others_far, near = study.area.corners
@@ -114,7 +114,7 @@ def depth_places(study: Study) -> list[DepthPlace]:
 
 
 def between_depth_nodes(study: Study, number: int, place: DepthPlace) -> list[Between]:
-    """Return what an entry of DEPTH_COUNTS interpolates midway: near a place's vergence, or everywhere between few."""
+    """Return the interpolation midway by an entry of DEPTH_COUNTS: near a point's vergence, or everywhere if few."""
     wave, point, vergence = place
     nodes = study.scene.vergences(DEPTH_COUNTS[number])
     if len(nodes) == 1:

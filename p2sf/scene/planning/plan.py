@@ -1,4 +1,4 @@
-"""The plan: the least model of a lens that keeps a scene's error, each decision with its reason (handbook 10.2)."""
+"""The plan: the cheapest model of a lens within a scene's tolerance, each decision with its reason (handbook 10.2)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ import numpy as np
 from p2sf.arguments import check_arguments
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.paraxial.seidel import without_coefficients
+from p2sf.paraxial.seidel import reason_against_coefficients
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.psf.methods import by_six
@@ -49,15 +49,15 @@ from p2sf.threads import one_blas_thread
 
 # The share of the tolerance that each kind of decision may use. The errors are nearly independent, so squares add.
 SHARES = {"method": 0.46, "sampling": 0.23, "field": 0.46, "depth": 0.5, "colour": 0.32, "pupils": 0.14}
-FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and what it leaves of a kernel at most: measured
-SHARPER = 1.1  # kernels between those seen may be so much sharper
-SAFETY = 1.3  # for places between those where an error was measured
+FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and its largest error in a kernel, as measured
+SHARPER = 1.1  # factor by which kernels between those examined may be sharper
+SAFETY = 1.3  # for points between those where an error was measured
 TOGETHER = 1.2  # times the root sum, where field and depth both defocus: 99 % of 480 scenes kept to this
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What was decided, the choice, why in a sentence, and the relative error it costs; ``kind`` is a key of SHARES."""
+    """A decision: subject, choice, reason as a sentence, and its relative error; ``kind`` is a key of SHARES."""
 
     what: Message
     choice: Message
@@ -68,13 +68,13 @@ class Decision:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Everything that kernels of a scene are made of.
+    """Everything that determines the kernels of a scene.
 
-    ``recipe``: how each kernel is made; ``colours``: one per channel; ``counts``: kernel nodes along rows and columns;
-    ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared errors of
-    the decisions, times TOGETHER. ``naive``: what the full grid would cost (`pricing.naive_work`).
-    ``norm``: the largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance.
-    ``table``: the pupils that all others are interpolated from; None where each is fitted.
+    ``recipe``: how each kernel is computed; ``colours``: one per channel; ``counts``: kernel nodes along rows and
+    columns; ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared
+    errors of the decisions, times TOGETHER. ``naive``: the cost of the full grid (`pricing.naive_work`). ``norm``: the
+    largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance. ``table``: the
+    pupils from which all others are interpolated; None if each is fitted.
     """
 
     lens: Lens
@@ -105,7 +105,7 @@ class Plan:
 
     @property
     def allowed_error(self) -> float:
-        """Return the tolerance as relative error of these kernels."""
+        """Return the tolerance as a relative error of these kernels."""
         return self.scene.relative_error(self.norm)
 
     @property
@@ -119,7 +119,7 @@ class Plan:
         return Kernels(seen, colour, self.scene.sensor.pixel_um, self.recipe, self.table)
 
     def sensor_map(self, vergence: float) -> SensorMap:
-        """Return where the points of one depth land."""
+        """Return the map from fields to the sensor at one depth."""
         return _sensor_map(self.lens, self.scene, vergence, self.reference_um)
 
 
@@ -133,7 +133,7 @@ def _sensor_map(lens: Lens, scene: Scene, vergence: float, wavelength_um: float)
 def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], None] | None = None) -> Plan:
     """Find the cheapest model of a lens that stays within the tolerance of a scene.
 
-    Each decision takes the first entry of its list, cheapest first, that keeps its share; where none does, the last.
+    Each decision takes the first entry of its list, cheapest first, within its share of the tolerance, else the last.
 
     Parameters
     ----------
@@ -147,8 +147,8 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     Returns
     -------
     Plan
-        The plan, for `form_image`. ``.decisions`` says what was decided and why, ``.predicted_error`` is the relative
-        error, and ``.meets`` says whether it is within the tolerance.
+        The plan, for `form_image`. ``.decisions`` lists the decisions and their reasons, ``.predicted_error`` is the
+        relative error, and ``.meets`` states whether it is within the tolerance.
 
     Raises
     ------
@@ -203,7 +203,7 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
 
 
 def _norm(study: Study) -> float:
-    """Return the largest root sum of squares of the kernels, where the tolerance depends on it; it is 1 at most."""
+    """Return the largest root sum of squares of the kernels, at most 1, if the tolerance depends on it."""
     if study.scene.measure not in ("mtf", "psnr"):
         return 1.0
     kernels = study.kernels([place for wave in study.waves_um for place in study.places(wave)])
@@ -242,8 +242,8 @@ def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple
 
 
 def _seidel_error(study: Study, places: Sequence[Place]) -> float:
-    """Return the worst error of kernels by Seidel coefficients; infinite where they do not describe the lens."""
-    if study.lens.misaligned or without_coefficients(study.lens):
+    """Return the worst error of kernels by Seidel coefficients; infinite if they do not describe the lens."""
+    if study.lens.misaligned or reason_against_coefficients(study.lens):
         return inf
     pupils = [study.pupil_at(place) for place in places]
     made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)
@@ -275,7 +275,7 @@ def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point,
     every = reduce_spectrum(channel, len(channel.wavelengths_nm))
     pairs = [(reduce_spectrum(channel, number + 1), partial(study.place, *places[k])) for number, k in tries]
     asked = [place(wave) for few, place in pairs for colour in (few, every) for wave in colour.wavelengths_um]
-    kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one hides the change
+    kernels = dict(zip(asked, study.kernels(asked, FINE_SAMPLING), strict=True))  # a coarser one would hide the change
 
     def mixed(colour: Colour, place: Callable[[float], Place]) -> np.ndarray:
         return weighted_sum([kernels[place(wave)] for wave in colour.wavelengths_um], colour.weights)
@@ -284,7 +284,7 @@ def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point,
 
 
 def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
-    """Return the coarsest entry of SAMPLINGS that keeps its share, and the decision."""
+    """Return the coarsest entry of SAMPLINGS within its share of the tolerance, and the decision."""
     red, blue = (study.places(wave) for wave in (study.waves_um[-1], study.waves_um[0]))
     places = list(dict.fromkeys((red[-1], red[0], *blue)))
 

@@ -1,4 +1,4 @@
-"""How much a plan computes, and how much the full grid without a plan would."""
+"""The work of a plan, and that of the full grid without a plan."""
 
 from collections.abc import Sequence
 from math import ceil, prod
@@ -16,18 +16,18 @@ NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), a
 
 
 def mirrored(lens: Lens, scene: Scene) -> bool:
-    """Return whether one quarter of a scene's kernels gives the others, as mirror images."""
+    """Return whether one quarter of a scene's kernels determines the others as mirror images."""
     return scene.sensor.centred and lens.mask.quartered and not lens.misaligned
 
 
 def computed_counts(counts: tuple[int, int], mirrored: bool) -> tuple[int, int]:
-    """Return how many of the kernel nodes along rows and columns are computed; where ``mirrored``, a quarter of all."""
+    """Return the number of kernel nodes computed along rows and columns; if ``mirrored``, a quarter of all."""
     rows, columns = counts
     return (ceil(rows / 2), ceil(columns / 2)) if mirrored else counts
 
 
 def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:
-    """Return the plan's work; its pupils were fitted while planning, unless each is fitted by itself."""
+    """Return the work of the plan; its pupils were fitted during planning, unless each is fitted separately."""
     sensor, waves = study.scene.sensor, sum(len(colour.wavelengths_um) for colour in colours)
     nodes = prod(computed_counts(counts, mirrored(study.lens, study.scene)))
     halves, sides = _widths(study, recipe)
@@ -38,10 +38,10 @@ def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: t
 
 
 def naive_work(study: Study, recipe: Recipe, counts: tuple[int, int], layers: int) -> Work:
-    """Return the work of the full grid, which without a plan would have to be computed for the same error.
+    """Return the work of the full grid that would be necessary for the same error without a plan.
 
-    One method everywhere, the cheapest that holds at the worst place, its own rays for every PSF; depth × rows ×
-    columns × every wavelength, everywhere as dense as the worst place needs; every fringe; one window, that of the
+    One method everywhere, the cheapest that suffices at the worst point, with separate rays for every PSF; depth × rows
+    × columns × every wavelength, everywhere as dense as the worst point requires; every fringe; one window, that of the
     widest blur; no use of symmetry.
     """
     scene, recipe = study.scene, naive_recipe(recipe)

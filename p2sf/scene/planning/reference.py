@@ -1,4 +1,4 @@
-"""The reference kernel of a point anywhere on the sensor: exact rays, a plane wave each, summed without any FFT."""
+"""The reference kernel of a point anywhere on the sensor: exact rays, one plane wave each, summed without an FFT."""
 
 from dataclasses import replace
 from math import ceil
@@ -51,7 +51,7 @@ def exact_pixels(
     ``shift_um``: where it lands along the field's direction and across.
     """
     along_um, aside_um = shift_um
-    # Its mask is turned, which stays in the lens, and so are a lens's tilts and decentres.
+    # The mask, fixed in the lens, is rotated, and so are tilts and decentres of the lens.
     seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))
     probe = pupil_nodes(lens, seen, PROBE, clip)
     steep = steepness(pencil(lens, seen, probe.xi, probe.eta), probe.xi, probe.eta)

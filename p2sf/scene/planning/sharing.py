@@ -1,4 +1,4 @@
-"""How few pupils need fitting: the others, over the field, the depths and colours, are interpolated."""
+"""Reduction of the number of fitted pupils: the others, over field, depths and colours, are interpolated."""
 
 from itertools import product
 from math import inf
@@ -10,13 +10,13 @@ from p2sf.pixel_kernels.pupil_table import Axes, PupilTable, chebyshev, pupil_ta
 from p2sf.scene.field_area import DIGITS
 from p2sf.scene.planning.study import Place, PupilAt, Study, distance
 
-# Of fits over a side of the field, the depths or the colours: each one's nodes are among the next one's.
+# Numbers of fits along a side of the field, the depths or the colours: each node set contains the previous one.
 COUNTS = (2, 3, 5, 9, 17)
-TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # relative error of a kernel that interpolation along one axis may cause
+TARGET_ERROR, LARGEST_ERROR = 1e-3, 3e-2  # allowed relative error of a kernel by interpolation along one axis
 
 
 def share_pupils(study: Study) -> None:
-    """Give a study the table of its pupils, unless kernels would change by more than LARGEST_ERROR.
+    """Set the table of pupils of a study, unless kernels would change by more than LARGEST_ERROR.
 
     Along each axis nodes are added until pupils midway between them change no kernel by more than TARGET_ERROR.
     """
@@ -33,7 +33,7 @@ def share_pupils(study: Study) -> None:
         x, y, depths, waves = (_nodes(*end, count).tolist() for end, count in zip(ends, counts, strict=True))
         axes = x, y, depths, waves
         places = {axis: _between(study, axis, _nodes(*ends[axis], counts[axis] + 1)) for axis in tried}
-        # Fitted together, which the calls below find kept.
+        # Fitted together and cached for the calls below.
         study.fitted([*_grid(axes), *(study.pupil_at(place) for several in places.values() for place in several)])
         table = pupil_table(axes, *study.fitted(_grid(axes)))
         for axis in tried:
@@ -61,9 +61,9 @@ def _grid(axes: Axes) -> list[PupilAt]:
 
 
 def _between(study: Study, axis: int, finer: np.ndarray) -> list[Place]:
-    """Return places midway between the nodes along one axis, and at the ends and the sharpest depths of the others.
+    """Return points midway between the nodes along one axis, and at the ends and the sharpest depths of the others.
 
-    Pixels wider than a sharp kernel hide errors there that a blurred kernel shows, and the other way round.
+    Pixels wider than a sharp kernel hide errors that a blurred kernel shows, and vice versa.
     """
     wave, middles, area = study.waves_um[0], finer[1::2].tolist(), study.area
     sharp = study.sharpest(wave)
@@ -83,6 +83,6 @@ def _error(study: Study, table: PupilTable, places: list[Place]) -> float:
     pupils = [study.pupil_at(place) for place in places]
     try:
         between = table.at(*zip(*pupils, strict=True))
-    except GeometryError:  # so far off that they lose light
+    except GeometryError:  # so inaccurate that they lose light
         return inf
     return max(map(distance, study.rendered(places, *between), study.rendered(places, *study.fitted(pupils))))

@@ -1,6 +1,6 @@
-"""Kernels of one lens and scene while a plan is made: pupils from few fits, many kernels at once, each computed once.
+"""Kernels of one lens and scene during planning: pupils from few fits, many kernels at once, each computed once.
 
-No error measured here depends on the tolerance, so that a looser tolerance can only take a cheaper choice.
+No error measured here depends on the tolerance, so that a looser tolerance can only lead to a cheaper choice.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -26,14 +26,14 @@ from p2sf.scene.scene import Scene
 
 # Fineness and margin of `Recipe`, cheapest first.
 SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)
-# The first for errors that change a kernel as a whole, the second for those that only show in its fringes.
+# The first for errors that change a kernel as a whole, the second for those that only affect its fringes.
 COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[4]
 CONVERGED_WAVES = 3e-4
-SCAN, DEPTHS = 65, 5  # depths among which the sharpest are sought, and at which nodes are tried besides
-SEEN_AT = 0.0, 0.6, 1.0  # of the way to the farthest point: where the sharpest depths are sought
+SCAN, DEPTHS = 65, 5  # depths among which the sharpest are sought, and at which nodes are also tried
+SEEN_AT = 0.0, 0.6, 1.0  # fractions of the way to the farthest point at which the sharpest depths are sought
 
-FOCUSED = 4  # depths between which the phase is interpolated where the sharpest are sought
-CHIEF_RAYS = 65  # between which fields are found by height: linearly to some 1e-6
+FOCUSED = 4  # depths between which the phase is interpolated in that search
+CHIEF_RAYS = 65  # between which fields are interpolated linearly by height, to some 1e-6
 
 Sampling = tuple[float, float]
 
@@ -60,9 +60,8 @@ class PupilAt(NamedTuple):
 class Study:
     """Kernels of one lens and scene, each computed once; ``check`` may raise before each measurement, to stop.
 
-    ``table``, once `sharing.share_pupils` has found how few pupils need fitting, gives all others, and
-    ``table_error`` is the relative error that this adds to a kernel. ``waves_um``: the shortest, the reference and the
-    longest wavelength.
+    ``table``, set by `sharing.share_pupils`, interpolates all pupils from few fits, and ``table_error`` is the relative
+    error that this adds to a kernel. ``waves_um``: the shortest, the reference and the longest wavelength.
     """
 
     lens: Lens
@@ -85,11 +84,11 @@ class Study:
 
     @cached_property
     def area(self) -> FieldArea:
-        """Return where on the sensor the pupils differ."""
+        """Return the area of the sensor over which pupils differ."""
         return field_area(self.sensor_map(self.ends[0]).fields, self.scene.sensor)
 
     def sensor_map(self, vergence: float) -> SensorMap:
-        """Return where the points of one depth land, out to the sensor's corner."""
+        """Return the map from fields to the sensor at one depth, out to the sensor's corner."""
         self.map_depths([vergence])
         return self._maps[vergence]
 
@@ -101,12 +100,12 @@ class Study:
             self._maps.update(zip(missing, maps, strict=True))
 
     def sharpest(self, wave: float) -> list[float]:
-        """Return the vergences of the smallest blur at SEEN_AT of the field: on the axis, between, in the corner."""
+        """Return the vergences of the smallest blur at the fractions SEEN_AT of the field: axis, between, corner."""
         return self._sharpest[wave]
 
     @cached_property
     def _sharpest(self) -> dict[float, list[float]]:
-        """Return where the variance of the phase is least, which is a polynomial of the vergence."""
+        """Return the vergence of the least variance of the phase, which is a polynomial in the vergence."""
         scan = self.scene.vergences(SCAN)
         nodes = tuple(chebyshev(float(scan[0]), float(scan[-1]), FOCUSED if len(self.ends) > 1 else 1).tolist())
         points = [self.area.outwards(part) for part in SEEN_AT]
@@ -119,25 +118,25 @@ class Study:
         return {wave: scan[at].tolist() for wave, at in zip(self.waves_um, least, strict=True)}
 
     def places(self, wave: float) -> list[Place]:
-        """Return where choices on single pupils are tried: the corner, sharp and at both ends of depth, and the centre.
+        """Return points for choices on single pupils: the corner, sharp and at both ends of depth, and the centre.
 
-        At depths between these, what a description of the pupil leaves out shows less.
+        At depths between these, errors in the description of a pupil matter less.
         """
         axis, _, corner = self.sharpest(wave)
         found = [self.place(self.area.far, v, wave) for v in (corner, *self.ends)]
         return list(dict.fromkeys((*found, self.place(self.area.near, axis, wave))))
 
     def place(self, point: Point, vergence: float, wave_um: float) -> Place:
-        """Return a place of the sensor with the pupil of a point of the area."""
+        """Return a point of the sensor with the pupil of a point of the area."""
         return Place(*self.area.fields.oblique(*point), vergence, wave_um)
 
     def pupil_at(self, place: Place) -> PupilAt:
-        """Return the pupil of a place."""
+        """Return the pupil of a point of the sensor."""
         return PupilAt(*self.area.point_of(place.x_mm, place.y_mm), place.vergence, place.wave_um)
 
     @cached_property
     def level(self) -> Level:
-        """Return the first size of fit that leaves less than CONVERGED_WAVES at the ends of field, depth and colour."""
+        """Return the smallest fit with a residual below CONVERGED_WAVES at the ends of field, depth and colour."""
         return next((level for level in self.levels if self.residual(level) < CONVERGED_WAVES), self.levels[-1])
 
     @property
@@ -147,11 +146,11 @@ class Study:
 
     def residual(self, level: Level) -> float:
         """Return the largest RMS phase residual of fits of this size, waves, at the ends of field and depth."""
-        share = 1.0 if self.lens.mask.clear else throughput(self.lens.mask).light  # all of it may be where that is open
+        share = 1.0 if self.lens.mask.clear else throughput(self.lens.mask).light  # all of it may be in the open part
         return float(self._corner_fits(level)[0].residual_waves.max() / np.sqrt(share))
 
     def _corner_fits(self, level: Level) -> tuple[PencilForms, np.ndarray]:
-        """Return the fits of one size at the ends of field and depth, and where their chief rays land, (n, 2) mm."""
+        """Return the fits of one size at the ends of field and depth, and the chief rays' points, (n, 2) mm."""
         if level not in self._of_corners:
             self.check()
             self._of_corners[level] = fitted_forms(self.lens, self._sources(self.corners), level)
@@ -159,7 +158,7 @@ class Study:
 
     @property
     def corners(self) -> list[PupilAt]:
-        """Return the pupils at both ends of field and depth in the shortest wavelength, which shows most."""
+        """Return the pupils at both ends of field and depth at the shortest wavelength, which is the most sensitive."""
         return [PupilAt(*self.area.point_of(*p), v, self.waves_um[0]) for p in self.area.corners for v in self.ends]
 
     def _sources(self, pupils: Sequence[PupilAt]) -> list[Source]:
@@ -168,7 +167,7 @@ class Study:
         return [self._maps[at.vergence].source(at.x_mm, at.y_mm, at.wave_um) for at in pupils]
 
     def fitted(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
-        """Return pupils from their own rays, and how far each lands from its place, (pupils, 2) mm; fitted once."""
+        """Return pupils from their own rays, and their displacements from their points, (pupils, 2) mm; cached."""
         missing = [at for at in dict.fromkeys(pupils) if at not in self._fits]
         if missing:
             self.check()
@@ -187,7 +186,7 @@ class Study:
         return seidel_pupils(self.lens, self._sources(pupils), self.scene.clip)
 
     def lights(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
-        """Return pupils as `fitted` does: from the table, or while there is none from their own rays."""
+        """Return pupils as `fitted` does: from the table, or, if there is none yet, from their own rays."""
         if self.table is None:
             return self.fitted(pupils)
         return self.table.at(*zip(*pupils, strict=True))
@@ -219,9 +218,9 @@ def first_allowed(
 ) -> tuple[int, float]:
     """Return the first of ``count`` choices whose error is allowed at all places, else the last; and its error.
 
-    ``measure`` gives the errors of (choice, number of a place), which fall from choice to choice. Most choices fail
-    where one before did, so that the first that holds there is sought first, from place 0 on, and then tried at all.
-    ``together``: how many choices are tried at once, spread over those left.
+    ``measure`` gives the errors of (choice, index of a point), which decrease from choice to choice. Most choices fail
+    where an earlier one did, so that the first that holds there is sought first, from point 0 on, and then tried at all
+    points. ``together``: the number of choices tried at once, spread over the remaining ones.
     """
     low, hardest = 0, 0
     while True:

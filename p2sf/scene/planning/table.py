@@ -27,7 +27,7 @@ def plan_sentences(planned: Plan) -> list[str]:
 
 
 def _as_asked(planned: Plan) -> str:
-    """Return the error and the tolerance in the measure that the scene asks for, where that is another."""
+    """Return the error and the tolerance in the measure of the scene, if that is another."""
     scene = planned.scene
     found = scene.measured(planned.predicted_error, planned.norm)
     words = {
@@ -39,7 +39,7 @@ def _as_asked(planned: Plan) -> str:
 
 
 def plan_facts(planned: Plan) -> dict:
-    """Return the plan as JSON carries it."""
+    """Return the plan as JSON values."""
     return {
         "aim": planned.lens.aim,
         "tolerance": planned.allowed_error,

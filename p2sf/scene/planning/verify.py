@@ -1,4 +1,4 @@
-"""A plan checked at random points against exact rays summed without its approximations."""
+"""Verification of a plan at random points against exact rays, summed without its approximations."""
 
 from dataclasses import dataclass
 from time import thread_time
@@ -31,13 +31,13 @@ class Verdict:
 
     @property
     def kept(self) -> bool:
-        """Return whether every point keeps the tolerance."""
+        """Return whether every point is within the tolerance."""
         return self.worst <= self.tolerance
 
 
 @one_blas_thread
 def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
-    """Return the errors of a plan's kernels at random places, depths and channels against the reference."""
+    """Return the errors of a plan's kernels against the reference at random points, depths and channels."""
     random = np.random.default_rng(seed)
     places = tuple(_place(planned, random) for _ in range(points))
     found = map_threads(lambda place: error_at(planned, *place), places)
@@ -55,7 +55,7 @@ def _place(planned: Plan, random: np.random.Generator) -> tuple[float, float, fl
 
 
 def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> tuple[float, float]:
-    """Return the relative L2 error of the plan's kernel at one place, and the reference's CPU seconds."""
+    """Return the relative L2 error of the plan's kernel at one point, and the CPU seconds of the reference."""
     kernel = planned_kernel(planned, x_mm, y_mm, vergence, channel)
     own = int(planned.kernels(channel, vergence).points([x_mm], [y_mm]).half_widths()[0])
     half = max(own, kernel.shape[-1] // 2)
@@ -66,7 +66,7 @@ def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: 
 
 
 def planned_kernel(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> np.ndarray:
-    """Return the kernel that image formation uses for a point: interpolated between nodes of field and depth."""
+    """Return the kernel used in image formation for a point: interpolated between nodes of field and depth."""
     sensor = planned.scene.sensor
     row = (sensor.rows - 1) / 2 - (y_mm - sensor.centre_mm[1]) / sensor.pixel_mm
     column = (sensor.columns - 1) / 2 + (x_mm - sensor.centre_mm[0]) / sensor.pixel_mm

@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
 from p2sf.database import Space, depth_nodes
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, check_aligned, check_unmasked, with_f_number
+from p2sf.lens.lens import Lens, check_aligned, with_f_number
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
@@ -159,7 +159,8 @@ def _smaller(opened: Lens, lens: Lens) -> bool:
 
 def _depths(lens: Lens) -> tuple[float, float]:
     """Return the nearest and the farthest depth, mm."""
-    check_unmasked(lens, Message("a comparison of descriptions"))
+    if not lens.mask.clear:
+        raise GeometryError("the descriptions compared are of a clear round stop; remove the mask")
     check_aligned(lens, Message("a comparison of descriptions"))
     far_waves = _defocus(lens, inf)
     if abs(far_waves) > USEFUL_WAVES:
@@ -193,7 +194,7 @@ def _depth_at(lens: Lens, waves: float, between_mm: tuple[float, float]) -> floa
 
 def _slopes(lens: Lens, depths: tuple[float, float]) -> tuple[float, float]:
     """Return the field slopes; of a lens for near objects those of heights seen at the stated angles from its front."""
-    largest = float(slope_from_degrees(max(lens.fields_deg)))
+    largest = float(slope_from_degrees(lens.widest_field_deg))
     if depths[1] / depths[0] < FAR / 2:
         middle = (depths[0] + depths[1]) / 2
         largest = abs(float(field_from_object_height(lens, middle, lens.reference_wavelength_um, largest * middle)))

@@ -72,6 +72,30 @@ def test_fans_and_sums_per_surface_are_taken_from_each_other(views):
     assert d["seidel"].waves["w40"].sum() == approx(15 / 16 * a["seidel"].waves["w40"].sum(), rel=1e-6)
 
 
+def test_a_difference_has_the_sign_of_the_side_that_has_more():
+    """f/4 has sixteen times the spherical aberration of f/8, and in the middle of its axial picture more light."""
+    wanted = {key: view_of(PANELS[key]) for key in ("zernike", "profiles")}
+    axial = change(PAIR, field_deg=0.0, method="fitted", sensor_shift_um=0.0)
+    own = compute.live(change(axial, pinned=None), "settled", wanted)
+    seen = answers(change(axial, shown="difference"), "settled", wanted).seen
+    assert seen.difference.coefficients["w40"] == approx(15 / 16 * float(own.setup.coefficients.w40), rel=1e-6)
+    middle = len(seen.difference.psf) // 2
+    assert seen.difference.psf[middle, middle] > 0
+    profiles = seen.views["profiles"]
+    assert profiles.along_x[int(np.abs(profiles.position_um).argmin())] > 0
+    for order, fit in own.views["zernike"].fits.items():
+        place = next(k for k, term in enumerate(fit.terms) if (term.n, term.m) == (4, 0))
+        assert seen.views["zernike"].fits[order].waves[place] / fit.waves[place] == approx(15 / 16, abs=0.03)
+    at = middle_row(seen.difference.pupil.waves)
+    assert seen.difference.pupil.waves[at] / own.pupil.waves[at] > 0
+
+
+def middle_row(waves):
+    """Return the place of the last sample inside the rim, on the line through the middle."""
+    row = len(waves) // 2
+    return row, int(np.flatnonzero(np.isfinite(waves[row]))[-1])
+
+
 def test_a_lens_with_other_surfaces_has_no_sums_to_take_away(views):
     other = compute.live(
         new_state(lens="cooke_triplet", method="seidel"), "preview", {"seidel": view_of(PANELS["seidel"])}

@@ -6,7 +6,7 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_absorption
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.first_order import image_distance
-from p2sf.paraxial.positions import as_in_columns, lens_at
+from p2sf.paraxial.positions import lens_at, matches_columns
 from p2sf_explorer.compute.editing import delete_surface, edited_state, insert_surface, with_stop, with_value
 from p2sf_explorer.compute.setup import prescription, with_lens
 from p2sf_explorer.state.state import State, change
@@ -44,7 +44,7 @@ def test_a_space_that_varies_is_edited_in_its_column():
         ZOOM.positions.lenses[2].surfaces[1].thickness,
     ]
     assert prescription(state).surfaces[1].thickness == 39.0
-    assert as_in_columns(prescription(state))
+    assert matches_columns(prescription(state))
 
 
 @pytest.mark.parametrize("zoom", [30.0, 45.0])

@@ -73,7 +73,7 @@ def test_the_advice_fits_what_is_said_to_blur_most(state, words, advice):
     [
         (new_state(field_deg=0.0), ("W40",)),
         (new_state(field_deg=14.0), ("W20", "W40")),
-        (new_state(depth_mm=1500.0, field_deg=0.0), ("Wd",)),
+        pytest.param(new_state(depth_mm=1500.0, field_deg=0.0), ("Wd",), marks=pytest.mark.slow),
         (new_state(lens="telephoto", field_deg=7.0, aim="paraxial"), None),
         (new_state(free_pupil=True, added_waves=(2.0, 0.0, 0.0, -2.0, 1.0, 0.0)), ("W40", "Wd")),
     ],

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import RectBivariateSpline
 
 from p2sf.psf.methods import choose, psf_of
 from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.finer import CRITICAL, ShownArea, finer, source
 from p2sf_explorer.compute.finer import answer as render_finer
-from p2sf_explorer.compute.finer import finer, source
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.method import choose_for_state
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, with_lens
@@ -94,15 +95,31 @@ def test_what_is_altered_by_hand_predicts_nothing():
 
 
 def test_finer_samples_are_those_of_the_same_picture():
-    """Twice as many over the same width: every second one is a sample of the picture."""
+    """A blur whose samples are too coarse for the eye: what is summed in their place passes through them."""
     answer = live(new_state(method="fitted", field_deg=5.0), views={"psf": source})
-    found = answer.views["psf"]
-    request = finer(found, 250.0)
-    assert request.window == (256, answer.psf.pixel_um / 2)
+    found, airy, psf = answer.views["psf"], answer.airy_radius_um, answer.psf
+    reach = 0.4 * psf.pixel_um * len(psf.values)
+    request = finer(found, ShownArea(reach, 0.2), airy)
+    samples, pitch = request.window
+    assert samples * pitch >= 2 * reach and pitch <= 1.2 * CRITICAL * airy < psf.pixel_um
     fine = render_finer(request, lambda: False, lambda share, so_far: None)
-    every_second = fine.values[::2, ::2] / fine.values[::2, ::2].sum()
-    np.testing.assert_allclose(every_second, answer.psf.values, atol=1e-6 * answer.psf.values.max())  # float32
-    assert finer(found, 128.0) is None and finer(found, 5000.0).window[0] == 1024
+    between = RectBivariateSpline(fine.y_um, fine.x_um, fine.over_unaberrated)
+    inside = np.abs(psf.x_um) < fine.x_um[-4]
+    seen = between(psf.y_um[inside], psf.x_um[inside])
+    true = psf.over_unaberrated[np.ix_(inside, inside)]
+    np.testing.assert_allclose(seen, true, atol=5e-3 * true.max())  # of the cubic spline through critical samples
+
+
+def test_a_finer_picture_is_asked_for_only_where_the_eye_needs_it():
+    answer = live(new_state(method="fitted", field_deg=2.0, f_number=8.0), views={"psf": source})
+    found, airy, psf = answer.views["psf"], answer.airy_radius_um, answer.psf
+    half = psf.pixel_um * len(psf.values) / 2
+    assert psf.pixel_um < CRITICAL * airy
+    assert finer(found, ShownArea(0.9 * half, 0.01 * airy), airy) is None, "cosines through these samples are the light"
+    wider = finer(found, ShownArea(1.5 * half, 0.01 * airy), airy).window
+    assert wider[0] * wider[1] >= 3 * half, "the square would end within the view"
+    coarse = replace(found, most=64)
+    assert finer(coarse, ShownArea(100 * half, 0.01 * airy), airy).window[0] == 64
 
 
 SPHERICAL = replace(paraxial_setup(SHARP).coefficients, w40=np.float64(9.0))

@@ -14,6 +14,7 @@ from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.compute.warnings import TOGETHER
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.state import change, new_state
+from tests.support.tiers import in_tiers
 
 BLURRED = new_state(depth_mm=300.0, focus_mm=None, field_deg=8.0, method="auto")
 TOO_BLURRED = change(BLURRED, depth_mm=10.0)  # for a sum of waves
@@ -120,7 +121,7 @@ def test_the_window_says_that_it_shows_rays_only():
     assert not any("ray density" in str(sentence) for sentence in live(new_state(method="fitted")).warnings)
 
 
-@pytest.mark.parametrize("name", ["wide_angle_35", "fast_gauss_f14"])
+@pytest.mark.parametrize("name", in_tiers(["wide_angle_35", "fast_gauss_f14"], ("wide_angle_35",)))
 def test_a_few_far_rays_do_not_shrink_the_picture_to_a_dot(name):
     """Neither of waves nor, while they are summed, of ray density."""
     state = change(default_state(name), method="auto", field_deg=15.0, aim="paraxial")

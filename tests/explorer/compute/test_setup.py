@@ -1,6 +1,7 @@
 """The state's setup is the library's own, by one road, and dragging the field makes no new lens."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,11 +9,19 @@ import pytest
 from p2sf.camera import Request, set_up
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import with_mask
-from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.compute.layout import layout
-from p2sf_explorer.compute.setup import paraxial_setup, prescription, ranges, request_setup, with_lens, with_state_mask
+from p2sf_explorer.compute.setup import (
+    default_state,
+    paraxial_setup,
+    prescription,
+    ranges,
+    request_setup,
+    with_lens,
+    with_state_mask,
+)
 from p2sf_explorer.state.state import State, change, entry, new_state
 
 STATES = [
@@ -88,3 +97,11 @@ def test_the_f_number_slider_ends_where_the_achromats_crown_has_an_edge():
     front, back = (radius - np.sqrt(radius**2 - height**2) for radius in (12.38401, 7.9414))
     assert front + back == pytest.approx(0.434, abs=0.003) and front + back < 0.434
     assert ranges(find_lens("double_gauss_28")).f_number[0] == pytest.approx(3 / 1.4, rel=0.001)
+
+
+def test_a_lens_that_is_not_symmetric_opens_at_a_field_of_its_file():
+    """Its field of −5° is not that of +5°, and one along x is marked there."""
+    path = Path(__file__).parents[2] / "data" / "import" / "tilted_fields.zmx"
+    state = default_state(str(path))
+    assert (state.optics.field_x_deg, state.optics.field_deg) == (0.0, -5.0)
+    assert ranges(load_lens(path)).stated_deg == ((3.0, 0.0), (0.0, -5.0), (0.0, 5.0))

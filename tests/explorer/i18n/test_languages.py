@@ -33,8 +33,10 @@ FILLED = [
     for text in GERMAN.values()
     if "{" in text and LETTERS.search(FIELD.sub("", text))
 ]
-# What a file, a lens, a glass, a key or a unit is called is not translated.
-NAMES = re.compile(r"^&\d  |^utf-8$|SCHOTT|OHARA|N-[A-Z]+\d+|P2SF|Ctrl\+|Alt\+|\d[\d.,]* (nm|mm|µm|ms)|f/\d")
+# What a file, a lens, a glass, a key, a unit or a language is called is not translated.
+NAMES = re.compile(
+    r"^English$|^Deutsch$|^&\d  |^utf-8$|SCHOTT|OHARA|N-[A-Z]+\d+|P2SF|Ctrl\+|Alt\+|\d[\d.,]* (nm|mm|µm|ms)|f/\d"
+)
 
 
 def test_every_text_has_a_translation_with_the_same_braces():
@@ -127,7 +129,8 @@ def shown(window) -> set[str]:
 def test_nothing_shown_passes_the_language_by(german):
     window, translator = german
     pieces = {piece.strip() for text in shown(window) for piece in JOINTS.split(text)[::2]}
-    passed = {p for p in pieces if LETTERS.search(p) and p not in translator.heard and not is_german(p)}
+    heard = translator.heard | {text.partition(",")[0] for text in translator.heard}  # a lens's title, as far as that
+    passed = {p for p in pieces if LETTERS.search(p) and p not in heard and not is_german(p)}
     assert not passed, "\n".join(sorted(passed))
 
 

@@ -229,7 +229,8 @@ def test_colours_that_are_locked_show_a_growing_blur_grow_dim(window):
     assert float(heat.values.max()) == pytest.approx(float(psf.strehl), rel=0.02)  # the same light, a perfect pupil
     assert heat.indices.max() < 100
     heat.bar.turn_lock(False)
-    assert float(heat.values.max()) == pytest.approx(1.0) and heat.indices.max() == 254
+    assert float(heat.values.max()) == pytest.approx(1.0)
+    assert heat.indices.max() >= 252  # painted between the samples, so up to half a cell beside the peak
 
 
 @pytest.mark.parametrize("units", ["sum", "strehl"])
@@ -288,21 +289,6 @@ def test_space_for_a_drag_of_the_charts_own(window, qtbot):
     chart.go_home()
     qtbot.mouseClick(chart, LEFT, pos=at.toPoint())
     assert window.store.state.optics.sensor_shift_um != before and not chart.pins
-
-
-def test_a_psf_that_is_zoomed_is_summed_for_the_pixels_it_then_has(window, qtbot):
-    """The whole picture gets as many samples as it would have pixels, as far as sums of some seconds go."""
-    window.store.update(method="fitted", f_number=8.0, field_deg=5.0)
-    heat = window.panels["psf"].map
-    at_rest(window, qtbot)
-    before, whole = len(heat.indices), heat.device_pixels
-    heat.chart.zoom(heat.chart.area.center(), 0.5)
-    try:
-        assert heat.device_pixels == pytest.approx(2 * whole)
-        most = min(heat.device_pixels, window.live.finest)
-        qtbot.waitUntil(lambda: before < len(heat.indices) >= most)
-    finally:
-        heat.chart.go_home()
 
 
 def test_the_mixers_scale_changes_in_steps_and_can_be_locked(window, qtbot):

@@ -1,8 +1,11 @@
 """The PSF panel: as many samples as pixels once it rests, a badge that promises no more than is known."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
+from p2sf_explorer.compute.finer import fade
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.panels.psf import badge_words, tip_words, top_value, unit_of
@@ -12,20 +15,48 @@ from p2sf_explorer.window.bars import shorten
 BLURRED = change(default_state("double_gauss_28"), depth_mm=10.0, method="auto")
 
 
-def test_the_picture_is_summed_for_the_pixels_it_is_shown_on(window, qtbot):
-    """In the panel, in a window of its own, and in a larger one; not while a slider moves."""
+def test_the_picture_is_smooth_and_fills_the_view(window, qtbot):
+    """In a window of its own, wide and tall, at rest; while a slider moves, it is enlarged from what is there."""
     panel = window.panels["psf"]
     window.store.update(windows=("psf",), method="fitted", f_number=8.0, field_deg=5.0)
     own = window.floating.open["psf"]
-    for side in (500, 800):
-        own.resize(side, side)
-        qtbot.waitUntil(lambda least=side / 2: len(panel.map.indices) >= panel.map.device_pixels > least)
+    for size in ((500, 500), (1400, 500)):
+        own.resize(*size)
+        qtbot.waitUntil(lambda: panel.map.rect_shown[0] <= -panel.map.reach)
         assert window.live.psf.values.shape == (128, 128), "figures are of the picture, however large it is shown"
     with window.store.drag():
         window.store.update(field_deg=3.0)
-        assert panel.map.indices.shape == (64, 64)
-    qtbot.waitUntil(lambda: len(panel.map.indices) >= panel.map.device_pixels)
-    assert panel._finer[0].source == window.live.setup.source
+        assert window.live.psf.values.shape == (64, 64) and panel.map.indices.shape == (256, 256)
+        assert panel.map.values.shape == (64, 64), "what is read are samples"
+
+
+@pytest.mark.parametrize("state", [{"f_number": 8.0}, {"field_deg": 14.0}, {"depth_mm": 9000.0}, {"field_deg": 9.0}])
+def test_the_light_fills_the_stage(window, qtbot, state):
+    """The circle of 90 % of the light, at least 3 Airy radii, by a sum of its own over the samples of the picture."""
+    window.store.update(method="fitted", **state)
+    live, chart = window.live, window.panels["psf"].map.chart
+    x, y, light = live.psf.x_um, live.psf.y_um, live.psf.values
+    away = np.hypot(x - (light * x).sum() / light.sum(), (y - (light * y[:, None]).sum() / light.sum())[:, None])
+    order = np.argsort(away.ravel())
+    radius = away.ravel()[order][np.searchsorted(np.cumsum(light.ravel()[order]), 0.9 * light.sum())]
+    shorter = min(end - start for start, end in chart.ranges())
+    assert 0.62 <= 2 * max(radius, 1.5 * live.airy_radius_um) / shorter <= 0.95
+
+
+def test_the_frame_moves_in_calm_steps(window):
+    chart, frames = window.panels["psf"].map.chart, []
+    with window.store.drag():
+        for field in np.linspace(4.0, 8.0, 41):
+            window.store.update(method="fitted", field_deg=float(field))
+            frames.append(chart.ranges())
+    assert len(set(frames)) <= 10
+    halves = [high - low for _, (low, high) in frames]
+    assert all(0.8 < b / a < 1.25 for a, b in pairwise(halves))
+
+
+def test_no_edge_of_the_computed_square_is_painted():
+    picture = fade(np.ones((64, 64), np.float32))
+    assert picture[0].max() == picture[:, -1].max() == 0.0 and picture[8:-8, 8:-8].min() == 1.0
 
 
 def test_a_finer_picture_that_comes_late_is_not_shown(window, qtbot):

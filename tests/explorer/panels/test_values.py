@@ -25,8 +25,9 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
+from p2sf.raytrace.fans import opd_fan, ray_fan
 from p2sf.raytrace.field_curves import colour_shift, heights, real_foci, seidel_foci
-from p2sf.raytrace.pencil import opd_fan, pencil, ray_fan
+from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.spot import spot
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.compute.live import live
@@ -249,7 +250,7 @@ def test_perfect_lens(window, qtbot, setup):
     radius = float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na))
     for reading in readings(window, qtbot, "beside", 1):
         v = 3.8317059702 * np.hypot(reading.x, reading.y) / radius
-        agree(reading.values[0].text, (2 * j1(v) / v) ** 2 if v else 1.0, 1e-5)  # drawn from a table of 1025 radii
+        agree(reading.values[0].text, (2 * j1(v) / v) ** 2 if v else 1.0, 1e-5)  # drawn from a table of radii
 
 
 def test_through_focus(window, qtbot, setup):

@@ -44,6 +44,7 @@ def test_a_factor_that_was_chosen_is_kept(panel):
     assert "×10," in str(moments_of_builds(chosen, found, count=1)[1].caption)
 
 
+@pytest.mark.slow
 def test_layout_psf_and_words_are_in_the_film(panel, window, qtbot, tmp_path):
     """What the window shows of the same build; the sweep's bar stands, so that the room is the same."""
     window.store.update(playback_slider="field_deg")

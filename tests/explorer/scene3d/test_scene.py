@@ -24,7 +24,6 @@ from p2sf_explorer.scene3d.meshes import (
 )
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.state import change, new_state
-from tests.support.interpreter import loaded_by
 
 LENSES = ("double_gauss_28", "cooke_triplet", "eye_navarro", "achromat_f6")
 # A polygon of `STEPS` sides over three quarters of a turn has this share of the circle's area.
@@ -133,16 +132,6 @@ def test_the_relief_stands_on_the_image_point_and_peaks_where_the_psf_does():
 def test_a_strip_that_crosses_itself_ends_where_it_does():
     made = element((sphere(20.0), 0.0, 15.0), (sphere(-20.0), 1.0, 15.0))
     assert volume(made) > 0
-
-
-def test_the_window_loads_no_renderer():
-    loaded = {
-        name.split(".")[0]
-        for name in loaded_by(
-            "import p2sf_explorer.window.window, p2sf_explorer.panels.solid, p2sf_explorer.scene3d.scene"
-        )
-    }
-    assert not loaded & {"pyvista", "pyvistaqt", "vtkmodules", "vtk"}
 
 
 def test_revolving_about_a_hole_needs_no_axis():

@@ -22,8 +22,8 @@ def test_a_notebook_runs(path, tmp_path, monkeypatch):
     ).execute()
 
 
-def test_there_are_three_and_none_holds_results():
-    assert {path.stem for path in NOTEBOOKS} == {"as_built", "own_picture", "paper"}
+def test_there_are_four_and_none_holds_results():
+    assert {path.stem for path in NOTEBOOKS} == {"as_built", "camera", "own_picture", "paper"}
     for path in NOTEBOOKS:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         assert not any(cell.get("outputs") or cell.get("execution_count") for cell in cells), path.name

@@ -38,15 +38,15 @@ def noted(patch, gate: Event | None = None):
     """Note in which threads waves are summed one by one; each sum waits at the gate, and gives any picture."""
     found, ready = [], live(new_state(method="seidel")).psf
 
-    def call(lens, source, pixels, pixel_um, *arguments, **words):
+    def call(pixel_um):
         found.append(get_ident())
         if gate:
             gate.wait(20)
         return replace(ready, method="traced", pixel_um=pixel_um)
 
     with patch.context() as inner:
-        for name in ("huygens_psf", "traced_psf"):
-            inner.setattr(methods, name, call)
+        inner.setattr(methods, "sum_rays", lambda pupil, window, *_: call(window[1]))
+        inner.setattr(methods, "traced_psf", lambda lens, source, pixels, pixel_um, *_: call(pixel_um))
         yield found
 
 

@@ -34,7 +34,7 @@ def test_the_curves_of_the_panel_on_the_stage_are_copied_as_they_are(window, qtb
 def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
     window.store.update(psf_scale="linear")
     rows = list(csv.reader(io.StringIO(data_of(window.panels["psf"].widget))))
-    psf = window.live.psf
+    psf = window.panels["psf"].psf_shown(window.live)
     count = psf.values.shape[0]
     grid = np.array([[float(cell) for cell in row] for row in rows[1 : count + 1]])
     assert grid[:, 1:] == pytest.approx(psf.values / psf.values.max(), abs=1e-7)
@@ -47,7 +47,7 @@ def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
 def test_what_is_copied_is_light_and_not_brightness(window, scale):
     """A map is shown by root or logarithm; the numbers copied are the PSF's, in the bar's units."""
     window.store.update(psf_scale=scale, psf_units="sum", tab="beside", phase="contour")
-    psf, maps = window.live.psf, window.panels["beside"].maps
+    psf, maps = window.panels["psf"].psf_shown(window.live), window.panels["beside"].maps
     rows, grid = grid_of(window.panels["psf"].map)
     assert rows[0][0].startswith("PSF, sum = 1: y, µm") and grid == pytest.approx(psf.values, rel=1e-6, abs=1e-12)
     view = window.live.views["beside"]

@@ -87,13 +87,13 @@ def test_the_maps_frame_follows_the_field_and_the_keys_start_from_it(window, qtb
     chart.setFocus()
     qtbot.keyClick(chart, Qt.Key.Key_Right)
     before = chart.grab().toImage()
-    assert (chart.present(), chart.choice.number) == (13, 14), "the fifth of nine in the second row, and the next"
-    qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=chart.room(chart.tiles[26]).center().toPoint())
+    assert (chart.present(), chart.choice.number) == (17, 18), "the fourth of seven in the third row, and the next"
+    qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=chart.room(chart.tiles[34]).center().toPoint())
     qtbot.keyClick(chart, Qt.Key.Key_Left)
-    assert (chart.present(), chart.choice.number) == (26, 25), "of four corners as far out the one that was clicked"
+    assert (chart.present(), chart.choice.number) == (34, 33), "of four corners as far out the one that was clicked"
     window.store.update(field_deg=0.0)  # as by the slider
     qtbot.keyClick(chart, Qt.Key.Key_Right)
-    assert chart.choice.number == 14 and chart.grab().toImage() == before, "the frame is back too"
+    assert chart.choice.number == 18 and chart.grab().toImage() == before, "the frame is back too"
 
 
 @pytest.mark.parametrize("shortcut", ["Ctrl+E", "Ctrl+K", "Ctrl+D", "Ctrl+F"])

@@ -1,12 +1,16 @@
 """The controls of what stands in the stop, under a person's hands."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from p2sf_explorer.state.limits import MASK
+from p2sf.pupil.mask import CLEAR
+from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
 from p2sf_explorer.state.state import State
-from p2sf_explorer.window.quantity_rows import PupilShape, wanted_rows
+from p2sf_explorer.window.quantity_rows import PupilShape, parts_of, wanted_rows
+from tests.pupil.test_mask_table import SAMPLES
 
 
 @pytest.fixture
@@ -23,7 +27,7 @@ def test_folded_away_it_takes_one_line_and_a_click_unfolds_it(window, qtbot):
     shape = window.controls.shape
     assert not shown(shape) and shape.height() < 30
     qtbot.mouseClick(shape.heading, Qt.MouseButton.LeftButton)
-    assert shown(shape) == {"obscuration", "blades", "vanes", "apodisation", "cubic_um"}
+    assert shown(shape) == set(CLEAR_PUPIL)
     qtbot.keyClick(window, Qt.Key.Key_F8, Qt.KeyboardModifier.ShiftModifier)
     assert not shown(shape)
 
@@ -31,6 +35,13 @@ def test_folded_away_it_takes_one_line_and_a_click_unfolds_it(window, qtbot):
 def test_rows_that_could_change_nothing_are_left_out(window, shape):
     window.store.update(blades=6, vanes=3, apodisation=0.8)
     assert shown(shape) == set(MASK) == set(wanted_rows(window.controls.shape.in_stop))
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_every_mask_is_told_in_a_word_and_taken_out_by_the_command(name):
+    assert parts_of(SAMPLES[name]) and not parts_of(CLEAR)
+    if name in MASK:
+        assert replace(SAMPLES[name], **CLEAR_PUPIL).clear
 
 
 def test_dragging_the_obscuration_is_one_step_of_undo(window, shape, drag):

@@ -17,6 +17,7 @@ from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.state_files import read_state
 from p2sf_explorer.window.commands.set_dialog import SetDialog
 from p2sf_explorer.window.commands.set_request import SetTexts, first_texts, read_axes, read_request
+from tests.support.tiers import in_tiers
 
 TEXTS = SetTexts("2 m; ∞", "0; 7,5°", "486.1; 587,6 nm", "5 µm", "80 %", "21")
 
@@ -33,7 +34,7 @@ def fill(dialog: SetDialog, texts: SetTexts) -> None:
         edit.setText(getattr(texts, key))
 
 
-@pytest.mark.parametrize("name", shipped_lenses())
+@pytest.mark.parametrize("name", in_tiers(shipped_lenses()))
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_what_is_offered_first_can_be_made(qapp, name, language):
     set_language(language)

@@ -4,11 +4,17 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
 from PySide6.QtGui import QContextMenuEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLineEdit, QMenu
 
+from p2sf.messages import Message
+from p2sf_explorer.charts.theme import tokens
 from p2sf_explorer.lessons.lesson import shipped_lessons
+from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.widgets.card import PANEL_MIME
+from p2sf_explorer.widgets.slider import Slider
+from tests.explorer.accessibility.test_looks import contrast
 
 TITLE = QPoint(30, 14)
 
@@ -201,3 +207,71 @@ def test_the_first_lesson_gives_the_psf_three_fifths_of_the_window(window):
     finally:
         window.resize(1440, 900)
         window.store.undo()
+
+
+def places(window) -> dict[int, tuple[int, int, int, int]]:
+    """Return where every control on show is in the window, but for those that float over the stage."""
+    found = {}
+    controls = QAbstractButton, QComboBox, QLineEdit, Slider
+    for widget in (each for kind in controls for each in window.findChildren(kind)):
+        if widget.isVisible() and not window.edge.isAncestorOf(widget) and widget is not window.edge:
+            at = widget.mapTo(window, QPoint(0, 0))
+            found[id(widget)] = at.x(), at.y(), widget.width(), widget.height()
+    return found
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
+def test_nothing_moves_when_bars_come_and_go(window, size):
+    """An error, A and B, the player: they float over the stage's edge, within the window."""
+    window.resize(*size)
+    QApplication.processEvents()
+    before, first = places(window), window.store.state
+    window.store.replace(pin(first))
+    window.store.update(playback_slider="field_deg")
+    window.refuse(Message("a depth of {depth}", depth="-5 mm"))
+    QApplication.processEvents()
+    bars = window.banner, window.compare, window.play
+    assert all(bar.isVisible() and window.rect().contains(bar.mapTo(window, bar.rect().center())) for bar in bars)
+    assert all(bar.height() >= bar.minimumSizeHint().height() for bar in bars)
+    after = places(window)
+    assert {key: at for key, at in before.items() if key in after and after[key] != at} == {}
+    window.store.replace(first)
+    QApplication.processEvents()
+    assert not window.edge.isVisible()
+    window.resize(1440, 900)
+
+
+def test_the_caption_says_the_state_and_what_moves(window):
+    window.store.update(field_deg=9.0, f_number=5.6, wavelength_nm=550.0)
+    text = window.caption.text
+    live = window.live
+    for part in ("9°", "f/5.60", "550 nm", f"RMS {live.pupil.rms:.2g} λ", f"Strehl {float(live.psf.strehl):.2g}"):
+        assert part in text
+    rest = window.caption._rest
+    with window.store.drag():
+        window.store.update(field_deg=8.0)
+        moved = {name for name, words in window.caption._parts.items() if rest[name] != words}
+        assert "field" in moved and not moved & {"lens", "depth", "f_number", "wavelength"}
+    assert window.caption._rest == window.caption._parts
+
+
+def test_the_parts_of_the_caption_are_chosen_and_kept(window):
+    menu = window.caption.menu()
+    actions = {action.text(): action for action in menu.actions()}
+    actions["Wavelength"].trigger()
+    assert "wavelength" not in window.store.state.display.caption and "nm" not in window.caption.text
+    kept = state_from_json(state_to_json(window.store.state))
+    assert kept.display.caption == window.store.state.display.caption
+
+
+def test_the_caption_is_read_from_the_last_row(window):
+    """2.2 % of the screen's height are asked, of its type; and 7:1 between type and ground, WCAG 2.1."""
+    window.presentation.start()
+    try:
+        QApplication.processEvents()
+        assert window.caption._size >= 0.022 * window.screen().size().height()
+    finally:
+        window.presentation.stop()
+    for theme in ("light", "dark"):
+        shades = tokens(theme)
+        assert contrast(shades.text, shades.window) >= 7

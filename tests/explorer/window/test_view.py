@@ -22,7 +22,7 @@ from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import change
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.window.presentation import LARGER
-from p2sf_explorer.window.view import PERCENTS
+from p2sf_explorer.window.view import PERCENTS, next_stop, stops
 from p2sf_explorer.window.window import MainWindow
 from tests.explorer.conftest import FIRST
 from tests.explorer.window.test_stage import where
@@ -195,6 +195,10 @@ def test_with_a_second_screen_the_controls_stay_at_the_desk(large, monkeypatch):
     window.presentation.start()
     desk = window.presentation._desk
     assert desk.isVisible() and window.controls.window() is desk and desk.isAncestorOf(window.left)
+    reached = stops(window.room.stage)[:1]
+    while (following := next_stop(window, window._parts(), reached[-1], 1)) is not reached[0]:
+        reached.append(following)
+    assert window.controls.rows["field_deg"].slider in reached, "Tab goes to the desk too"
     window.controls.rows["field_deg"].slider.setValue(300)
     assert window.live.state.optics.field_deg != 10.0
     window.presentation.stop()

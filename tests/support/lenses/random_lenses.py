@@ -3,15 +3,13 @@
 from math import inf
 
 import numpy as np
-from hypothesis import assume, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.pupils import ParaxialRays, paraxial_rays
-
-law = settings(max_examples=80, deadline=None, derandomize=True)
 
 TINY = 1e-30  # products of smaller numbers underflow, where no law holds to the last bit
 

@@ -19,11 +19,13 @@ from p2sf.psf.cost import nodes_beyond
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.methods import SEIDEL, psf_of
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import AIRY_RADIUS
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.pencil import Fan, Rays, pencil
+from p2sf.raytrace.fans import Fan, opd_fan, ray_fan
+from p2sf.raytrace.pencil import Rays, pencil
+from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import psf_request
+from p2sf_explorer.compute.framing import light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request
 from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused_tile
@@ -48,13 +50,14 @@ from p2sf_explorer.compute.preview import (
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.compute.views.mtf import contrast_of
-from p2sf_explorer.compute.views.rays import FAN_RAYS, landing_points, opd_fan_behind, ray_fan_behind, spot_of
+from p2sf_explorer.compute.views.rays import FAN_RAYS, landing_points, spot_of
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
 
 SAMPLES = (128, 256)  # a side, while it moves and at most when it rests
 SHARP = 0.1  # Strehl ratio below which the radius of the light says more
 SHARP_ENOUGH = 8  # samples per λ/NA from which on the highest one is the peak to some 8 %
+ALMOST = 0.7  # of it, which is below cos²(2π/8√2): so low samples have no sharp peak between them (`psf.peak`)
 MOST_LIGHT = 0.97  # share of all light from which on a window's counts as all
 HELD = 0.8  # share of the window's light within the radius that is quoted
 BY_RAYS, BY_COEFFICIENTS = "exact rays", "six coefficients"
@@ -228,11 +231,11 @@ def _many_rays(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Spot
 
 
 def _landing(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Fan:
-    return ray_fan_behind(lens, source, FAN_RAYS, clip)
+    return ray_fan(lens, source, FAN_RAYS, clip)
 
 
 def _paths(lens: Lens, source: SourceLike, clip: bool, quality: str) -> Fan:
-    return opd_fan_behind(lens, source, FAN_RAYS, clip)
+    return opd_fan(lens, source, FAN_RAYS, clip)
 
 
 TRACES: dict[str, Callable[[Lens, SourceLike, bool, str], Traced]] = {
@@ -305,7 +308,8 @@ def _light(place: MatrixPoint, psf: Psf, settled: bool) -> MatrixTile:
     width = psf.values.shape[-1] * psf.pixel_um
     airy = float(airy_radius_um(place.setup.source.wavelength_um, c.na))
     share = 1.0 if psf.energy is None else float(psf.energy)
-    content = Light(psf.values * (share / psf.pixel_um**2), width, airy)
+    circle = light_circle(psf.values, psf.pixel_um, airy)
+    content = Light(psf.values * (share / psf.pixel_um**2), width, airy, circle)
     sharpness = strehl_figure(psf, float(c.na))
     return MatrixTile(content, radius_figure(psf, settled), psf.method, psf.predicted_error, settled, strehl=sharpness)
 
@@ -313,31 +317,23 @@ def _light(place: MatrixPoint, psf: Psf, settled: bool) -> MatrixTile:
 def strehl_figure(psf: Psf, na: float) -> Message | None:
     """Return the Strehl ratio of a sharp picture whose samples resolve the peak, None for another picture."""
     resolved = psf.pixel_um * SHARP_ENOUGH * na <= psf.wavelength_um
-    if psf.strehl is None or psf.strehl < SHARP or not resolved:
+    highest = np.inf if psf.sum_over_peak is None else float(psf.values.max() * psf.sum_over_peak)
+    if not resolved or highest < SHARP * ALMOST:  # none that has to be looked for
+        return None
+    if psf.strehl is None or psf.strehl < SHARP:
         return None
     return Message("Strehl {value}", value=Number(significant(float(psf.strehl), 2)))
 
 
 def radius_figure(psf: Psf, settled: bool) -> Message:
     """Return R80 of the window's light; where that is less than all light, its share is stated."""
-    found = float(radius_of_energy(psf, HELD)) if settled else quick_radius_um(psf)
+    found = (
+        float(radius_of_energy(psf, HELD)) if settled else light_circle(psf.values, psf.pixel_um, 0.0, HELD).radius_um
+    )
     radius = Number(significant(found, 3))
     if psf.energy is not None and psf.energy < MOST_LIGHT:
         return Message("R80 {radius} µm (of {percent:.0f} % in view)", radius=radius, percent=100 * float(psf.energy))
     return Message("R80 {radius} µm", radius=radius)
-
-
-def quick_radius_um(psf: Psf) -> float:
-    """Return the radius about the centroid that holds `HELD` of the window's light, to a pixel: of every other sample.
-
-    While a slider moves a histogram over rings does; `radius_of_energy` takes ten times as long.
-    """
-    values, x, y = psf.values[::2, ::2], psf.x_um[::2], psf.y_um[::2]
-    total = values.sum()
-    x, y = x - values.sum(0) @ x / total, y - values.sum(1) @ y / total
-    ring = (np.hypot(x, y[:, None]) / psf.pixel_um).astype(np.intp)
-    held = np.cumsum(np.bincount(ring.ravel(), values.ravel()))
-    return psf.pixel_um * float(np.interp(HELD * held[-1], held, np.arange(1, held.size + 1)))
 
 
 def _waves(place: MatrixPoint, quality: str) -> MatrixTile:

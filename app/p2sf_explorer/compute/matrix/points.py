@@ -90,14 +90,14 @@ def columns_of(live: Live) -> tuple[Value, ...]:
 
 
 def stated_fields(lens: Lens, count: int) -> tuple[float, ...]:
-    """Return the fields of the lens's file where they are so many, else parts of the largest: 0, 0.7, 1 for three.
+    """Return the fields of the lens's file along y where they are so many, else parts of the widest: 0, 0.7, 1.
 
     The parts are square roots of even steps, so that the rings between the fields have one area.
     """
-    stated = tuple(sorted({abs(angle) for angle in lens.fields_deg}))
+    stated = tuple(dict.fromkeys(y for _, y in lens.field_places_deg))
     if len(stated) == count:
         return stated
-    widest = stated[-1] or ON_AXIS_DEG
+    widest = max(stated, key=abs) or ON_AXIS_DEG
     return tuple(float(round(part, 1) * widest) for part in np.sqrt(np.linspace(0, 1, count)))
 
 

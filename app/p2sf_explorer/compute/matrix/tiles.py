@@ -2,12 +2,16 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from p2sf.messages import Message
+from p2sf.psf.enlarge import enlarge
+from p2sf_explorer.compute.framing import Circle, frame_of
 from p2sf_explorer.state.scales import nice
 
+PAINTED = 256  # samples a side of a small picture of light
 STEPS = (1, 1.5, 2, 3, 4, 5, 6, 8)
 SIGNED_STEPS = (1, 1.5, 2, 3, 5, 7)
 LEAST = {"spot": 0.1, "ray_fan": 1e-3, "opd_fan": 1e-3, "pupil": 0.05}  # of a scale, µm or waves
@@ -16,11 +20,17 @@ NO_WORDS = Message("")
 
 @dataclass(frozen=True, eq=False)
 class Light:
-    """Light per sample, (y, x), over a square window ``width_um`` wide about the chief ray, rows +y."""
+    """Light per sample, (y, x), over a square window ``width_um`` wide about the chief ray, rows +y, and its circle."""
 
     values: np.ndarray
     width_um: float
     airy_um: float
+    circle: Circle
+
+    @cached_property
+    def painted(self) -> np.ndarray:
+        """Return the light on finer samples."""
+        return enlarge(self.values, PAINTED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +88,7 @@ def scale_of(what: str, tile: MatrixTile) -> float:
     """Return the extent that shows a picture whole: width µm, half width µm, largest error, or highest frequency."""
     content = tile.content
     if isinstance(content, Light):
-        return content.width_um
+        return 2 * frame_of(content.circle).half_um
     if isinstance(content, SpotTile):
         apart = np.abs(content.points)
         return nice(1.1 * max(float(apart.max(initial=0.0)), 2 * content.airy_um, LEAST[what]), STEPS)
@@ -105,7 +115,7 @@ def scales(what: str, tiles: Tiles, shared: bool) -> tuple[tuple[float, ...], ..
 def peaks(tiles: Tiles, shared: bool) -> tuple[tuple[float, ...], ...]:
     """Return what the brightest sample of every picture is measured by: its own, or the brightest of all."""
     own = tuple(
-        tuple(float(tile.content.values.max()) if isinstance(tile.content, Light) else 0.0 for tile in row)
+        tuple(float(tile.content.painted.max()) if isinstance(tile.content, Light) else 0.0 for tile in row)
         for row in tiles
     )
     largest = max((peak for row in own for peak in row), default=0.0)

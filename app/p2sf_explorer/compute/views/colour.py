@@ -16,6 +16,7 @@ from p2sf.messages import Message
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pitch_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.brightness import stretch
+from p2sf_explorer.compute.finer import smooth
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
@@ -103,6 +104,11 @@ def hues(wavelength_um: np.ndarray) -> np.ndarray:
     """Return the screen's colour of each wavelength, sRGB 0 to 1 with its brightest channel 1, (n, 3)."""
     rgb = displayable(linear_rgb(matching(wavelength_um)))
     return srgb_from_linear(rgb / np.maximum(rgb.max(-1, keepdims=True), 1e-12))
+
+
+def smooth_colours(found: ColourPsf) -> ColourPsf:
+    """Return a picture on finer samples, as it is painted."""
+    return replace(found, xyz=np.stack([smooth(found.xyz[..., channel]) for channel in range(3)], axis=-1))
 
 
 def pixels(found: ColourPsf, scale: str) -> np.ndarray:

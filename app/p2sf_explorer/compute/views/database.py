@@ -170,7 +170,7 @@ def atlas(exact: ExactDatabase, request: DatabaseRequest) -> Atlas:
     near = sharp_range(exact, request)
     with np.errstate(divide="ignore"):
         depths = np.clip(1 / near, *request.depths_mm)
-    widest = max(abs(angle) for angle in request.lens.fields_deg)
+    widest = request.lens.widest_field_deg
     fields = np.linspace(0.0, min(widest, request.field_deg) or request.field_deg, ATLAS[0])
     slopes = slope_from_degrees(fields)[:, None]
     found = exact.coefficients(depths, slopes, request.wavelength_um)

@@ -65,7 +65,7 @@ def exaggeration(distortion: np.ndarray) -> int:
 
 def widest_slope(live: Live) -> float:
     """Return the field's edge: that of the lens's file, or the present field where it lies beyond."""
-    degrees = (AT_LEAST_DEG, *map(abs, live.setup.lens.fields_deg), abs(live.state.optics.field_deg))
+    degrees = (AT_LEAST_DEG, live.setup.lens.widest_field_deg, abs(live.state.optics.field_deg))
     return float(slope_from_degrees(max(degrees)))
 
 

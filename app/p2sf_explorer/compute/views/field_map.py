@@ -20,9 +20,9 @@ from p2sf_explorer.compute.views.field import widest_slope
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, change
 
-SHAPE = 3, 9  # rows, columns
+SHAPE = 5, 7  # rows, columns: nearly square pictures fill the 3:2 of the sensor
 ASPECT = 1.5  # of the sensor, whose corner is the field's edge
-PIXELS = {"preview": 24, "settled": 40}
+PIXELS = {"preview": 24, "settled": 64}
 SAME_ANGLE = 1e-9  # radians
 MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 

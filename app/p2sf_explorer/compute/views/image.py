@@ -557,7 +557,7 @@ def _check_within(request: ImageRequest) -> None:
     """Raise GeometryError where the field point lies beyond the lens's field: the sensor would show another place."""
     lens = request.lens
     asked = float(degrees_from_slope(field_from_image_height(lens, lens.reference_wavelength_um, request.centre_mm)))
-    widest = max(abs(angle) for angle in lens.fields_deg)
+    widest = lens.widest_field_deg
     if widest and abs(asked) > widest * BEYOND:
         raise GeometryError(
             "the field of {field:.4g}° lies beyond the {widest:g}° of this lens, where there is no picture of it; "
@@ -569,7 +569,7 @@ def _check_within(request: ImageRequest) -> None:
 
 def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
     """Return how far from the axis the lens's widest field lands, mm; GeometryError where no ray lands."""
-    widest = max(abs(angle) for angle in lens.fields_deg) or 1.0
+    widest = lens.widest_field_deg or 1.0
     for part in TO_THE_RIM:
         slope = float(slope_from_degrees(part * widest))
         try:

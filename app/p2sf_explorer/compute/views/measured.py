@@ -18,7 +18,7 @@ from p2sf.measure.fitting.frame_fit import FrameFit
 from p2sf.measure.fitting.frame_terms import F_NUMBER, lens_optics
 from p2sf.measure.fitting.point_fit import PointFit
 from p2sf.measure.fitting.point_model import PictureOptics
-from p2sf.measure.measurement import Measurement, measure_frame
+from p2sf.measure.measurement import FrameRequest, Measurement, measure_frame
 from p2sf.measure.points import window_of
 from p2sf.measure.reading import read_frame
 from p2sf.messages import Message, Number
@@ -133,7 +133,11 @@ def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: C
     lens = asked.lens if asked.beside else None
     depth = asked.depth_mm if asked.beside else inf
     return measure_frame(
-        [frame], optics, lens=lens, depth_mm=depth, clip=asked.clip, progress=progress, cancelled=cancelled
+        [frame],
+        optics,
+        FrameRequest(lens=lens, depth_mm=depth, clip=asked.clip),
+        progress=progress,
+        cancelled=cancelled,
     )
 
 

@@ -8,6 +8,7 @@ from p2sf.metrics.perfect import airy_curves
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live
 
+RADII = 2048  # of the table that the pattern is drawn from: to 1e-5 of the peak
 MOST_PIXELS = 201  # across the window; finer pixels are not told apart on screen
 
 
@@ -40,8 +41,8 @@ def beside(live: Live) -> SampledLight:
 def airy_picture(psf: Psf, radius_um: float) -> np.ndarray:
     """Return the Airy pattern on a PSF's samples, over its peak."""
     distance = np.hypot(psf.x_um, psf.y_um[:, None])
-    position, pattern, _ = airy_curves(1025, float(distance.max()), radius_um)
-    return np.interp(distance, position[512:], pattern[512:])
+    position, pattern, _ = airy_curves(2 * RADII + 1, float(distance.max()), radius_um)
+    return np.interp(distance, position[RADII:], pattern[RADII:])
 
 
 def over_pixels(psf: Psf, pixel_um: float) -> np.ndarray:

@@ -58,7 +58,9 @@ def profiles(live: Live) -> ProfileCurves:
     position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
     lines = fine_lines(live, position) if live.quality == "settled" else None
     along_x, along_y = lines or between_samples(psf, position)
-    peak = max(float(along_x.max()), float(along_y.max()), float(psf.strehl or 0.0)) or 1.0
+    # That between the samples takes as long to find as the picture.
+    highest = float(_samples(psf).max()) if live.quality == "preview" else float(psf.strehl or 0.0)
+    peak = max(float(along_x.max()), float(along_y.max()), highest) or 1.0
     none = np.full(position.size, np.nan)
     masked = not live.setup.lens.mask.clear
     curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, none if masked else perfect, perfect)
@@ -91,11 +93,15 @@ def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[f
 
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the samples through the chief ray in units of the unaberrated peak, straight lines between them."""
-    rows, columns = psf.values.shape
-    units = psf.over_unaberrated
-    units = psf.values / (float(psf.values.max()) or 1.0) if units is None else units
-    row, column = units[rows // 2], units[:, columns // 2]
+    samples, (rows, columns) = _samples(psf), psf.values.shape
+    row, column = samples[rows // 2], samples[:, columns // 2]
     return np.interp(position, psf.x_um, row), np.interp(position, psf.x_um, column)
+
+
+def _samples(psf: Psf) -> np.ndarray:
+    """Return the samples in units of the unaberrated peak, where that is unknown in units of the highest."""
+    units = psf.over_unaberrated
+    return psf.values / (float(psf.values.max()) or 1.0) if units is None else units
 
 
 def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:

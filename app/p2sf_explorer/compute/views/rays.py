@@ -1,6 +1,5 @@
 """Exact rays of the present source: spot diagram with its figures, ray fan, OPD fan."""
 
-from dataclasses import replace
 from typing import SupportsFloat
 
 import numpy as np
@@ -9,9 +8,9 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.pencil import Fan, Sources, opd_fan, ray_fan
-from p2sf.raytrace.spot import DRAWN_RINGS, Spot, mask_of_rays, spot
+from p2sf.raytrace.aiming import Sources
+from p2sf.raytrace.fans import Fan, opd_fan, ray_fan
+from p2sf.raytrace.spot import DRAWN_RINGS, Spot, spot
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.first_order import Row
@@ -39,37 +38,17 @@ def spots(live: Live) -> Spot:
 
 def ray_errors(live: Live) -> Fan:
     """Return transverse ray errors along the two axes of the pupil, µm."""
-    return ray_fan_behind(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+    return ray_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
 
 
 def path_errors(live: Live) -> Fan:
     """Return optical path differences along the two axes of the pupil, waves."""
-    return opd_fan_behind(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+    return opd_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
 
 
 def spot_of(lens: Lens, source: Source | Sources, clip: bool, quality: str) -> Spot:
     """Return the spot; rims are followed, which takes several traces, once the sliders rest."""
     return spot(lens, source, RINGS[quality], clip, follow_rims=quality == "settled")
-
-
-def ray_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
-    """Return transverse ray errors of the rays that the mask in the stop lets through, µm, NaN for the others."""
-    return clip_by_mask(mask_of_rays(lens, source), ray_fan(lens, source, count, clip))
-
-
-def opd_fan_behind(lens: Lens, source: Source | Sources, count: int, clip: bool) -> Fan:
-    """Return path differences of the rays that the mask in the stop lets through, waves, NaN for the others."""
-    return clip_by_mask(mask_of_rays(lens, source), opd_fan(lens, source, count, clip))
-
-
-def clip_by_mask(mask: PupilMask, fan: Fan) -> Fan:
-    """Return a fan without what a mask covers; its vanes, one of which may lie along the whole line, are set aside."""
-    if mask.clear:
-        return fan
-    bare, zero = replace(mask, vanes=0), np.zeros_like(fan.pupil)
-    along, across = bare.opens(zero, fan.pupil), bare.opens(fan.pupil, zero)
-    tangential, sagittal = np.where(along, fan.tangential, np.nan), np.where(across, fan.sagittal, np.nan)
-    return replace(fan, tangential=tangential, sagittal=sagittal)
 
 
 def landing_points(spot: Spot) -> np.ndarray:

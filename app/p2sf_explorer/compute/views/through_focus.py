@@ -21,7 +21,7 @@ from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.what_if import check_focusable
 
 COUNT = {"preview": 7, "settled": 11}
-PIXELS = {"preview": 24, "settled": 40}
+PIXELS = {"preview": 24, "settled": 64}
 AIR = 3.0  # depths of focus beyond the outermost focus
 ROOM = 4.0  # Airy radii around the blur
 

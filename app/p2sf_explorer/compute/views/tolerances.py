@@ -26,7 +26,7 @@ from p2sf.tolerance import (
     usual_sources,
     usual_tolerances,
 )
-from p2sf.tolerance.criteria import LARGE_IS_GOOD, Criterion, best_first, keeps, share_of
+from p2sf.tolerance.criteria import LARGE_IS_GOOD, Criterion, best_first, share_of, within_limit
 from p2sf.tolerance.errors_of_build import MOVES, Kind
 from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
 from p2sf_explorer.compute.live import Live
@@ -220,7 +220,7 @@ def figures(found: ToleranceResult, view: ToleranceView) -> Figures:
     low, high = _reach(values, limit, criterion)
     counts, edges = np.histogram(values, BINS, (low, high))
     limits = np.linspace(low, high, LIMITS)
-    yields = [share_of(keeps(values, criterion, one)) for one in limits]
+    yields = [share_of(within_limit(values, criterion, one)) for one in limits]
     worse = harms(found.alone, criterion, found.request.places)
     rows = [
         (one, place, float(worse[place]))
@@ -240,7 +240,7 @@ def figures(found: ToleranceResult, view: ToleranceView) -> Figures:
         counts,
         np.stack([limits, *np.transpose(yields)]),
         limit,
-        *share_of(keeps(values, criterion, limit)),
+        *share_of(within_limit(values, criterion, limit)),
         tuple((int(number), float(values[number])) for number in order),
     )
 

@@ -7,9 +7,10 @@ import numpy as np
 from p2sf.messages import Message, Number
 from p2sf.metrics.wavefront_map import WavefrontSamples, samples_of_coefficients, samples_of_rays
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.mask_nodes import ClearNodes
+from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
-from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, pupil_opd
+from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, path_waves, pupil_opd
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.first_order import NONE, Row
 from p2sf_explorer.state.scales import with_sign
@@ -30,7 +31,7 @@ def zernike(live: Live) -> ZernikeView:
         samples = _samples(live, exact)
         nodes, waves = samples.nodes, samples.waves
     else:
-        nodes, waves = _over_the_ring(live, exact)
+        nodes, waves = _behind_mask(live, exact)
     fits = {order: decompose(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
     return ZernikeView(fits, live.pupil.kind)
 
@@ -42,13 +43,14 @@ def _samples(live: Live, exact: bool) -> WavefrontSamples:
     return samples_of_coefficients(setup.coefficients, live.quality)
 
 
-def _over_the_ring(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:
-    """Return nodes about the obscuration and the wavefront there, waves; GeometryError for what else is in the stop."""
+def _behind_mask(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:
+    """Return nodes over what is open behind the mask, and the wavefront there, waves."""
     lens, source = live.setup.lens, live.setup.source
     if exact:
         return pupil_opd(lens, source, live.state.optics.clip)
     nodes = open_nodes(lens, source, COUNTS)
-    return nodes, np.asarray(wavefront(live.setup.coefficients, nodes.xi, nodes.eta))
+    waves = np.asarray(wavefront(live.setup.coefficients, nodes.xi, nodes.eta))
+    return nodes, waves - path_waves(mask_seen(lens, source), source, nodes)
 
 
 def rows(fit: ZernikeFit) -> tuple[Row, ...]:

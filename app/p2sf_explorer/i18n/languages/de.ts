@@ -3,6 +3,7 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>What the stage shows; right-click to choose the parts of this line</source><translation>Was die Bühne zeigt; Rechtsklick wählt die Teile dieser Zeile</translation></message>
 <message><source> ({count} fr.)</source><translation> ({count} Ringe)</translation></message>
 <message><source>"{entry}" sets nothing; write entries such as field_deg 10, tab mtf</source><translation>"{entry}" stellt nichts ein; Einträge schreiben wie field_deg 10, tab mtf</translation></message>
 <message><source>"{glass}" (nd {nd:.6f})</source><translation>"{glass}" (nd {nd:.6f})</translation></message>
@@ -36,6 +37,7 @@
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
 <message><source>A back focus longer than the focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
+<message><source>A camera in Python</source><translation>Eine Kamera in Python</translation></message>
 <message><source>A corrector plate of some micrometres at the centre of a spherical mirror: sharp over five degrees</source><translation>Eine Korrektionsplatte von einigen Mikrometern im Mittelpunkt eines Kugelspiegels: scharf über fünf Grad</translation></message>
 <message><source>A field of {angle:.0f}° is far outside the paraxial range, where six coefficients only sketch the PSF; choose fitted or traced.</source><translation>Ein Feld von {angle:.0f}° liegt weit außerhalb des paraxialen Bereichs, wo sechs Koeffizienten die PSF nur skizzieren; fitted oder traced wählen.</translation></message>
 <message><source>A lesson, with its subject on the stage (F3)</source><translation>Eine Lektion, und worum es in ihr geht, auf der Bühne (F3)</translation></message>
@@ -182,7 +184,6 @@
 <message><source>Depth of field: the depths whose blur is no wider than the tolerated one. Paraxial: diameter of the cone from the axial point on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
 <message><source>Depth: distance from the source to the first vertex. Half of the slider goes from ten focal lengths to ∞; far away its steps are equal in dioptres, 1/depth. ▾ marks where the lens is focused.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Die Hälfte des Reglers reicht von zehn Brennweiten bis ∞; in der Ferne ist er gleichmäßig in Dioptrien, 1/Abstand. ▾ zeigt, worauf das Objektiv fokussiert ist.</translation></message>
 <message><source>Depths</source><translation>Abstände</translation></message>
-<message><source>Deutsch</source><translation>Deutsch</translation></message>
 <message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
 <message><source>Discard all edits and return to the lens in the file</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Discard all your own values</source><translation>Alle eigenen Werte verwerfen</translation></message>
@@ -204,7 +205,6 @@
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
 <message><source>End the lesson and restore everything as it was before (F3)</source><translation>Die Lektion beenden und alles zurückstellen, wie es vorher war (F3)</translation></message>
-<message><source>English</source><translation>English</translation></message>
 <message><source>Entrance pupil</source><translation>Eintrittspupille</translation></message>
 <message><source>Error</source><translation>Fehler</translation></message>
 <message><source>Errors by their harm</source><translation>Fehler nach ihrem Schaden</translation></message>
@@ -239,6 +239,7 @@
 <message><source>Field map: PSFs all over a 3:2 picture whose corner is the edge of the field, each relative to its own peak and turned with its field. Click a picture, or choose it with the arrow keys and Enter, to go to its field; a frame marks the present one. If the lens is not symmetric, every picture has a field of its own, and you can drag the ring to any field.</source><translation>Feldkarte: die PSF über ein ganzes 3:2-Bild, dessen Ecke der Feldrand ist, jede über ihrer eigenen Spitze und gedreht wie ihr Feld. Ein Klick auf ein Bild, oder Pfeiltasten und Enter, gehen zu seinem Feld; ein Rahmen zeigt das jetzige. Wo das Objektiv nicht symmetrisch ist, hat jedes Bild sein eigenes Feld, und der Ring lässt sich zu jedem ziehen.</translation></message>
 <message><source>Field point</source><translation>Feldpunkt</translation></message>
 <message><source>Field: angle of the chief ray at the entrance pupil; the image height is about f′·tan(field). ▾ marks the fields of the lens file.</source><translation>Feld: Winkel des Hauptstrahls an der Eintrittspupille; die Bildhöhe ist etwa f′·tan(Feld). ▾ sind die Felder, die in der Objektivdatei stehen.</translation></message>
+<message><source>Fields in x</source><translation>Felder in x</translation></message>
 <message><source>Fields</source><translation>Felder</translation></message>
 <message><source>Figures</source><translation>Zahlen</translation></message>
 <message><source>Files</source><translation>Dateien</translation></message>
@@ -855,10 +856,12 @@
 <message><source>What do you want to do?</source><translation>Was soll geschehen?</translation></message>
 <message><source>What is adjusted in every lens at assembly so that the mean square of the wavefronts of all fields is smallest.</source><translation>Was bei der Montage jedes Objektivs eingestellt wird, sodass das mittlere Quadrat der Wellenfronten aller Felder am kleinsten ist.</translation></message>
 <message><source>What whole numbers of the picture mean; automatic takes 8 bits for sRGB</source><translation>Was ganze Zahlen des Bildes bedeuten; automatisch gelten 8 Bit als sRGB</translation></message>
-<message><source>absorption is on, but no internal transmittance is known of {glasses}, which absorb nothing here; import the lens with their catalogues in the AGF format</source><translation>die Absorption ist an, aber von {glasses} ist kein Reintransmissionsgrad bekannt, sie absorbieren hier nichts; das Objektiv mit ihren Katalogen im AGF-Format einlesen</translation></message>
+<message><source>a picture of shape {shape}; give rows, columns and colours</source><translation>ein Bild der Form {shape}; Zeilen, Spalten und Farben angeben</translation></message>
+<message><source>absorption is on, but the internal transmittance of {glasses} is unknown, so they count as clear; import the lens with their catalogues in the AGF format</source><translation>die Absorption ist an, aber von {glasses} ist kein Reintransmissionsgrad bekannt, sie absorbieren hier nichts; das Objektiv mit ihren Katalogen im AGF-Format einlesen</translation></message>
 <message><source>automatic</source><translation>automatisch</translation></message>
 <message><source>measuring, {percent} %, {left} s left</source><translation>misst, {percent} %, noch {left} s</translation></message>
 <message><source>no numbers: what the model leaves is {chi2:.3g} times the variance of the noise, and {most:g} is the most. Try more numbers; check f-number, wavelength, pixel and stated noise, state the gain of bright points, and see that the picture is linear and sharp, and the points much smaller than a pixel</source><translation>keine Zahlen: das Modell lässt das {chi2:.3g}-Fache der Varianz des Rauschens übrig, höchstens das {most:g}-Fache darf es sein. Versuchen Sie mehr Zahlen; prüfen Sie Blendenzahl, Wellenlänge, Pixel und das angegebene Rauschen, geben Sie bei hellen Punkten die Verstärkung an, und sehen Sie nach, ob das Bild linear und unverwackelt ist und die Punkte viel kleiner als ein Pixel sind</translation></message>
+<message><source>no point is in this picture; give one whose middle holds its light</source><translation>in diesem Bild ist kein Punkt; eines angeben, in dessen Mitte sein Licht liegt</translation></message>
 <message><source>numbers read as linear counts</source><translation>Zahlen als lineare Zählwerte gelesen</translation></message>
 <message><source>numbers read as sRGB and made linear</source><translation>Zahlen als sRGB gelesen und linear gemacht</translation></message>
 <message><source>sRGB</source><translation>sRGB</translation></message>
@@ -890,9 +893,12 @@
 <message><source>surface {surface}: a file that ends in {ending} cannot express {what}; save as TOML</source><translation>Fläche {surface}: {what} lässt sich in einer Datei mit der Endung {ending} nicht ausdrücken; als TOML speichern</translation></message>
 <message><source>surface {surface}: transmission {vertex:g} with {slope:g} per mm²; give a share from 0 to 1 and a finite number</source><translation>Fläche {surface}: Durchlässigkeit {vertex:g} mit {slope:g} je mm²; einen Anteil von 0 bis 1 und eine endliche Zahl angeben</translation></message>
 <message><source>the medium behind surface {surface} absorbs light along paths of different lengths</source><translation>das Medium hinter Fläche {surface} absorbiert Licht auf verschieden langen Wegen</translation></message>
-<message><source>the middle of the obscuration lies behind a blade of the iris; move it or open the iris</source><translation>die Mitte der Abschattung liegt hinter einer Lamelle der Iris; sie verschieben oder die Iris öffnen</translation></message>
-<message><source>the surface is not of revolution, which no even terms describe; keep its shape</source><translation>die Fläche ist keine Rotationsfläche, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
+<message><source>the centre of the obscuration lies behind a blade of the iris; move it or open the iris</source><translation>die Mitte der Abschattung liegt hinter einer Lamelle der Iris; sie verschieben oder die Iris öffnen</translation></message>
+<message><source>the surface is not of revolution, so even terms cannot describe it; keep its shape</source><translation>die Fläche ist keine Rotationsfläche, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
 <message><source>the thickness behind it</source><translation>die Dicke dahinter</translation></message>
+<message><source>this camera has no lens; give its name, a file or what p2sf.load_lens returns as the first argument</source><translation>diese Kamera hat kein Objektiv; seinen Namen, eine Datei oder was p2sf.load_lens zurückgibt als erstes Argument angeben</translation></message>
+<message><source>this camera has no pixels; give {parameter}</source><translation>diese Kamera hat keine Pixel; {parameter} angeben</translation></message>
+<message><source>this database has fields along one line; give angles from the axis, without {parameter}</source><translation>diese Datenbank hat Felder entlang einer Linie; Winkel von der Achse angeben, ohne {parameter}</translation></message>
 <message><source>transmission {vertex:g} + {slope:g} mm⁻²·h²</source><translation>Durchlässigkeit {vertex:g} + {slope:g} mm⁻²·h²</translation></message>
 <message><source>what is left is {chi2:.2g} times the variance of the noise, so the noise is less than taken and the errors are too large; check the read noise and the gain, and that the picture was not smoothed</source><translation>übrig bleibt das {chi2:.2g}-Fache der Varianz des Rauschens, also ist das Rauschen kleiner als angenommen, und die Fehler sind zu groß; Ausleserauschen und Verstärkung prüfen, und ob das Bild geglättet wurde</translation></message>
 <message><source>What moves A and B together</source><translation>Was A und B gemeinsam bewegt</translation></message>
@@ -925,7 +931,6 @@
 <message><source>ZOO {name} has {values} values for {count} zoom positions; write one for each</source><translation>ZOO {name} hat {values} Werte für {count} Zoomstellungen; für jede einen schreiben</translation></message>
 <message><source>Zernike</source><translation>Zernike</translation></message>
 <message><source>Zernike grid</source><translation>Zernike-Gitter</translation></message>
-<message><source>Zernike terms are over a disc or a ring, and more than an obscuration in its middle stands in the stop; remove vanes, blades, filters and phases, and put an obscuration in the middle</source><translation>Zernike-Terme gelten über einer Scheibe oder einem Ring, und in der Blende steht mehr als eine Abschattung in ihrer Mitte; Streben, Lamellen, Filter und Phasen wegnehmen und eine Abschattung in die Mitte rücken</translation></message>
 <message><source>Zernike terms of the wavefront that makes the picture, orthogonal over the part of the pupil that passes light; θ from +x. Percent: share of the variance without piston and tilt, which do not blur.</source><translation>Zernike-Terme der Wellenfront, die das Bild macht, orthogonal über den Teil der Pupille, der Licht durchlässt; θ ab +x. Prozent: Anteil an der Varianz ohne Kolbenterm und Verkippung, die nicht unscharf machen.</translation></message>
 <message><source>Zoom</source><translation>Zoom</translation></message>
 <message><source>Zoom in</source><translation>Vergrößern</translation></message>
@@ -940,15 +945,12 @@
 <message><source>a Zemax file with configurations</source><translation>eine Zemax-Datei mit Konfigurationen</translation></message>
 <message><source>a bend (BEN) about more than one axis is not read; write the tilt behind it by itself</source><translation>eine Knickung (BEN) um mehr als eine Achse wird nicht gelesen; die Kippung dahinter für sich schreiben</translation></message>
 <message><source>a black box that hides its surfaces</source><translation>eine Black Box, die ihre Flächen verbirgt</translation></message>
-<message><source>a blur by rays</source><translation>eine Unschärfe nach Strahlen</translation></message>
 <message><source>a blur of {size} pixels with {samples} samples each needs a {side}² transform; bring the depths nearer to focus, stop down, or ask for larger pixels</source><translation>eine Unschärfe von {size} Pixeln mit je {samples} Proben braucht eine Transformation von {side}²; die Abstände dem Fokus nähern, abblenden oder größere Pixel verlangen</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius behind a mask; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius hinter einer Maske; den Sensor näher an das Bild bringen oder abblenden</translation></message>
 <message><source>a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor nearer to the image or stop down</source><translation>eine Unschärfe von {waves:.0f} Wellen je Pupillenradius braucht {lines} × {samples} Pupillenproben; den Sensor dem Bild nähern oder abblenden</translation></message>
 <message><source>a chart of {columns} × {rows} pixels; give {least} to {most} each way</source><translation>eine Tafel von {columns} × {rows} Pixeln; {least} bis {most} je Richtung angeben</translation></message>
 <message><source>a circle</source><translation>ein Kreis</translation></message>
-<message><source>a comparison of descriptions</source><translation>ein Vergleich von Beschreibungen</translation></message>
 <message><source>a dark centre: Wd of a whole wave cancels on the axis</source><translation>eine dunkle Mitte: Wd von einer ganzen Welle löscht auf der Achse aus</translation></message>
-<message><source>a database is a .npz file</source><translation>eine Datenbank ist eine .npz-Datei</translation></message>
 <message><source>a database of fields along one line</source><translation>eine Datenbank mit Feldern auf einer Linie</translation></message>
 <message><source>a database of the six coefficients</source><translation>eine Datenbank der sechs Koeffizienten</translation></message>
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
@@ -962,19 +964,17 @@
 <message><source>a lens lists its "surfaces"</source><translation>ein Objektiv listet seine "surfaces"</translation></message>
 <message><source>a lens needs at least one surface; insert another before deleting this one</source><translation>ein Objektiv braucht mindestens eine Fläche; eine andere einfügen, bevor diese gelöscht wird</translation></message>
 <message><source>a lesson begins with a line "{fence}"; put title, about and lens below it</source><translation>eine Lektion beginnt mit einer Zeile "{fence}"; title, about und lens darunter schreiben</translation></message>
-<message><source>a map of the pupil has cells that are no finite numbers; give every cell one</source><translation>eine Karte der Pupille hat Zellen, die keine endlichen Zahlen sind; jeder Zelle eine geben</translation></message>
+<message><source>a map of the pupil has cells that are not finite; give every cell a finite number</source><translation>eine Karte der Pupille hat Zellen, die keine endlichen Zahlen sind; jeder Zelle eine geben</translation></message>
 <message><source>a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side</source><translation>eine Karte der Pupille hat die Form {shape}; ein Quadrat von {low} bis {high} Zellen je Seite angeben</translation></message>
-<message><source>a mask stands in the stop, and {what} supports only a clear round stop; remove the mask</source><translation>in der Blende steht eine Maske, und {what} kennt nur eine freie runde Blende; die Maske wegnehmen</translation></message>
+<message><source>the phase in the stop bends light by diffraction, which rays alone do not show; remove the phase</source><translation>die Phase in der Blende lenkt Licht durch Beugung ab, was Strahlen allein nicht zeigen; die Phase wegnehmen</translation></message>
 <message><source>a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML</source><translation>in der Blende steht eine Maske, was eine Datei mit der Endung {ending} nicht ausdrücken kann; als TOML speichern</translation></message>
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
-<message><source>a model glass nd {nd:.5f} vd {vd:.2f} as the file writes it</source><translation>ein Modellglas nd {nd:.5f} vd {vd:.2f}, wie es die Datei schreibt</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
 <message><source>a number is too long or lists are nested too deep; this is not a lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
 <message><source>this blur over a window {width:.3g} µm wide needs {radii} × {directions} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über ein Fenster von {width:.3g} µm braucht {radii} × {directions} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
-<message><source>a picture of rays</source><translation>ein Bild von Strahlen</translation></message>
 <message><source>a picture of {shape} pixels; give at least 3 × 3</source><translation>ein Bild von {shape} Pixeln; mindestens 3 × 3 angeben</translation></message>
 <message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
 <message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
@@ -992,8 +992,7 @@
 <message><source>a text</source><translation>einen Text</translation></message>
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
 <message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
-<message><source>a transfer function of a pupil that ends at rims or where rays are lost</source><translation>eine Übertragungsfunktion einer Pupille, die an Rändern endet oder wo Strahlen verloren gehen</translation></message>
-<message><source>a vane crosses the shadow of surface {surface} off the middle; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
+<message><source>a vane crosses the shadow of surface {surface} away from the centre; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
 <message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist nicht die von Licht; Mikrometer angeben</translation></message>
@@ -1016,7 +1015,7 @@
 <message><source>along x</source><translation>längs x</translation></message>
 <message><source>along y</source><translation>längs y</translation></message>
 <message><source>an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft</source><translation>eine FFT braucht eine gerade Anzahl von PSF-Proben, nicht {pixels}; eine hinzufügen oder mdft nehmen</translation></message>
-<message><source>an FFT of square samples shows no edges of a mask; use mdft</source><translation>eine FFT quadratischer Abtastwerte zeigt keine Kanten einer Maske; mdft verwenden</translation></message>
+<message><source>an FFT of square samples does not resolve the edges of a mask; use mdft</source><translation>eine FFT quadratischer Abtastwerte zeigt keine Kanten einer Maske; mdft verwenden</translation></message>
 <message><source>an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel</source><translation>eine FFT von {samples} × {samples} Pupillenproben ist zu groß; mdft nehmen oder das Pixel ändern</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende angeben</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
@@ -1161,7 +1160,7 @@
 <message><source>degrees</source><translation>Grad</translation></message>
 <message><source>density of {radii} × {directions} rays; diffraction is too fine to see here</source><translation>Dichte von {radii} × {directions} Strahlen; die Beugung ist hier zu fein, um sie zu sehen</translation></message>
 <message><source>depth</source><translation>Objektabstand</translation></message>
-<message><source>depth is {depth:g} mm; the object must stand a positive distance before the first vertex</source><translation>der Objektabstand ist {depth:g} mm; das Objekt muss in einem positiven Abstand vor dem ersten Scheitel stehen</translation></message>
+<message><source>depth is {depth:g} mm; the object must be a positive distance in front of the first vertex</source><translation>der Objektabstand ist {depth:g} mm; das Objekt muss in einem positiven Abstand vor dem ersten Scheitel stehen</translation></message>
 <message><source>depth is {given}; write a table [depth] with near_mm, far_mm or map under it</source><translation>depth ist {given}; eine Tabelle [depth] schreiben, darunter near_mm, far_mm oder map</translation></message>
 <message><source>depth {depth:.6g} mm lies between the last finite node, {last:.6g} mm, and infinity, where table1 has no rule; add nodes or build with the exact interpolant</source><translation>der Objektabstand {depth:.6g} mm liegt zwischen dem letzten endlichen Knoten, {last:.6g} mm, und unendlich, wo table1 keine Regel hat; Knoten hinzufügen oder mit der Interpolation exact bauen</translation></message>
 <message><source>depth {depth:g} mm is not in front of the lens; give positive depths</source><translation>der Objektabstand {depth:g} mm liegt nicht vor dem Objektiv; positive Abstände angeben</translation></message>
@@ -1190,7 +1189,6 @@
 <message><source>duration of a sweep</source><translation>Dauer eines Durchlaufs</translation></message>
 <message><source>earlier picture</source><translation>früheres Bild</translation></message>
 <message><source>earlier picture, working</source><translation>früheres Bild, in Arbeit</translation></message>
-<message><source>edges, and rims and obscurations in other shapes</source><translation>Kanten sowie Ränder und Abschattungen anderer Form</translation></message>
 <message><source>edited</source><translation>bearbeitet</translation></message>
 <message><source>edited since</source><translation>seither geändert</translation></message>
 <message><source>element {number}, surfaces {first} to {last}</source><translation>Linse {number}, Flächen {first} bis {last}</translation></message>
@@ -1206,7 +1204,7 @@
 <message><source>errors is {value}; give a list of kind, first and last surface, and amount</source><translation>errors ist {value}; eine Liste aus Art, erster und letzter Fläche und Betrag angeben</translation></message>
 <message><source>every chief ray meets the sensor on the axis, so it contains no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
 <message><source>every chief ray meets the sensor on the axis; give the field as an angle</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse; das Feld als Winkel angeben</translation></message>
-<message><source>every medium of this lens has the index {index:g}, so no surface bends light; name its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
+<message><source>every medium of this lens has the index {index:g}, so no surface bends light; state its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
 <message><source>every pixel of the photo</source><translation>jedes Pixel des Fotos</translation></message>
 <message><source>exact</source><translation>genau</translation></message>
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
@@ -1234,8 +1232,9 @@
 <message><source>field x</source><translation>Feld x</translation></message>
 <message><source>field y</source><translation>Feld y</translation></message>
 <message><source>field, °</source><translation>Feld, °</translation></message>
-<message><source>fields beside the y axis are turned onto it, which a round lens does not notice</source><translation>Felder neben der y-Achse werden auf sie gedreht, was ein rundes Objektiv nicht merkt</translation></message>
+<message><source>fields along x {angles:.4g}°</source><translation>Felder entlang x {angles:.4g}°</translation></message>
 <message><source>fields given as {kind} are kept as angles at the entrance pupil</source><translation>als {kind} gegebene Felder werden als Winkel an der Eintrittspupille geführt</translation></message>
+<message><source>figures are of one PSF of two samples a side or more, and this one has the shape {shape}; ask for one after the other</source><translation>Zahlen gibt es von einer PSF mit zwei oder mehr Abtastwerten je Seite, und diese hat die Form {shape}; eine nach der anderen fragen</translation></message>
 <message><source>file</source><translation>Datei</translation></message>
 <message><source>fill factor</source><translation>Füllfaktor</translation></message>
 <message><source>fitted</source><translation>fitted</translation></message>
@@ -1281,6 +1280,7 @@
 <message><source>glass is {found}; write {{ nd = 1.5168, vd = 64.17 }} or {{ wavelengths_um = […], n = […] }}</source><translation>glass ist {found}; {{ nd = 1.5168, vd = 64.17 }} oder {{ wavelengths_um = […], n = […] }} schreiben</translation></message>
 <message><source>glass table needs two equally long lists of numbers; give wavelengths_um and n</source><translation>die Glastabelle braucht zwei gleich lange Listen von Zahlen; wavelengths_um und n angeben</translation></message>
 <message><source>glass table's wavelengths are {wavelengths} µm; put them in ascending order</source><translation>die Wellenlängen der Glastabelle sind {wavelengths} µm; aufsteigend ordnen</translation></message>
+<message><source>glass {name} is {own:.5f} at d; nd {nd:g} and vd {vd:g} of the same row are taken</source><translation>Glas {name} hat bei d {own:.5f}; nd {nd:g} und vd {vd:g} derselben Zeile gelten</translation></message>
 <message><source>glass {name} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken</source><translation>Glas {name} ist dem Namen nach unbekannt; nd {nd:g} und vd {vd:g} derselben Zeile gelten</translation></message>
 <message><source>glass {name} of {path} has nd {nd:.5f} by its coefficients and {listed:.5f} by its name line; the catalogue is damaged, replace it</source><translation>das Glas {name} aus {path} hat nd {nd:.5f} nach seinen Koeffizienten und {listed:.5f} nach seiner Namenszeile; der Katalog ist beschädigt, ersetzen</translation></message>
 <message><source>glass's nd or vd</source><translation>nd oder vd des Glases</translation></message>
@@ -1337,7 +1337,6 @@
 <message><source>key "{name}" belongs to the top of the file; move it before the first [ heading</source><translation>der Schlüssel "{name}" gehört an den Anfang der Datei; vor die erste Überschrift [ stellen</translation></message>
 <message><source>key "{name}" is unknown; did you mean "{known}"?</source><translation>der Schlüssel "{name}" ist unbekannt; ist "{known}" gemeint?</translation></message>
 <message><source>key "{name}" is unknown; known here are {known}</source><translation>der Schlüssel "{name}" ist unbekannt; hier bekannt sind {known}</translation></message>
-<message><source>key {name}, which is not known to describe the lens</source><translation>Schlüssel {name}, von dem nicht bekannt ist, dass er das Objektiv beschreibt</translation></message>
 <message><source>kinds of aperture</source><translation>Arten der Öffnung</translation></message>
 <message><source>landing point, µm</source><translation>Landepunkt, µm</translation></message>
 <message><source>largest difference of contrast</source><translation>größter Unterschied des Kontrasts</translation></message>
@@ -1382,7 +1381,7 @@
 <message><source>medium {name} cannot be written to a file; give an index, a glass name or nd and vd</source><translation>das Medium {name} lässt sich nicht in eine Datei schreiben; einen Index, einen Glasnamen oder nd und vd angeben</translation></message>
 <message><source>medium {name} has no line in a Zemax file; save as TOML, or give nd and vd</source><translation>das Medium {name} hat keine Zeile in einer Zemax-Datei; als TOML speichern oder nd und vd angeben</translation></message>
 <message><source>meets surface {surface} {height:.4g} mm from its vertex, beyond its rim of {rim:g} mm</source><translation>trifft Fläche {surface} {height:.4g} mm neben ihrem Scheitel, außerhalb ihres Randes von {rim:g} mm</translation></message>
-<message><source>meets the asphere on surface {surface} where no safe intersection was found</source><translation>trifft die Asphäre auf Fläche {surface}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
+<message><source>meets the asphere on surface {surface} where no reliable intersection was found</source><translation>trifft die Asphäre auf Fläche {surface}, wo kein sicherer Schnittpunkt zu finden war</translation></message>
 <message><source>mercury g e</source><translation>Quecksilber g e</translation></message>
 <message><source>method</source><translation>Methode</translation></message>
 <message><source>method "{method}" describes no pupil; choose {methods}</source><translation>Verfahren "{method}" beschreibt keine Pupille; {methods} wählen</translation></message>
@@ -1550,7 +1549,7 @@
 <message><source>rays are lost {where}, and neither six coefficients nor fits describe that; {remedy}</source><translation>{where} gehen Strahlen verloren, was weder sechs Koeffizienten noch Anpassungen beschreiben; {remedy}</translation></message>
 <message><source>rays fill the paraxial entrance pupil</source><translation>Strahlen füllen die paraxiale Eintrittspupille</translation></message>
 <message><source>rays fill the real stop</source><translation>Strahlen füllen die wirkliche Blende</translation></message>
-<message><source>rays meet surface {surface} before surface {before}, beyond the edge of the glass, where no light can go; choose a smaller field or aperture</source><translation>Strahlen treffen Fläche {surface} vor Fläche {before}, jenseits des Glasrandes, wo kein Licht hingelangt; kleineres Feld oder kleinere Öffnung wählen</translation></message>
+<message><source>rays meet surface {surface} before surface {before}, beyond the edge of the glass, which is impossible; choose a smaller field or aperture</source><translation>Strahlen treffen Fläche {surface} vor Fläche {before}, jenseits des Glasrandes, wo kein Licht hingelangt; kleineres Feld oder kleinere Öffnung wählen</translation></message>
 <message><source>rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; stop the lens down or reduce the field</source><translation>Strahlen aus verschiedenen Teilen der Pupille kommen in einer Richtung an, und die Summe ihres Lichts hat keine Grenze; abblenden oder das Feld verkleinern</translation></message>
 <message><source>rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip</source><translation>Strahlen innerhalb eines Radius von {radius:g} gehen verloren, ein Loch oder eine Abschattung, wo Fassungen abschneiden</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
@@ -1572,10 +1571,9 @@
 <message><source>rim offset</source><translation>Versatz des Rands</translation></message>
 <message><source>rim rays</source><translation>Randstrahlen, Feld</translation></message>
 <message><source>rim rays of the field point</source><translation>Randstrahlen des Feldpunkts</translation></message>
-<message><source>rims and holes of mirrors hide {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
+<message><source>rims and holes of mirrors obscure {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
-<message><source>rims clip {lost} of {rays} rays, and {method} describes the whole pupil; choose traced or huygens, or leave {parameter} off</source><translation>Ränder nehmen {lost} von {rays} Strahlen weg, und {method} beschreibt die ganze Pupille; traced oder huygens wählen oder {parameter} auslassen</translation></message>
-<message><source>rims cut off a pupil that has an obscuration, or some of its rays are lost, but annular terms need a whole ring; leave {parameter} off, stop the lens down, or remove the obscuration</source><translation>Ränder begrenzen eine Pupille mit Abschattung, oder Strahlen von ihr gehen verloren, und Ringterme gelten über einen ganzen Ring; {parameter} weglassen, abblenden oder die Abschattung wegnehmen</translation></message>
+<message><source>rims and the mask in the stop leave nothing open; leave {parameter} off</source><translation>Ränder und die Maske in der Blende lassen nichts offen; {parameter} weglassen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>roundness</source><translation>Rundung</translation></message>
 <message><source>sagittal</source><translation>sagittal</translation></message>
@@ -1595,6 +1593,7 @@
 <message><source>seconds one way</source><translation>Sekunden je Weg</translation></message>
 <message><source>seidel</source><translation>seidel</translation></message>
 <message><source>seidel from the six coefficients (what-if: coefficients altered by hand)</source><translation>seidel aus den sechs Koeffizienten (Was wäre wenn: von Hand geändert)</translation></message>
+<message><source>gaussian: fitted to the reference</source><translation>gaussian: an die Referenz angepasst</translation></message>
 <message><source>seidel: six coefficients</source><translation>seidel: sechs Koeffizienten</translation></message>
 <message><source>semi-diameter</source><translation>Halbmesser</translation></message>
 <message><source>semicolons</source><translation>Semikolons</translation></message>
@@ -1680,20 +1679,21 @@
 <message><source>surface {surface} ({label})</source><translation>Fläche {surface} ({label})</translation></message>
 <message><source>surface {surface} diffracts and has terms other than even ones up to r^16, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} beugt und hat andere Glieder als gerade bis r^16, für die Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, beyond the normalisation radius of {radius:g} mm up to which its polynomials describe it; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, jenseits des Normierungsradius von {radius:g} mm, bis zu dem ihre Polynome sie beschreiben; eines von beiden berichtigen</translation></message>
-<message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but its radius of {radius:g} mm ends it at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
+<message><source>surface {surface} has a clear semi-diameter of {rim:g} mm, but with its radius of {radius:g} mm it ends at {edge:.6g} mm; correct one of the two</source><translation>Fläche {surface} hat einen freien Halbmesser von {rim:g} mm, aber ihr Radius von {radius:g} mm lässt sie bei {edge:.6g} mm enden; eines von beiden berichtigen</translation></message>
 <message><source>surface {surface} has a hole, but this needs a clear part without holes; leave {parameter} off, or treat the hole as an obscuration of the stop</source><translation>Fläche {surface} hat ein Loch, und das Gefragte kennt nur einen freien Teil ohne Löcher; {parameter} ausschalten oder das Loch als Abschattung der Blende nehmen</translation></message>
 <message><source>surface {surface} has a rectangular rim that is turned or has a hole, for which Zemax has no line; save as TOML</source><translation>Fläche {surface} hat einen rechteckigen Rand, der gedreht ist oder ein Loch hat, wofür Zemax keine Zeile hat; als TOML speichern</translation></message>
 <message><source>surface {surface} has a term in r^{power}, and a CODE V file holds powers up to r^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in r^{power}, und eine CODE-V-Datei fasst Potenzen bis r^{most}; als TOML speichern</translation></message>
-<message><source>surface {surface} is a mirror, which has no index that could be wrong</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
-<message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it has to be a plane that does not diffract, and its focal length not 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
+<message><source>surface {surface} is a mirror, which has no refractive index</source><translation>Fläche {surface} ist ein Spiegel, der keine Brechzahl hat, die falsch sein könnte</translation></message>
+<message><source>surface {surface} is an ideal lens of focal length {focal:g} mm; it must be a plane without diffraction, and its focal length must not be 0</source><translation>Fläche {surface} ist eine ideale Linse der Brennweite {focal:g} mm; sie muss eben sein und darf nicht beugen, und die Brennweite darf nicht 0 sein</translation></message>
 <message><source>surface {surface} is no conic with even terms from r⁴ on, which a file for {program} cannot express; save as TOML</source><translation>Fläche {surface} ist kein Kegelschnitt mit geraden Gliedern ab r⁴, was eine Datei für {program} nicht sagen kann; als TOML speichern</translation></message>
 <message><source>surface {surface} is not an object with radius and thickness; correct it</source><translation>Fläche {surface} ist kein Objekt mit radius und thickness; berichtigen</translation></message>
 <message><source>surface {surface} is tilted or decentred (transform); only centred lenses are read</source><translation>Fläche {surface} ist gekippt oder dezentriert (transform); nur zentrierte Objektive werden gelesen</translation></message>
 <message><source>surface {surface}, line {line}: {message}</source><translation>Fläche {surface}, Zeile {line}: {message}</translation></message>
+<message><source>surface {surface}: no lens file can express {what}; leave it out</source><translation>Fläche {surface}: {what} lässt sich in keiner Linsendatei ausdrücken; weglassen</translation></message>
 <message><source>surface {surface}: a number of its shape, its phase or its irregularity is not finite; correct it</source><translation>Fläche {surface}: eine Zahl ihrer Form, ihrer Phase oder ihres Passfehlers ist nicht endlich; berichtigen</translation></message>
 <message><source>surface {surface}: a term in r^{power} beside another shape; put all terms into one</source><translation>Fläche {surface}: ein Glied in r^{power} neben einer anderen Form; alle Glieder in eine setzen</translation></message>
 <message><source>surface {surface}: a thickness of {thickness:g} mm that is off by {by:g} mm changes its sign; give a smaller error</source><translation>Fläche {surface}: eine Dicke von {thickness:g} mm, die um {by:g} mm falsch ist, wechselt ihr Vorzeichen; einen kleineren Fehler angeben</translation></message>
-<message><source>surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge on or further; give less than 90°</source><translation>Fläche {surface}: eine Kippung von {tilt:g}° um {axis} stellt sie auf die Kante oder weiter; weniger als 90° angeben</translation></message>
+<message><source>surface {surface}: a tilt of {tilt:g}° about {axis} turns it edge-on or further; give less than 90°</source><translation>Fläche {surface}: eine Kippung von {tilt:g}° um {axis} stellt sie auf die Kante oder weiter; weniger als 90° angeben</translation></message>
 <message><source>surface {surface}: a tilt or decentre is not finite; give finite numbers</source><translation>Fläche {surface}: eine Kippung oder Dezentrierung ist nicht endlich; endliche Zahlen angeben</translation></message>
 <message><source>surface {surface}: aspheric term r^{power}; powers from 1 to {most} are read</source><translation>Fläche {surface}: asphärisches Glied r^{power}; Potenzen von 1 bis {most} werden gelesen</translation></message>
 <message><source>surface {surface}: aspheric_coefficients is not a list of up to 20 numbers; correct it</source><translation>Fläche {surface}: aspheric_coefficients ist keine Liste von bis zu 20 Zahlen; berichtigen</translation></message>
@@ -1710,14 +1710,14 @@
 <message><source>surface {surface}: {message}</source><translation>Fläche {surface}: {message}</translation></message>
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
 <message><source>surface {surface}: {name} is {found}; write a number</source><translation>Fläche {surface}: {name} ist {found}; eine Zahl schreiben</translation></message>
-<message><source>surface {surface}: {what} is not one in all columns; it is that of the nearest, {near}</source><translation>Fläche {surface}: {what} ist nicht in allen Spalten gleich; maßgebend ist die nächste, {near}</translation></message>
+<message><source>surface {surface}: {what} differs between columns and is taken from the nearest, {near}</source><translation>Fläche {surface}: {what} ist nicht in allen Spalten gleich; maßgebend ist die nächste, {near}</translation></message>
 <message><source>surfaces in the order of the light</source><translation>Flächen in der Reihenfolge des Lichts</translation></message>
 <message><source>surfaces is {found}; write the first and the last, as in [3, 4]</source><translation>surfaces ist {found}; die erste und die letzte schreiben, wie in [3, 4]</translation></message>
 <message><source>surfaces {first} and {last} are equally curved, so the element has no shape factor; change a radius first</source><translation>Die Flächen {first} und {last} sind gleich gekrümmt, daher hat das Element keinen Formfaktor; ändern Sie zuerst einen Radius</translation></message>
 <message><source>surfaces {first} and {second} both are stops; keep one</source><translation>die Flächen {first} und {second} sind beide Blenden; eine behalten</translation></message>
 <message><source>surfaces {first} and {second} both are the stop; keep one</source><translation>die Flächen {first} und {second} sind beide die Blende; eine behalten</translation></message>
 <message><source>surfaces {first} to {last}</source><translation>Flächen {first} bis {last}</translation></message>
-<message><source>surfaces {first} to {last} are no element with air on both sides; choose one that stands free</source><translation>Die Flächen {first} bis {last} sind kein Element mit Luft auf beiden Seiten; wählen Sie ein frei stehendes</translation></message>
+<message><source>surfaces {first} to {last} are not an element with air on both sides; choose such an element</source><translation>Die Flächen {first} bis {last} sind kein Element mit Luft auf beiden Seiten; wählen Sie ein frei stehendes</translation></message>
 <message><source>surfaces {first} to {last} do not exist; the lens has surfaces 1 to {count}</source><translation>Flächen {first} bis {last} gibt es nicht; das Objektiv hat die Flächen 1 bis {count}</translation></message>
 <message><source>surfaces {first} to {last}, n = {index}</source><translation>Flächen {first} bis {last}, n = {index}</translation></message>
 <message><source>surround "{surround}" is unknown; choose {choices}</source><translation>das Umfeld "{surround}" ist unbekannt; {choices} wählen</translation></message>
@@ -1753,7 +1753,7 @@
 <message><source>the axis is folded, so glass cannot be moved by hand here; use the sliders of Misalign</source><translation>die Achse ist gefaltet, und Glas lässt sich hier nicht mit der Hand bewegen; die Regler von Dejustieren nehmen</translation></message>
 <message><source>the black body has {given:g} K; give one temperature from {least:g} to {most:g} K, as in planck:5600</source><translation>der Schwarze Körper hat {given:g} K; eine Temperatur von {least:g} bis {most:g} K angeben, wie in planck:5600</translation></message>
 <message><source>the blur is too large for a reference here; {remedy}</source><translation>die Unschärfe ist hier zu groß für eine Referenz; {remedy}</translation></message>
-<message><source>the builds were stopped before they were done</source><translation>die Exemplare wurden angehalten, bevor sie fertig waren</translation></message>
+<message><source>the builds were cancelled before they were finished</source><translation>die Exemplare wurden angehalten, bevor sie fertig waren</translation></message>
 <message><source>the chief ray {outcome}; choose a smaller field</source><translation>der Hauptstrahl {outcome}; ein kleineres Feld wählen</translation></message>
 <message><source>the chief ray {outcome}; surface {placed} is decentred by ({decentre:g}) mm and tilted by ({tilt:g})°: make that or the field smaller</source><translation>der Hauptstrahl {outcome}; Fläche {placed} ist um ({decentre:g}) mm dezentriert und um ({tilt:g})° gekippt: das oder das Feld verkleinern</translation></message>
 <message><source>the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field</source><translation>der freie Teil der Pupille hat keine freie Mitte; {parameter} auslassen oder das Feld verkleinern</translation></message>
@@ -1762,7 +1762,7 @@
 <message><source>the columns have {counts} surfaces; give every column the same surfaces</source><translation>die Spalten haben {counts} Flächen; jeder Spalte dieselben Flächen geben</translation></message>
 <message><source>the columns of the lens have different {what}, {stated}; a file holds one, so give all the same</source><translation>die Spalten des Objektivs haben verschiedene {what}, {stated}; eine Datei hat nur eine, allen dieselbe geben</translation></message>
 <message><source>the comet: rays fill a cone of 60°</source><translation>der Komet: Strahlen füllen einen Kegel von 60°</translation></message>
-<message><source>the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose fewer</source><translation>der Kontrast bei {frequency:g} Perioden je mm ist zu klein, um summiert zu werden, bei {field:.4g}°; weniger wählen</translation></message>
+<message><source>the contrast at {frequency:g} cycles per mm is too small to be summed, at {field:.4g}°; choose a lower one</source><translation>der Kontrast bei {frequency:g} Perioden je mm ist zu klein, um summiert zu werden, bei {field:.4g}°; weniger wählen</translation></message>
 <message><source>the dark or flat field has shape {shape} and the picture {wanted}; take both with the same sensor</source><translation>das Dunkel- oder Hellbild hat die Form {shape} und das Bild {wanted}; beide mit demselben Sensor aufnehmen</translation></message>
 <message><source>the database maps were stopped</source><translation>die Datenbankkarten wurden angehalten</translation></message>
 <message><source>the depth map has the shape ({shape}), but the picture ({picture}); resize it</source><translation>die Tiefenkarte hat die Form ({shape}), aber das Bild ({picture}); ihre Größe anpassen</translation></message>
@@ -1811,7 +1811,7 @@
 <message><source>the forming of images</source><translation>die Bilderzeugung</translation></message>
 <message><source>the fourth column as the rim's diameter</source><translation>die vierte Spalte als Durchmesser des Rands</translation></message>
 <message><source>the free pupil has no lens</source><translation>die freie Pupille hat kein Objektiv</translation></message>
-<message><source>the glass behind surface {surface} is {thickness:g} mm thick, against the direction of the light; change its sign or its neighbours</source><translation>das Glas hinter Fläche {surface} ist {thickness:g} mm dick, gegen die Richtung des Lichts; sein Vorzeichen oder seine Nachbarn ändern</translation></message>
+<message><source>the glass behind surface {surface} has a thickness of {thickness:g} mm, opposite to the direction of light; change its sign or its neighbours</source><translation>das Glas hinter Fläche {surface} ist {thickness:g} mm dick, gegen die Richtung des Lichts; sein Vorzeichen oder seine Nachbarn ändern</translation></message>
 <message><source>the glass has no coefficients (CD line); complete it</source><translation>das Glas hat keine Koeffizienten (Zeile CD); ergänzen</translation></message>
 <message><source>the glass has no wavelength range (LD line); complete it</source><translation>das Glas hat keinen Wellenlängenbereich (Zeile LD); ergänzen</translation></message>
 <message><source>the glass's range is {low:g} to {high:g} µm; give the smaller first, both positive</source><translation>der Bereich des Glases ist {low:g} bis {high:g} µm; das kleinere zuerst angeben, beide positiv</translation></message>
@@ -1831,6 +1831,26 @@
 <message><source>the lens has mirrors, which an ISET file cannot express; save as TOML</source><translation>das Objektiv hat Spiegel, die eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the lens has no surfaces; give at least one</source><translation>das Objektiv hat keine Flächen; mindestens eine angeben</translation></message>
 <message><source>the lens has no surfaces; write a [[surface]] for each</source><translation>das Objektiv hat keine Flächen; für jede ein [[surface]] schreiben</translation></message>
+<message><source>the lens has {across} field angles along x for {count} along y; give as many, or none</source><translation>das Objektiv hat {across} Feldwinkel entlang x auf {count} entlang y; ebenso viele angeben oder keine</translation></message>
+<message><source>the weights of {count} wavelengths are {weights}; give one that is not negative for each, or none</source><translation>die Gewichte von {count} Wellenlängen sind {weights}; je eines angeben, das nicht negativ ist, oder keines</translation></message>
+<message><source>the reference wavelength {reference:g} nm is none of the lens's, {wavelengths:g} nm; choose one of these</source><translation>die Bezugswellenlänge {reference:g} nm ist keine des Objektivs, {wavelengths:g} nm; eine von diesen wählen</translation></message>
+<message><source>weights of the wavelengths, as the spectrum {spectrum}</source><translation>Gewichte der Wellenlängen, als Spektrum {spectrum}</translation></message>
+<message><source>write a weight that is not negative</source><translation>ein Gewicht schreiben, das nicht negativ ist</translation></message>
+<message><source>weight of a wavelength</source><translation>Gewicht einer Wellenlänge</translation></message>
+<message><source>flag of the aperture</source><translation>Kennziffer der Öffnung</translation></message>
+<message><source>ray aiming</source><translation>Strahlausrichtung</translation></message>
+<message><source>object cone angle</source><translation>Kegelwinkel am Objekt</translation></message>
+<message><source>the file aims rays at the paraxial image of the stop; here they are aimed at the stop itself</source><translation>die Datei richtet die Strahlen auf das paraxiale Bild der Blende; hier werden sie auf die Blende selbst gerichtet</translation></message>
+<message><source>{name} ({count}×)</source><translation>{name} ({count}×)</translation></message>
+<message><source>unknown here, and not read</source><translation>hier unbekannt und nicht gelesen</translation></message>
+<message><source>its obscuration or hole ({name} {kind}) is left out, so the picture shows the full aperture</source><translation>ihre Abschattung oder ihr Loch ({name} {kind}) ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
+<message><source>the pupil's apodisation differs between x and y ({x:g}, {y:g}), which is not read; give it round</source><translation>die Apodisation der Pupille ist in x und y verschieden ({x:g}, {y:g}), was nicht gelesen wird; rund angeben</translation></message>
+<message><source>the pupil's apodisation (GFAC {kind:g}) is left out; its light is even here</source><translation>die Apodisation der Pupille (GFAC {kind:g}) ist weggelassen; ihr Licht ist hier gleichmäßig</translation></message>
+<message><source>the pupil's amplitude falls to 1/e at {radius:.6g} of its rim's radius</source><translation>die Amplitude der Pupille fällt bei {radius:.6g} ihres Randradius auf 1/e</translation></message>
+<message><source>temperature or pressure</source><translation>Temperatur oder Druck</translation></message>
+<message><source>indices are those at 20 °C and 1 atm, not at {temperature:g} °C and {pressure:g} atm; they differ by some 1e-5</source><translation>die Brechzahlen sind die bei 20 °C und 1 atm, nicht bei {temperature:g} °C und {pressure:g} atm; sie weichen um etwa 1e-5 ab</translation></message>
+<message><source>the glasses stand at {temperature:g} °C and {pressure:g} atm, but their indices are known at 20 °C in air of 1 atm only; set these in the program that wrote the file, and save it again</source><translation>die Gläser stehen bei {temperature:g} °C und {pressure:g} atm, ihre Brechzahlen sind aber nur bei 20 °C in Luft von 1 atm bekannt; diese Werte im Programm einstellen, das die Datei geschrieben hat, und neu speichern</translation></message>
+<message><source>a plane at the object, which does nothing, is left out</source><translation>eine Ebene am Objekt, die nichts bewirkt, wird weggelassen</translation></message>
 <message><source>the lens has no wavelengths; give at least one</source><translation>das Objektiv hat keine Wellenlängen; mindestens eine angeben</translation></message>
 <message><source>the lens is set aside, and only the six sliders make the picture; switch "Free pupil" off to see the lens</source><translation>das Objektiv ist beiseitegelegt, allein die sechs Regler machen das Bild; „Freie Pupille“ ausschalten, um es zu sehen</translation></message>
 <message><source>the lens itself</source><translation>ganz vorn am Objektiv</translation></message>
@@ -1841,7 +1861,7 @@
 <message><source>the link</source><translation>der Link</translation></message>
 <message><source>the link contains no state of the explorer; copy it again from the explorer</source><translation>der Link enthält keinen Zustand des Explorers; im Explorer neu kopieren</translation></message>
 <message><source>the link is cut off or changed; copy all of it again, from p2sf: to its last letter</source><translation>der Link ist abgeschnitten oder verändert; noch einmal ganz kopieren, von p2sf: bis zum letzten Zeichen</translation></message>
-<message><source>the mask in the stop leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
+<message><source>the pupil mask leaves nothing open; make its obscuration or its vanes smaller</source><translation>die Maske in der Blende lässt nichts offen; ihre Abschattung oder ihre Streben kleiner machen</translation></message>
 <message><source>the measurement was cancelled before it was done</source><translation>die Messung wurde abgebrochen, bevor sie fertig war</translation></message>
 <message><source>the medium behind it</source><translation>das Medium dahinter</translation></message>
 <message><source>the microlens array is left out; the picture is that of the lens before it</source><translation>das Mikrolinsenraster ist weggelassen; das Bild ist das des Objektivs davor</translation></message>
@@ -1856,9 +1876,7 @@
 <message><source>the object stands in a medium, which an ISET file cannot express; save as TOML</source><translation>das Objekt steht in einem Medium, was eine ISET-Datei nicht sagen kann; als TOML speichern</translation></message>
 <message><source>the object's height of {height:g} as an angle, for it is far away</source><translation>die Objekthöhe {height:g} als Winkel, denn das Objekt ist sehr weit entfernt</translation></message>
 <message><source>the open tab</source><translation>das offene Blatt</translation></message>
-<message><source>the outline of half a pupil</source><translation>der Umriss einer halben Pupille</translation></message>
 <message><source>the paraxial pupil</source><translation>die paraxiale Pupille</translation></message>
-<message><source>the phase is {slope:.0f} waves steep; stop the lens down</source><translation>die Phase ist {slope:.0f} Wellen steil; das Objektiv abblenden</translation></message>
 <message><source>the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it</source><translation>das Foto hat {count:.3g} Megapixel, von denen höchstens {most:g} auf einmal geschärft werden; einen Teil davon wählen</translation></message>
 <message><source>the picture has the shape ({shape}), but the scene's sensor needs {rows} rows, {columns} columns and {channels} channels; resize it or change the scene</source><translation>das Bild hat die Form ({shape}), aber der Sensor der Szene verlangt {rows} Zeilen, {columns} Spalten und {channels} Kanäle; seine Größe anpassen oder die Szene ändern</translation></message>
 <message><source>the picture holds values that are not finite; replace them first</source><translation>das Bild enthält Werte, die nicht endlich sind; diese zuerst ersetzen</translation></message>
@@ -1868,13 +1886,12 @@
 <message><source>the pixel is {pixel:g} µm; give a pitch above 0</source><translation>das Pixel misst {pixel:g} µm; einen Abstand über 0 angeben</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
 <message><source>the pupil is too distorted for polynomials over its spatial frequencies, which give {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
-<message><source>the pupil map of this lens folds over; stop the lens down or take a smaller field</source><translation>die Pupillenabbildung dieses Objektivs faltet sich; das Objektiv abblenden oder ein kleineres Feld nehmen</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
 <message><source>the real stop</source><translation>die wahre Blende</translation></message>
 <message><source>the reference is summed when the sliders rest</source><translation>die Referenz wird summiert, wenn die Regler ruhen</translation></message>
 <message><source>the reference itself, since {because}</source><translation>die Referenz selbst, denn {because}</translation></message>
 <message><source>the reference was cancelled before it was done</source><translation>die Referenz wurde abgebrochen, bevor sie fertig war</translation></message>
-<message><source>the rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, choose stop auto to let the narrowest rim decide</source><translation>der Rand von Fläche {rim} ist für dieses Objekt enger als die Blende auf Fläche {stop}; die Blende bleibt, die Wahl „gefunden“ lässt den engsten Rand entscheiden</translation></message>
+<message><source>the rim of surface {rim} is narrower for this object than the stop on surface {stop}; the stop is kept, choose stop auto to use the narrowest rim</source><translation>der Rand von Fläche {rim} ist für dieses Objekt enger als die Blende auf Fläche {stop}; die Blende bleibt, die Wahl „gefunden“ lässt den engsten Rand entscheiden</translation></message>
 <message><source>the rims clip every ray of this field; leave {parameter} off or reduce the field</source><translation>die Ränder nehmen jeden Strahl dieses Feldes weg; {parameter} auslassen oder das Feld verkleinern</translation></message>
 <message><source>the root of the sphere on its other side</source><translation>die Lösung auf der anderen Seite der Kugel</translation></message>
 <message><source>the row cannot be cut into cells ({reason}); correct it</source><translation>die Zeile lässt sich nicht in Zellen teilen ({reason}); berichtigen</translation></message>
@@ -1882,16 +1899,17 @@
 <message><source>the scene has no channel; give at least one</source><translation>die Szene hat keinen Kanal; mindestens einen angeben</translation></message>
 <message><source>the scene has one depth</source><translation>die Szene hat nur einen Abstand</translation></message>
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
-<message><source>the sensitivities were stopped before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
+<message><source>the sensitivities were cancelled before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
 <message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
-<message><source>the source has values of shape {shape}, which are many sources; give one after the other</source><translation>die Quelle hat Werte der Form {shape}, das sind viele Quellen; eine nach der anderen angeben</translation></message>
+<message><source>the source has values of shape {shape}, so it describes many sources; give one at a time</source><translation>die Quelle hat Werte der Form {shape}, das sind viele Quellen; eine nach der anderen angeben</translation></message>
 <message><source>the source is on the axis: no chief ray, so the diagram is a line</source><translation>die Quelle liegt auf der Achse: kein Hauptstrahl, das Diagramm ist also eine Linie</translation></message>
+<message><source>the spectral lines are as bright as {weights:g}; give numbers that are not negative, as in lines:486@0.5,588</source><translation>die Spektrallinien sind so hell wie {weights:g}; nicht negative Zahlen angeben, wie in lines:486@0.5,588</translation></message>
 <message><source>the spectral lines are {given:g} nm; give wavelengths from {least:g} to {most:g} nm, as in lines:486,588,656</source><translation>die Spektrallinien sind {given:g} nm; Wellenlängen von {least:g} bis {most:g} nm angeben, wie in lines:486,588,656</translation></message>
 <message><source>the spectrum "{kind}" is unknown; choose {examples}</source><translation>das Spektrum "{kind}" ist unbekannt; {examples} wählen</translation></message>
 <message><source>the spectrum "{kind}" takes no number, but has {number:g}; write {examples}</source><translation>das Spektrum "{kind}" hat keine Zahl, auch nicht {number:g}; {examples} schreiben</translation></message>
-<message><source>the spectrum "{text}" holds "{rest}", which is not a list of numbers; write {examples}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {examples} schreiben</translation></message>
-<message><source>the spectrum {name} has no light that the eye sees; choose one with some</source><translation>das Spektrum {name} hat kein Licht, das das Auge sieht; eines mit Licht wählen</translation></message>
+<message><source>the spectrum "{text}" contains "{rest}", which is not a list of numbers; write {examples}</source><translation>das Spektrum "{text}" enthält "{rest}", was keine Liste von Zahlen ist; {examples} schreiben</translation></message>
+<message><source>the spectrum {name} has no visible light; choose another</source><translation>das Spektrum {name} hat kein Licht, das das Auge sieht; eines mit Licht wählen</translation></message>
 <message><source>the stage</source><translation>die Bühne</translation></message>
 <message><source>the state</source><translation>der Zustand</translation></message>
 <message><source>the state has an unknown entry "{entry}"; known are {known}</source><translation>der Zustand hat einen unbekannten Eintrag "{entry}"; bekannt sind {known}</translation></message>
@@ -1901,14 +1919,14 @@
 <message><source>the state's edited lens is not text; leave lens_text out to take the lens as its file has it</source><translation>das bearbeitete Objektiv des Zustands ist kein Text; lens_text weglassen, um das Objektiv zu nehmen, wie es in der Datei steht</translation></message>
 <message><source>the state's group "{group}" is not a table; save it again from the explorer</source><translation>die Gruppe "{group}" des Zustands ist keine Tabelle; im Explorer neu speichern</translation></message>
 <message><source>the state's lists are nested too deep; save it again from the explorer</source><translation>die Listen des Zustands sind zu tief verschachtelt; im Explorer neu speichern</translation></message>
-<message><source>the state's {name} must be a list of panels' names; correct it or leave it out</source><translation>{name} des Zustands muss eine Liste von Ansichtenamen sein; berichtigen Sie sie oder lassen Sie sie weg</translation></message>
+<message><source>the state's {name} must be a list of names; correct it or leave it out</source><translation>{name} des Zustands muss eine Liste von Ansichtenamen sein; berichtigen Sie sie oder lassen Sie sie weg</translation></message>
 <message><source>the stop alone</source><translation>die Blende allein</translation></message>
 <message><source>the stop changes with depth or wavelength; a database holds one stop, choose it</source><translation>die Blende wechselt mit Abstand oder Wellenlänge; eine Datenbank enthält eine Blende, diese wählen</translation></message>
 <message><source>the stop is no plane in an air gap, so it cannot be moved alone; insert a plane and put the stop there</source><translation>die Blende ist keine ebene Fläche in einem Luftabstand und lässt sich nicht allein verschieben; fügen Sie eine ebene Fläche ein und legen Sie die Blende dorthin</translation></message>
 <message><source>the stop is on the object or the image; put it on a surface between</source><translation>die Blende liegt auf dem Objekt oder dem Bild; auf eine Fläche dazwischen legen</translation></message>
-<message><source>the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but a radius of {radius:g} mm ends that surface at {edge:.6g} mm; stop the lens down or move the stop</source><translation>die Blende auf Fläche {surface} hat einen Halbmesser von {rim:.6g} mm, aber ein Radius von {radius:g} mm lässt diese Fläche bei {edge:.6g} mm enden; abblenden oder die Blende versetzen</translation></message>
+<message><source>the stop on surface {surface} has a semi-diameter of {rim:.6g} mm, but with a radius of {radius:g} mm that surface ends at {edge:.6g} mm; stop the lens down or move the stop</source><translation>die Blende auf Fläche {surface} hat einen Halbmesser von {rim:.6g} mm, aber ein Radius von {radius:g} mm lässt diese Fläche bei {edge:.6g} mm enden; abblenden oder die Blende versetzen</translation></message>
 <message><source>the stop, surface {number}, is open to its rim, semi-diameter {rim:g} mm</source><translation>die Blende, Fläche {number}, ist bis zum Rand offen, Halbmesser {rim:g} mm</translation></message>
-<message><source>the surface has odd powers of the radius, which no even terms describe; keep its shape</source><translation>die Fläche hat ungerade Potenzen des Radius, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
+<message><source>even terms cannot describe the odd powers of the radius in the surface; keep its shape</source><translation>die Fläche hat ungerade Potenzen des Radius, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
 <message><source>the target fits the picture in {count} ways, and is taken to be upright and in the middle; give it a point that no symmetry repeats</source><translation>Die Zielkarte passt auf {count} Arten auf das Bild und wird aufrecht und in der Mitte angenommen; ihr einen Punkt geben, den keine Symmetrie wiederholt</translation></message>
 <message><source>the target's points are in mm, and it is infinitely far away; give {parameter}, or angles in degrees</source><translation>Die Punkte der Zielkarte sind in mm, und sie ist unendlich weit weg; {parameter} oder Winkel in Grad angeben</translation></message>
 <message><source>the tolerance</source><translation>die Toleranz</translation></message>
@@ -2018,8 +2036,7 @@
 <message><source>waves</source><translation>Wellen</translation></message>
 <message><source>waves RMS</source><translation>Wellen RMS</translation></message>
 <message><source>waves peak</source><translation>Wellen Spitze</translation></message>
-<message><source>weights</source><translation>Gewichte</translation></message>
-<message><source>weights of fields and wavelengths</source><translation>Gewichte der Felder und Wellenlängen</translation></message>
+<message><source>weights of fields</source><translation>Gewichte der Felder</translation></message>
 <message><source>what is added to {term}</source><translation>was zu {term} hinzukommt</translation></message>
 <message><source>what is pinned as B must be one state with nothing pinned in it; pin it again</source><translation>was als B gemerkt ist, muss ein einzelner Zustand sein, in dem nichts gemerkt ist; neu merken</translation></message>
 <message><source>what no single term shows</source><translation>was kein einzelnes Glied zeigt</translation></message>
@@ -2081,6 +2098,7 @@
 <message><source>{axis} {value:.6g} {unit} is outside this database, which covers {low:.6g} to {high:.6g} {unit}; {remedy}</source><translation>{axis} {value:.6g} {unit} liegt außerhalb dieser Datenbank, die {low:.6g} bis {high:.6g} {unit} umfasst; {remedy}</translation></message>
 <message><source>{before} mm before surface {first}, {behind} mm behind {last}</source><translation>{before} mm vor Fläche {first}, {behind} mm hinter {last}</translation></message>
 <message><source>{behind} mm behind surface {last}</source><translation>{behind} mm hinter Fläche {last}</translation></message>
+<message><source>{cells} cells of the pupil count, too few for {terms} terms; give more, with weights of 0 or more</source><translation>{cells} Zellen der Pupille zählen, zu wenige für {terms} Terme; mehr angeben, mit Gewichten ab 0</translation></message>
 <message><source>{choice}: {why} (error {error:.1g})</source><translation>{choice}: {why} (Fehler {error:.1g})</translation></message>
 <message><source>{coefficient} is not finite, so there is no wavefront; choose a depth, field or lens with one</source><translation>{coefficient} ist nicht endlich, also gibt es keine Wellenfront; einen Abstand, ein Feld oder ein Objektiv mit einer wählen</translation></message>
 <message><source>{coefficient} is {error:.2g} waves off with {terms} terms in wavelength, so the glass data have a kink between the wavelengths asked; build with the linear interpolant, or narrow the wavelengths</source><translation>{coefficient} liegt mit {terms} Gliedern in der Wellenlänge um {error:.2g} Wellen daneben, die Glasdaten haben also einen Knick zwischen den verlangten Wellenlängen; mit der Interpolation linear bauen oder die Wellenlängen einengen</translation></message>
@@ -2091,7 +2109,7 @@
 <message><source>{command}: a number is missing; complete the command</source><translation>{command}: Es fehlt eine Zahl; bitte den Befehl ergänzen</translation></message>
 <message><source>{command}: {what} is missing; complete the command</source><translation>{command}: {what} fehlt; den Befehl ergänzen</translation></message>
 <message><source>{contrast} (at {f:.3g}/mm)</source><translation>{contrast} (bei {f:.3g}/mm)</translation></message>
-<message><source>{count:.3g} PSF samples exceed {most:.3g}; ask for fewer pixels or fewer PSFs</source><translation>{count:.3g} PSF-Proben sind mehr als {most:.3g}; weniger Pixel oder weniger PSFs verlangen</translation></message>
+<message><source>{count:.3g} PSF samples exceed {most:.3g}; choose fewer pixels or fewer PSFs</source><translation>{count:.3g} PSF-Proben sind mehr als {most:.3g}; weniger Pixel oder weniger PSFs verlangen</translation></message>
 <message><source>{count} PSFs</source><translation>{count} PSFs</translation></message>
 <message><source>{count} PSFs of {pixels}² pixels are {size:.1f} GiB; ask for fewer, or for fewer pixels a side</source><translation>{count} PSFs von {pixels}² Pixeln sind {size:.1f} GiB; weniger verlangen, oder weniger Pixel je Seite</translation></message>
 <message><source>{count} blades</source><translation>{count} Lamellen</translation></message>
@@ -2136,10 +2154,11 @@
 <message><source>{key} is {given}; write true or false, without quotes</source><translation>{key} ist {given}; true oder false schreiben, ohne Anführungszeichen</translation></message>
 <message><source>{key} of {name} is {records}; write a list of [wavelength in µm, share, thickness in mm]</source><translation>{key} von {name} ist {records}; eine Liste von [Wellenlänge in µm, Anteil, Dicke in mm] schreiben</translation></message>
 <message><source>{kind} has its columns at {places}; give finite numbers that ascend</source><translation>{kind} hat seine Spalten bei {places}; endliche, aufsteigende Zahlen angeben</translation></message>
-<message><source>{kind} has two columns of one name: {names}; rename one</source><translation>{kind} hat zwei Spalten eines Namens: {names}; eine umbenennen</translation></message>
+<message><source>{kind} has two columns with the same name: {names}; rename one</source><translation>{kind} hat zwei Spalten eines Namens: {names}; eine umbenennen</translation></message>
 <message><source>{kind} has {columns} columns at {places} places; give at least two, and one place for each</source><translation>{kind} hat {columns} Spalten an {places} Orten; mindestens zwei angeben, und für jede einen Ort</translation></message>
 <message><source>{kind} of surface {surface} is off by {value}; give a number from {low:g} to {high:g}{unit}</source><translation>{kind} von Fläche {surface} ist um {value} falsch; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
 <message><source>{kind}: normalisation radius {radius:g} mm, coefficients {numbers:.6g} mm</source><translation>{kind}: Normierungsradius {radius:g} mm, Koeffizienten {numbers:.6g} mm</translation></message>
+<message><source>{library} is not installed; pip install 'p2sf[xarray]'</source><translation>{library} ist nicht installiert; pip install 'p2sf[xarray]'</translation></message>
 <message><source>{lost} of {rays} rays are lost, and a smooth pupil does not describe that</source><translation>{lost} von {rays} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
@@ -2155,6 +2174,7 @@
 <message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, its unit, the distance, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei, ihre Einheit und die Entfernung prüfen, und ob sie die dieses Bildes ist</translation></message>
 <message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
 <message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
+<message><source>{names} have the shapes {shapes}, which do not broadcast; give arrays as numpy adds them</source><translation>{names} haben die Formen {shapes}, die numpy nicht zusammen auf eine bringt; Felder angeben, die sich addieren lassen</translation></message>
 <message><source>{names}: a database cannot express a tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>
 <message><source>{names}: not part of the lens as built; measure spacings instead</source><translation>{names}: kein Teil des gebauten Objektivs; an ihrer Stelle Abstände messen</translation></message>
@@ -2191,7 +2211,6 @@
 <message><source>{name} third order</source><translation>{name} 3. Ordnung</translation></message>
 <message><source>{name} uses dispersion formula {formula}; only 1 to 13 exist, correct it</source><translation>{name} benutzt die Dispersionsformel {formula}; es gibt nur 1 bis 13, berichtigen</translation></message>
 <message><source>{name} varies with {kind}, of which there is no table; add [{kind}]</source><translation>{name} ändert sich mit {kind}, wofür es keine Tabelle gibt; [{kind}] ergänzen</translation></message>
-<message><source>{name}, which is not known to describe the lens</source><translation>{name}, wovon nicht bekannt ist, dass es das Objektiv beschreibt</translation></message>
 <message><source>{name}: {likeness}</source><translation>{name}: {likeness}</translation></message>
 <message><source>{nm:.1f} nm</source><translation>{nm:.1f} nm</translation></message>
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
@@ -2204,7 +2223,8 @@
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} fitted keeps more of them</source><translation>{parameter} fitted gibt sie getreuer wieder</translation></message>
 <message><source>{parameter} has no number; give one or more</source><translation>{parameter} hat keine Zahl; eine oder mehrere angeben</translation></message>
-<message><source>{parameter} has the shape {shape}, or holds what is no finite number; give one number or a list of them</source><translation>{parameter} hat die Form {shape} oder enthält etwas, das keine endliche Zahl ist; geben Sie eine Zahl oder eine Liste von Zahlen an</translation></message>
+<message><source>{parameter} has the shape {given}, and the PSFs {shape}; give one of that shape</source><translation>{parameter} hat die Form {given} und die PSFs {shape}; ein Feld dieser Form angeben</translation></message>
+<message><source>{parameter} has the shape {shape} or contains values that are not finite; give one number or a list of numbers</source><translation>{parameter} hat die Form {shape} oder enthält etwas, das keine endliche Zahl ist; geben Sie eine Zahl oder eine Liste von Zahlen an</translation></message>
 <message><source>{parameter} has {count} terms; give up to {most} numbers</source><translation>{parameter} hat {count} Terme; bis zu {most} Zahlen angeben</translation></message>
 <message><source>{parameter} holds {kind}; give real numbers</source><translation>{parameter} enthält {kind}; geben Sie reelle Zahlen an</translation></message>
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
@@ -2216,16 +2236,17 @@
 <message><source>{parameter} is given with {height}; give {angle} with it, or leave it out</source><translation>{parameter} ist mit {height} angegeben; dazu {angle} angeben oder es weglassen</translation></message>
 <message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
 <message><source>{parameter} is {value:g} %; give 0 or more, 0 where the f-number is known exactly</source><translation>{parameter} ist {value:g} %; 0 oder mehr angeben, 0 bei genau bekannter Blendenzahl</translation></message>
-<message><source>{parameter} is {value:g} about ({x:g}, {y:g}), which reaches beyond the rim of the stop; make it smaller or put it nearer to the middle</source><translation>{parameter} ist {value:g} um ({x:g}, {y:g}) und reicht über den Rand der Blende hinaus; kleiner machen oder näher zur Mitte rücken</translation></message>
+<message><source>{parameter} is {value:g} about ({x:g}, {y:g}), which extends beyond the rim of the stop; make it smaller or move it towards the centre</source><translation>{parameter} ist {value:g} um ({x:g}, {y:g}) und reicht über den Rand der Blende hinaus; kleiner machen oder näher zur Mitte rücken</translation></message>
 <message><source>{parameter} is {value:g} mm, but an object at infinity has no height; give {depth} as well, or the field as an angle or an image height</source><translation>{parameter} ist {value:g} mm, aber ein Objekt im Unendlichen hat keine Höhe; auch {depth} angeben oder das Feld als Winkel oder Bildhöhe</translation></message>
-<message><source>{parameter} is {value:g} mm, but the image of that distance lies {where} and not on a sensor behind the lens; give a distance whose image is real, usually a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
-<message><source>{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into it; give a smaller shift</source><translation>{parameter} ist {value:g} µm, was den Sensor von {place:g} mm hinter dem Objektiv in dieses hinein schiebt; einen kleineren Versatz angeben</translation></message>
+<message><source>{parameter} is {value:g} mm, but the image of that distance lies {where}, not on a sensor behind the lens; give a distance with a real image, usually a longer one</source><translation>{parameter}: {value:g} mm, aber das Bild dieses Abstands liegt {where} und nicht auf einem Sensor hinter dem Objektiv; einen Abstand angeben, dessen Bild reell ist, meist einen größeren</translation></message>
+<message><source>{parameter} is {value:g} µm, which moves the sensor from {place:g} mm behind the lens into the lens; give a smaller shift</source><translation>{parameter} ist {value:g} µm, was den Sensor von {place:g} mm hinter dem Objektiv in dieses hinein schiebt; einen kleineren Versatz angeben</translation></message>
 <message><source>{parameter} is {value:g}; give a number from {low:g} to {high:g}</source><translation>{parameter} ist {value:g}; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
 <message><source>{parameter} is {value:g}; give a radius of at least {low:g}, inf for none</source><translation>{parameter} ist {value:g}; einen Radius von mindestens {low:g} angeben, inf für keine</translation></message>
 <message><source>{parameter} is {value:g}{unit}, which needs a chief ray at 90° to the axis; give a smaller one</source><translation>{parameter} ist {value:g}{unit}, wofür der Hauptstrahl 90° zur Achse stehen müsste; einen kleineren Wert angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a finite number</source><translation>{parameter}: {value:g}{unit}; eine endliche Zahl angeben</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive finite number</source><translation>{parameter}: {value:g}{unit}; eine positive endliche Zahl angeben</translation></message>
-<message><source>{parameter} is {value:g}{unit}, and beyond {most:g} mm rays cannot be told from parallel ones; give inf</source><translation>{parameter}: {value:g}{unit}; über {most:g} mm hinaus sind Strahlen nicht von parallelen zu unterscheiden; ∞ angeben</translation></message>
+<message><source>{parameter} is {value:g}{unit}, but rays from beyond {most:g} mm are in effect parallel; give inf</source><translation>{parameter}: {value:g}{unit}; über {most:g} mm hinaus sind Strahlen nicht von parallelen zu unterscheiden; ∞ angeben</translation></message>
+<message><source>{parameter} reaches {value:.4g} µm, and a wavefront on {size} cells repeats its PSF beyond {most:.4g} µm; give it on a finer grid</source><translation>{parameter} reicht bis {value:.4g} µm, und die PSF einer Wellenfront auf {size} Zellen wiederholt sich jenseits von {most:.4g} µm; sie auf einem feineren Gitter angeben</translation></message>
 <message><source>{percent:.1f} % of the rays that fill the pupil reach the sensor, too few for its contrast and energy; move the source to a distance the lens is made for, or stop the lens down</source><translation>{percent:.1f} % der Strahlen, die die Pupille füllen, erreichen den Sensor, zu wenige für Kontrast und Energie; die Quelle in einen Abstand bringen, für den das Objektiv gemacht ist, oder abblenden</translation></message>
 <message><source>and so in half of its space</source><translation>und das im halben Raum</translation></message>
 <message><source>median 1 − R² {median:.1e}</source><translation>Median von 1 − R² {median:.1e}</translation></message>
@@ -2234,12 +2255,12 @@
 <message><source>predicted 1 − R² against exact rays: median {median:.1e}, too far from them to tell {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, {where} zu weit von ihnen für eine Zahl</translation></message>
 <message><source>in half of this space PSFs are too far from exact rays to predict how far</source><translation>im halben Raum liegen die PSFs zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
 <message><source>none: too far from exact rays to predict how far</source><translation>keine: zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
-<message><source>{parameter} is {value}; put semicolons between the numbers, since a comma may belong to one</source><translation>{parameter} ist {value}; Semikolons zwischen die Zahlen setzen, da ein Komma zu einer gehören kann</translation></message>
+<message><source>{parameter} is {value}; separate the numbers by semicolons, since a comma may belong to a number</source><translation>{parameter} ist {value}; Semikolons zwischen die Zahlen setzen, da ein Komma zu einer gehören kann</translation></message>
 <message><source>the tolerance of {error} is {value:g}{unit}; give a number from 0 to {high:g}</source><translation>Toleranz für {error}: {value:g}{unit}; eine Zahl von 0 bis {high:g} angeben</translation></message>
 <message><source>the point {where}: {error}</source><translation>der Punkt {where}: {error}</translation></message>
 <message><source>{parameter} is {value:g}{unit}; give a positive number, inf allowed</source><translation>{parameter}: {value:g}{unit}; eine positive Zahl angeben, ∞ erlaubt</translation></message>
-<message><source>{parameter} is {value:g}°, and no ray at 90° or more from the axis enters a lens; give an angle between −90 and 90°, both ends left out</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
-<message><source>{parameter} is {value}, and only a depth may reach to inf; give a finite end</source><translation>{parameter} ist {value}, und nur Abstände reichen bis ∞; ein endliches Ende angeben</translation></message>
+<message><source>{parameter} is {value:g}°, but no ray at 90° or more from the axis enters a lens; give an angle above −90° and below 90°</source><translation>{parameter} ist {value:g}°, und kein Strahl tritt bei 90° oder mehr zur Achse in ein Objektiv ein; einen Winkel zwischen −90 und 90° angeben, beide Enden ausgenommen</translation></message>
+<message><source>{parameter} is {value}, but only depths may extend to inf; give a finite end</source><translation>{parameter} ist {value}, und nur Abstände reichen bis ∞; ein endliches Ende angeben</translation></message>
 <message><source>{parameter} is {value}, but the lens has no such ring; leave it out</source><translation>{parameter} ist {value}, aber das Objektiv hat keinen solchen Ring; weglassen</translation></message>
 <message><source>{parameter} is {value}, which does not ascend from a finite number; write LOW:HIGH:COUNT</source><translation>{parameter} ist {value}, was nicht von einer endlichen Zahl an aufsteigt; VON:BIS:ANZAHL schreiben</translation></message>
 <message><source>{parameter} is {value}, which does not ascend; put the numbers in ascending order</source><translation>{parameter} ist {value}, was nicht aufsteigt; die Zahlen in aufsteigender Folge schreiben</translation></message>
@@ -2252,9 +2273,9 @@
 <message><source>{parameter} is {value}; give a whole number of 1 or more</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give at most {most} a side</source><translation>{parameter} ist {value}; geben Sie höchstens {most} je Seite an</translation></message>
-<message><source>{parameter} is {value}; give distances in front of the lens, above 0</source><translation>{parameter} ist {value}; Abstände vor dem Objektiv angeben, größer als 0</translation></message>
+<message><source>{parameter} is {value}; give positive distances in front of the lens</source><translation>{parameter} ist {value}; Abstände vor dem Objektiv angeben, größer als 0</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
-<message><source>{parameter} is {value}; give several, in a tuple</source><translation>{parameter} ist {value}; geben Sie mehrere an, als Tupel</translation></message>
+<message><source>{parameter} is {value}; give a tuple</source><translation>{parameter} ist {value}; geben Sie mehrere an, als Tupel</translation></message>
 <message><source>{parameter} is {value}; give {wanted}</source><translation>{parameter} ist {value}; geben Sie {wanted} an</translation></message>
 <message><source>{parameter} is {value}; write LOW:HIGH:COUNT, one number, or numbers with {separators}</source><translation>{parameter} ist {value}; VON:BIS:ANZAHL schreiben, eine Zahl, oder Zahlen mit {separators} dazwischen</translation></message>
 <message><source>{parameter} reaches {value:.4g} µm, and this line spread is known up to {most:.4g} µm from its centroid; give positions within that</source><translation>{parameter} reicht bis {value:.4g} µm, und diese Linienbildfunktion ist bis {most:.4g} µm vom Schwerpunkt bekannt; geben Sie Orte innerhalb davon an</translation></message>
@@ -2313,16 +2334,16 @@
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
-<message><source>{pixels} pixels of {pixel_um:g} µm take more than {most} samples a side to be integrated over; give fewer or smaller pixels, or {parameter} False</source><translation>über {pixels} Pixel von {pixel_um:g} µm zu integrieren braucht mehr als {most} Abtastwerte je Seite; geben Sie weniger oder kleinere Pixel an, oder {parameter} False</translation></message>
+<message><source>the light on {pixels} pixels of {pixel_um:g} µm takes more than {most} samples a side; give fewer or smaller pixels, or {parameter} False</source><translation>über {pixels} Pixel von {pixel_um:g} µm zu integrieren braucht mehr als {most} Abtastwerte je Seite; geben Sie weniger oder kleinere Pixel an, oder {parameter} False</translation></message>
 <message><source>{pixels} usable pixels for {unknowns} unknowns; take a larger window, or fit fewer numbers</source><translation>{pixels} brauchbare Pixel für {unknowns} Unbekannte; ein größeres Fenster nehmen oder weniger Zahlen anpassen</translation></message>
 <message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
 <message><source>{problem}; known are {columns}, A4, A6, …</source><translation>{problem}; bekannt sind {columns}, A4, A6, …</translation></message>
 <message><source>{psnr:.1f} dB, SSIM {ssim:.3f}</source><translation>{psnr:.1f} dB, SSIM {ssim:.3f}</translation></message>
 <message><source>{pupil_samples} pupil samples are too few for {pixels} PSF samples by FFT; give an even number of at least {least}</source><translation>{pupil_samples} Pupillenproben sind zu wenige für {pixels} PSF-Proben mit der FFT; eine gerade Zahl ab {least} angeben</translation></message>
-<message><source>{quantity} differ between columns and are those of the nearest, {near}</source><translation>{quantity} sind in den Spalten verschieden und sind die der nächsten, {near}</translation></message>
+<message><source>{quantity} differ between columns; they are those of the nearest, {near}</source><translation>{quantity} sind in den Spalten verschieden und sind die der nächsten, {near}</translation></message>
 <message><source>{quantity} is {value}{unit}; give a number from {low:g} to {high:g}{unit}</source><translation>{quantity} ist {value}{unit}; eine Zahl von {low:g} bis {high:g}{unit} angeben</translation></message>
-<message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; ask for a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
+<message><source>{quantity} {wavelength:.7g} nm is outside the data of {glass}, {low:.7g} to {high:.7g} nm; choose a wavelength inside, or change the glass</source><translation>{quantity} {wavelength:.7g} nm liegt außerhalb der Daten von {glass}, {low:.7g} bis {high:.7g} nm; eine Wellenlänge darin wählen oder das Glas wechseln</translation></message>
 <message><source>{quicker} while the slider moves, {method} when it rests</source><translation>{quicker}, solange der Regler sich bewegt, {method}, wenn er ruht</translation></message>
 <message><source>{radial} radii × {angular} directions; give at least 1 radius and an even count ≥ 2</source><translation>{radial} Radien × {angular} Richtungen; mindestens 1 Radius und eine gerade Anzahl ≥ 2 angeben</translation></message>
 <message><source>{radii} radii × {directions} directions</source><translation>{radii} Radien × {directions} Richtungen</translation></message>

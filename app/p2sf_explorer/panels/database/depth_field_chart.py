@@ -13,6 +13,8 @@ from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.plots import EMPTY, ColourBar, as_indices, lookup
 from p2sf_explorer.charts.reading import Reading, Samples, worded_both
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.finer import smooth
+from p2sf_explorer.compute.framing import crop
 from p2sf_explorer.compute.views.database import Atlas, closest, nearest
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import short_distance
@@ -151,22 +153,25 @@ class AtlasView(Chart):
         self.bottom_tick_maker, self.left_tick_maker = self._depth_ticks, self._field_ticks
         self.setAccessibleName(tr("Atlas of PSFs over depth and field"))
         self.setMinimumSize(150, 90)
-        self.atlas: Atlas | None = None
+        self.atlas: Atlas | None = None  # as much of each picture as is shown
+        self._whole: Atlas | None = None
         self.cell: tuple[int, int] | None = None
         self._source = (inf, 0.0)
 
     def show_atlas(self, atlas: Atlas | None) -> None:
-        """Show an atlas, or an empty field."""
-        self.atlas = atlas
+        """Show the light of an atlas, or an empty field."""
+        self.atlas = self._whole = atlas
         if atlas:
             fields, depths, size, _ = atlas.psfs.shape
-            mosaic = atlas.psfs.transpose(0, 2, 1, 3).reshape(fields * size, depths * size)
+            shown = crop(atlas.psfs.reshape(-1, size, size))
+            self.atlas = atlas = replace(atlas, psfs=atlas.psfs[..., shown, shown])
+            mosaic, painted = mosaic_of(atlas.psfs), mosaic_of(smooth_cells(atlas.psfs))
             rect = (-0.5, -0.5, float(depths), float(fields))
             table = lookup(ATLAS_MAP).copy()
             table[EMPTY] = QColor(self.theme.faint).rgb()
             self.set_range((-0.5, depths - 0.5), (-0.5, fields - 0.5))
             samples = Samples(mosaic, rect, tr("PSF, peak = 1"))
-            self.show_pixels(table[as_indices(np.sqrt(mosaic), 0.0, 1.0)], rect, samples)
+            self.show_pixels(table[as_indices(np.sqrt(painted), 0.0, 1.0)], rect, samples)
         self.show_point(*self._source)
         self.forget_background()
 
@@ -181,14 +186,16 @@ class AtlasView(Chart):
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         super().restyle(theme)
-        self.show_atlas(self.atlas)
+        self.show_atlas(self._whole)
 
     def read(self, x: float, y: float, snap: bool = True) -> Reading | None:
         """Return the sample at a place, with its depth, its field and its place on the sensor."""
         found = super().read(x, y, snap)
         if found is None or self.atlas is None or self.samples is None:
             return None
-        row, column = (min(max(round(v), 0), count - 1) for v, count in zip((y, x), self._shape(), strict=True))
+        row, column = (
+            round(v) for v in (found.y, found.x)
+        )  # of the sample: the pointer may be on the edge of its cell
         size, pitch = self.atlas.psfs.shape[-1], self.atlas.pixel_um
         middle = pitch * (1 - size % 2) / 2  # sample N//2 is the chief ray's, half a sample beside the cell's middle
         inside = [round((v - cell) * size * pitch - middle, 9) for v, cell in ((found.x, column), (found.y, row))]
@@ -265,3 +272,14 @@ STEPS: dict[int, tuple[int, int]] = {
     Qt.Key.Key_Left: (0, -1),
     Qt.Key.Key_Right: (0, 1),
 }
+
+
+def mosaic_of(cells: np.ndarray) -> np.ndarray:
+    """Return pictures, (rows, columns, n, n), side by side."""
+    rows, columns, size, _ = cells.shape
+    return cells.transpose(0, 2, 1, 3).reshape(rows * size, columns * size)
+
+
+def smooth_cells(cells: np.ndarray) -> np.ndarray:
+    """Return pictures, (rows, columns, n, n), on finer samples."""
+    return np.array([[smooth(cell) for cell in row] for row in cells])

@@ -203,7 +203,7 @@ class MatrixPanel:
         if isinstance(chart, LightChart) and isinstance(content, Light):
             chart.show_airy(content.airy_um)
             scale = self._live.state.display.psf_scale if self._live else "sqrt"
-            chart.show_light(content.values, content.width_um, size, peak, scale)
+            chart.show_light(content, size, peak, scale)
         elif isinstance(chart, WavesChart) and isinstance(content, WavefrontTile):
             chart.name_axes(*PUPIL_AXES[aim])
             chart.show_waves(content.values, content.outline, size)

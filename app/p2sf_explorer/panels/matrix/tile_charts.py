@@ -16,6 +16,8 @@ from p2sf_explorer.charts.plots import BRIGHTNESS, EMPTY, as_indices, colour_map
 from p2sf_explorer.charts.reading import Reading, Samples, closest, point_reading
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.brightness import stretch
+from p2sf_explorer.compute.finer import fade
+from p2sf_explorer.compute.matrix.tiles import Light
 from p2sf_explorer.i18n.tr import local, tr
 
 WAVES_MAP = "CET-D1A"
@@ -206,6 +208,8 @@ class TileChart(Chart):
 class LightChart(TileChart):
     """A PSF on the ground of its darkest colour, with the Airy circle."""
 
+    smooth = True
+
     def __init__(self) -> None:
         super().__init__()
         self.airy = self.add_curve(WHITE, 1, 150)
@@ -227,16 +231,17 @@ class LightChart(TileChart):
         """Paint the ground beside the window of the PSF."""
         painter.fillRect(self.area, self._darkest())
 
-    def show_light(self, values: np.ndarray, width_um: float, across_um: float, peak: float, scale: str) -> None:
-        """Show ``across_um`` of light over a window of ``width_um``, ``peak`` brightest, on a brightness scale."""
-        count = values.shape[-1]
-        pixel = width_um / count
-        start = -(count // 2 + 0.5) * pixel
-        self.set_range((-across_um / 2, across_um / 2), (-across_um / 2, across_um / 2))
-        bright = stretch(values.astype(float) / (peak or 1.0), scale)
+    def show_light(self, light: Light, across_um: float, peak: float, scale: str) -> None:
+        """Show ``across_um`` about the middle of the light, ``peak`` brightest, on a brightness scale."""
+        count, half = light.values.shape[-1], across_um / 2
+        start = -(count // 2 + 0.5) * light.width_um / count
+        x, y = light.circle.x_um, light.circle.y_um
+        self.set_view((x, y), half)
+        covered = max(abs(x), abs(y)) + half <= light.width_um / 2
+        bright = stretch((light.painted if covered else fade(light.painted)) / (peak or 1.0), scale)
         pixels = lookup(colour_map_name(BRIGHTNESS, self.theme))[as_indices(bright, 0.0, 1.0)]
-        rect = start, start, width_um, width_um
-        self.show_pixels(pixels, rect, Samples(values, rect, tr("share of the light, 1/µm²")))
+        rect = start, start, light.width_um, light.width_um
+        self.show_pixels(pixels, rect, Samples(light.values, rect, tr("share of the light, 1/µm²")))
 
     def show_airy(self, radius_um: float) -> None:
         """Show the first dark ring of a perfect lens."""

@@ -5,7 +5,7 @@ from functools import partial
 
 from PySide6.QtWidgets import QMenu
 
-from p2sf_explorer.compute.quantities import OF_THE_LENS
+from p2sf_explorer.compute.quantities import RING_QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges, shipped_names, title
 from p2sf_explorer.i18n.language import languages
 from p2sf_explorer.i18n.tr import tr
@@ -37,7 +37,7 @@ def _panels(show: Panel, group: str) -> Iterator[Command]:
 def _rings(store: Store) -> Iterator[Command]:
     """Yield a command for every column of a lens that zooms or focuses inside."""
     limits = ranges(prescription(store.state))
-    for quantity in OF_THE_LENS:
+    for quantity in RING_QUANTITIES:
         for at, name in quantity.ticks(limits):
             yield Command(name, partial(store.update, **quantity.entries(at)), (), quantity.title)
 

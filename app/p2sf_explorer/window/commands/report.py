@@ -91,7 +91,7 @@ def pdf(answer: Live, over_field: list[Live]) -> bytes:
 
 def fields(state: State) -> tuple[State, ...]:
     """Return the state at the fields whose PSFs are printed: from the axis to the widest of the lens file."""
-    widest = max(abs(angle) for angle in prescription(state).fields_deg)
+    widest = prescription(state).widest_field_deg
     return tuple(change(state, field_deg=share * widest) for share in SHARES)
 
 

@@ -50,7 +50,7 @@ class SetRequest:
 def first_texts(state: State) -> SetTexts:
     """Return what is offered first: five distances and fields, the colours of the lens file, the window's pixel."""
     lens = prescription(state)
-    widest = max(abs(angle) for angle in lens.fields_deg)
+    widest = lens.widest_field_deg
     return SetTexts(
         depths=list_texts(written_distance(depth) for depth in first_depths(ranges(lens), state)),
         fields=list_texts(f"{share * widest:.4g}°" for share in SHARES) if widest else "0°",

@@ -1,0 +1,115 @@
+"""The caption above the stage: one line that a hall can read, with the value that moves in another colour."""
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QAction, QColor, QContextMenuEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
+
+from p2sf_explorer.charts.painting import elide, width_of, write
+from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.compute.caption import Parts
+from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.state.state import CAPTION
+
+APART = "  ·  "
+TYPE, LINE = 13, 1.7  # pixels of type at scale 1, and the height of the line in heights of type
+HALL = 0.026  # of the screen's height: the least size of type while presenting, capitals are some 0.85 of it
+SMALLEST = 9
+NAMES = {
+    "lens": "Lens",
+    "field": "Field",
+    "depth": "Depth",
+    "f_number": "f-number",
+    "wavelength": "Wavelength",
+    "rms": "RMS wavefront",
+    "strehl": "Strehl ratio",
+}
+
+
+class Caption(QWidget):
+    """Shows the parts of a caption; its menu chooses them. ``chosen``: the names of the parts that are to be shown."""
+
+    chosen = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("caption")
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.setToolTip(tr("What the stage shows; right-click to choose the parts of this line"))
+        self._theme, self._size = LIGHT, TYPE
+        self._parts: Parts = {}
+        self._rest: Parts = {}
+        self._names: tuple[str, ...] = CAPTION
+
+    @property
+    def text(self) -> str:
+        """Return the whole line."""
+        return APART.join(self._parts.values())
+
+    def sizeHint(self) -> QSize:
+        """Return the height of the line; the width is that of the stage."""
+        return QSize(0, round(LINE * self._size) if self._names else 0)
+
+    def show_parts(self, parts: Parts, names: tuple[str, ...], moving: bool) -> None:
+        """Show the parts; while something is ``moving``, those that differ from what was at rest stand out.
+
+        The lens is named as far as the first comma of its title.
+        """
+        parts = {name: local(tr(text).partition(",")[0] if name == "lens" else text) for name, text in parts.items()}
+        if not moving:
+            self._rest = parts
+        if names != self._names:
+            self._names = names
+            self.updateGeometry()
+        if parts != self._parts or not moving:
+            self._parts = parts
+            self.setAccessibleName(self.text)
+            self.update()
+
+    def restyle(self, theme: Tokens, screen_height: int = 0) -> None:
+        """Take the colours and the scale of a theme; ``screen_height`` of the screen that a hall looks at."""
+        self._theme, self._size = theme, max(theme.px(TYPE), round(HALL * screen_height))
+        self.setFixedHeight(self.sizeHint().height())
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the parts in the middle of the line, in smaller type where they do not fit."""
+        painter, size = QPainter(self), self._size
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        room = self.width() - 2 * self._theme.px(4)
+        while size > SMALLEST and self._width(size) > room:
+            size -= 1
+        left = max(0.0, (self.width() - self._width(size)) / 2)
+        for number, (name, words) in enumerate(self._parts.items()):
+            if number:
+                left += self._write(painter, left, APART, "muted", size)
+            moved = self._rest.get(name, words) != words
+            words = elide(words, max(0.0, self.width() - left), size)
+            left += self._write(painter, left, words, "accent" if moved else "text", size)
+
+    def _width(self, size: int) -> float:
+        between = (len(self._parts) - 1) * width_of(APART, size)
+        return between + sum(width_of(words, size) for words in self._parts.values())
+
+    def _write(self, painter: QPainter, left: float, words: str, token: str, size: int) -> float:
+        wide = width_of(words, size)
+        painter.setPen(QColor(getattr(self._theme, token)))
+        write(painter, QRectF(left, 0, wide, self.height()), words, -1, size)
+        return wide
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Let a person choose the parts."""
+        self.menu().popup(event.globalPos())
+
+    def menu(self) -> QMenu:
+        """Return the menu of the parts."""
+        made = QMenu(self)
+        made.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for name, words in NAMES.items():
+            action = QAction(tr(words), made, checkable=True, checked=name in self._names)
+            action.triggered.connect(lambda on, name=name: self._turn(name, on))
+            made.addAction(action)
+        return made
+
+    def _turn(self, name: str, on: bool) -> None:
+        wanted = {*self._names, name} if on else {*self._names} - {name}
+        self.chosen.emit(tuple(part for part in CAPTION if part in wanted))

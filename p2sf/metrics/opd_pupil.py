@@ -1,0 +1,345 @@
+"""Figures of a wavefront that is given as an array over the pupil: contrast, energy, spreads, terms (handbook 6.3).
+
+The transfer function is the autocorrelation of the pupil over its cells (Goodman 2005, eq. 6-28), by FFT; along an axis
+it is the sum of those of all rows or columns. Energy within a radius is the Hankel transform of its mean over all
+directions, E(R) = R ∫ OTF(ν)·J₁(2πR|ν|)/|ν| d²ν, which needs no window: it is that of all light.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import fft
+
+from p2sf.arguments import check_arguments, number_list, real_array
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.errors import RequestError, SamplingError
+from p2sf.metrics.hankel import HankelEnergy, hankel_energy
+from p2sf.metrics.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.metrics.perfect import circle_contrast
+from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread
+from p2sf.parameters import check_positive
+from p2sf.psf.from_opd import centres, psf_of_opd, pupil_of_cells
+from p2sf.psf.result import Psf
+from p2sf.pupil.domain import WHOLE, ClearNodes
+from p2sf.pupil.quadrature import cell_areas
+from p2sf.pupil.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
+from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, decompose
+from p2sf.threads import one_blas_thread
+
+FREQUENCIES, RADII, POINTS = 257, 129, 513
+SMALLEST = 1e-12  # of a contrast: below, it is rounding
+MOST_SAMPLES = 64  # a side, of the PSF whose peak is looked for
+METHOD = "opd"
+
+
+@dataclass(frozen=True, eq=False)
+class Pupil:
+    """A wavefront over a pupil, measured or imported, and its figures, which are of all light and need no window.
+
+    Parameters
+    ----------
+    opd_waves : array_like
+        W in waves on the cells of a square grid, (size, size), as `p2sf.psf_of_opd` has it; NaN is opaque.
+    na : float
+        Numerical aperture n'·sin u' of the image at the pupil's rim.
+    wavelength_nm : float
+        Wavelength, nm.
+    amplitude : array_like, optional
+        Amplitude that each cell lets through, same shape; how much of it the unit disc covers when not given.
+
+    Raises
+    ------
+    RequestError, SamplingError
+        As for `p2sf.psf_of_opd`.
+
+    Examples
+    --------
+    >>> import numpy as np, p2sf
+    >>> at = (2 * np.arange(128) - 127) / 128
+    >>> spherical = 0.3 * (at**2 + at[:, None] ** 2) ** 2
+    >>> pupil = p2sf.Pupil(spherical, na=0.1, wavelength_nm=500)
+    >>> pupil.mtf([100, 200]).tangential.round(2), pupil.encircled_energy([5.0]).fraction.round(2)
+    (array([0.54, 0.26]), array([0.83]))
+    >>> round(pupil.strehl, 2), round(pupil.zernike(terms=11).marechal, 2)
+    (0.72, 0.73)
+    """
+
+    opd_waves: ArrayLike
+    na: float
+    wavelength_nm: float
+    amplitude: ArrayLike | None = None
+
+    def __post_init__(self) -> None:
+        check_positive("na", self.na)
+        check_positive("wavelength_nm", self.wavelength_nm)
+        _ = self._cells
+
+    def psf(self, pixels: int = 64, pixel_um: float | None = None, integrated: bool | None = None) -> Psf:
+        """Return the PSF, as `p2sf.psf_of_opd` computes it."""
+        return psf_of_opd(
+            self.opd_waves,
+            self.na,
+            self.wavelength_nm,
+            amplitude=self.amplitude,
+            pixels=pixels,
+            pixel_um=pixel_um,
+            integrated=integrated,
+        )
+
+    @property
+    def strehl(self) -> float:
+        """Return the peak of the PSF over that of the same pupil without phase."""
+        found = self.psf(min(MOST_SAMPLES, 2 * len(self._cells[0])), integrated=False).strehl
+        assert isinstance(found, float)
+        return found
+
+    def zernike(self, basis: ZernikeOrder = "noll", terms: int = USUAL_TERMS) -> ZernikeFit:
+        """Return the terms of the wavefront where light passes, as `p2sf.fit_zernike` does, weighted by the light."""
+        return fit_zernike(self._cells[0], self._light_of_cells, terms, basis)
+
+    @one_blas_thread
+    def mtf(self, frequency_per_mm: ArrayLike | None = None) -> Mtf:
+        """Return the contrast at frequencies, cycles per mm, by default even ones up to the cut-off.
+
+        ``predicted_error``: how far the same cells are from the contrast of a disc.
+        """
+        if frequency_per_mm is None:
+            frequency_per_mm = np.linspace(0, UM_PER_MM * self._along_y.cut_off, FREQUENCIES)
+        given = number_list("frequency_per_mm", frequency_per_mm)
+        frequency = np.abs(given) / UM_PER_MM
+        (tangential, over_y), (sagittal, over_x) = (one.at(frequency) for one in (self._along_y, self._along_x))
+        clear = circle_contrast(frequency / self._along_y.cut_off)
+        own = np.abs(tangential), np.abs(sagittal), over_y, over_x
+        return Mtf(given, *own, METHOD, clear, clear, predicted_error=self._disc_error)
+
+    @one_blas_thread
+    def encircled_energy(self, radius_um: ArrayLike | None = None) -> Energy:
+        """Return the share of all light within radii, µm, of the centroid, by default even ones.
+
+        Raises RequestError for a radius at which the PSF of these cells begins to repeat itself.
+        """
+        most = 1 / (2 * self._step)
+        given = np.linspace(0, most, RADII) if radius_um is None else np.abs(number_list("radius_um", radius_um))
+        self._check_reach("radius_um", given, most)
+        table = np.linspace(0, most, RADII)
+        half, most = (self._energy.radius_of(part, table) for part in PARTS)
+        y, x = self._along_y_centroid, self._along_x_centroid
+        fraction = np.clip(self._energy.within(given), 0.0, 1.0)
+        made = given, fraction, y, half, most, self._rms_um, METHOD
+        return Energy(*made, centroid_x_um=x, predicted_error=self._disc_error)
+
+    @one_blas_thread
+    def line_spread(self, position_um: ArrayLike | None = None) -> LineSpread:
+        """Return the images of a line and of an edge at distances, µm, from the centroid, by default even ones.
+
+        Raises RequestError for a position at which the PSF of these cells begins to repeat itself.
+        """
+        most = 1 / (2 * self._step)
+        given = np.linspace(-most, most, POINTS) if position_um is None else number_list("position_um", position_um)
+        self._check_reach("position_um", given, most)
+        (line_x, edge_x), (line_y, edge_y) = (
+            (line_spread(one.values, one.step, given), edge_spread(one.values, one.step, given))
+            for one in (self._along_x, self._along_y)
+        )
+        return LineSpread(given, line_x, line_y, edge_x, edge_y, self._along_y_centroid, METHOD, self._along_x_centroid)
+
+    @cached_property
+    def _cells(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the wavefront, 0 where nothing passes, and the amplitude."""
+        return pupil_of_cells(self.opd_waves, self.amplitude)
+
+    @cached_property
+    def _field(self) -> np.ndarray:
+        opd, clear = self._cells
+        field: np.ndarray = clear * np.exp(2j * np.pi * opd)
+        return field
+
+    @property
+    def _light_of_cells(self) -> np.ndarray:
+        """Return the light of each cell; one that the rim cuts lets its covered part through, as in `psf_of_opd`."""
+        clear = self._cells[1]
+        return clear if self.amplitude is None else clear**2
+
+    @property
+    def _light(self) -> float:
+        return float(self._light_of_cells.sum())
+
+    @property
+    def _step(self) -> float:
+        """Return the spatial frequency from one cell to the next, cycles per µm."""
+        return 2 * self.na / (self.wavelength_nm / NM_PER_UM) / len(self._cells[0])
+
+    @cached_property
+    def _along_x_centroid(self) -> float:
+        return self._centroid(1)
+
+    @cached_property
+    def _along_y_centroid(self) -> float:
+        return self._centroid(0)
+
+    def _centroid(self, axis: int) -> float:
+        """Return the light's centroid along an axis, µm: the slope of the transfer function at no frequency."""
+        before, after = np.moveaxis(self._field, axis, 0)[:-1], np.moveaxis(self._field, axis, 0)[1:]
+        return -float(np.angle(np.vdot(before, after))) / (2 * np.pi * self._step)
+
+    @cached_property
+    def _rms_um(self) -> float:
+        """Return the RMS distance from the centroid of where the wavefront's slopes send light."""
+        total = 0.0
+        for axis in (0, 1):
+            wave, light = (np.moveaxis(part, axis, 0) for part in (self._cells[0], self._light_of_cells))
+            both = light[1:] * light[:-1] > 0
+            slope, weight = np.diff(wave, axis=0)[both], (light[1:] + light[:-1])[both]
+            place = -slope / self._step
+            total += float(weight @ (place - weight @ place / weight.sum()) ** 2 / weight.sum())
+        return float(np.sqrt(total))
+
+    @cached_property
+    def _along_x(self) -> OtfSlice:
+        return self._slice(1, self._along_x_centroid)
+
+    @cached_property
+    def _along_y(self) -> OtfSlice:
+        return self._slice(0, self._along_y_centroid)
+
+    def _slice(self, axis: int, centroid_um: float) -> OtfSlice:
+        """Return the transfer function along an axis about the centroid, and that of the pupil without phase."""
+        size = len(self._field)
+        own, perfect = (_autocorrelation(np.moveaxis(part, axis, -1)) for part in (self._field, np.abs(self._field)))
+        own[0] = perfect[0] = self._light
+        turn = np.exp(2j * np.pi * centroid_um * self._step * np.arange(size + 1))
+        factor = self._disc_factor(axis) / self._light
+        return OtfSlice(self._step, own * turn * factor, perfect.real * factor, axis == 0)
+
+    @cached_property
+    def _disc_error(self) -> float:
+        """Return how far sums over the cells are from the contrast of a clear disc."""
+        exact = circle_contrast(np.linspace(0, 1, len(self._field) + 1))
+        return max(float(np.abs(self._disc(axis) - exact).max()) for axis in (0, 1))
+
+    @property
+    def _areas(self) -> np.ndarray:
+        at = centres(len(self._field))
+        return cell_areas(at, at, 2 / at.size)
+
+    def _disc(self, axis: int) -> np.ndarray:
+        """Return the contrast of a clear disc along an axis by the sums over its cells, (size + 1,)."""
+        area = self._areas
+        found = _autocorrelation(np.moveaxis(area, axis, -1)).real
+        found[0] = area.sum()
+        contrast: np.ndarray = found / found[0]
+        return contrast
+
+    def _disc_factor(self, axis: int) -> np.ndarray:
+        """Return what takes the cells' error away from a clear disc, 1 for what is none."""
+        exact = circle_contrast(np.linspace(0, 1, len(self._field) + 1))
+        if not np.array_equal(self._cells[1], self._areas):
+            return np.ones_like(exact)
+        disc = self._disc(axis)
+        factor: np.ndarray = np.divide(exact, disc, out=np.ones_like(exact), where=disc > SMALLEST)
+        return factor
+
+    @cached_property
+    def _energy(self) -> HankelEnergy:
+        """Return the energy about the centroid, of the autocorrelation of all cells."""
+        size = 2 * len(self._field)
+        table = fft.ifft2(np.abs(fft.fft2(self._field, (size, size))) ** 2)
+        table[0, 0] = self._light
+        return hankel_energy(table, self._step, self._along_x_centroid, self._along_y_centroid)
+
+    def _check_reach(self, name: str, values: np.ndarray, most: float) -> None:
+        if np.abs(values).max(initial=0.0) > most * (1 + 1e-9):
+            raise RequestError(
+                "{parameter} reaches {value:.4g} µm, and a wavefront on {size} cells repeats its PSF beyond {most:.4g} "
+                "µm; give it on a finer grid",
+                parameter=name,
+                value=float(np.abs(values).max()),
+                size=len(self._field),
+                most=most,
+            )
+
+
+def _autocorrelation(lines: np.ndarray) -> np.ndarray:
+    """Return Σ line(j + k)·line(j)* over all lines, (lines, size), at the lags k = 0 … size."""
+    size = lines.shape[-1]
+    spectrum = fft.fft(lines, fft.next_fast_len(2 * size + 1))
+    found: np.ndarray = fft.ifft((spectrum.real**2 + spectrum.imag**2).sum(0))[: size + 1]
+    return found
+
+
+@check_arguments
+@one_blas_thread
+def fit_zernike(
+    opd_waves: ArrayLike, mask: ArrayLike | None = None, terms: int = USUAL_TERMS, basis: ZernikeOrder = "noll"
+) -> ZernikeFit:
+    """Fit Zernike terms to a wavefront that is given as an array over the pupil, by least squares.
+
+    Parameters
+    ----------
+    opd_waves : array_like
+        W in waves on the cells of a square grid over the pupil, (size, size), as `p2sf.psf_of_opd` has it: rows towards
+        +η, columns towards +ξ. A cell that is NaN does not count.
+    mask : array_like, optional
+        Which cells count, or the weight of each, 0 or more, same shape; how much of it the unit disc covers when not
+        given, and of what the disc covers as much.
+    terms : int
+        Number of terms, from the first.
+    basis : {"noll", "fringe"}
+        Noll's order with waves RMS, or the Fringe order of 37 terms with peak waves.
+
+    Returns
+    -------
+    ZernikeFit
+        ``waves``: the terms, as defined on the disc, whose sum is nearest to the wavefront; ``rms_waves``: the RMS that
+        each adds to those before it over the cells in force (Mahajan & Dai 2007), which is the same on a whole disc.
+        RMS, residual and Maréchal's Strehl ratio are those of these cells.
+
+    Raises
+    ------
+    RequestError
+        For an order or a number of terms that does not exist.
+    SamplingError
+        For arrays that are no equal squares, and for fewer cells than terms.
+
+    Examples
+    --------
+    >>> import numpy as np, p2sf
+    >>> at = (2 * np.arange(64) - 63) / 64
+    >>> coma = 0.1 * np.sqrt(8) * (3 * (at**2 + at[:, None] ** 2) - 2) * at[:, None]
+    >>> found = p2sf.fit_zernike(coma, terms=8)
+    >>> found.terms[6].name, round(float(found.waves[6]), 6)
+    ('coma', 0.1)
+    """
+    opd = real_array("opd_waves", opd_waves)
+    if opd.ndim != 2 or opd.shape[0] != opd.shape[1]:
+        raise SamplingError("the wavefront has the shape {shape}; give a square array", shape=str(opd.shape))
+    at = centres(len(opd))
+    weight = cell_areas(at, at, 2 / at.size)
+    if mask is not None:
+        given = real_array("mask", np.asarray(mask, dtype=float), 0.0)
+        if given.shape != opd.shape:
+            raise SamplingError(
+                "the amplitude has the shape {shape} and the wavefront {wavefront}; give both on the same cells",
+                shape=str(given.shape),
+                wavefront=str(opd.shape),
+            )
+        weight = np.where(weight > 0, given, 0.0)
+    known = zernike_terms(basis, terms)
+    weight = np.where(np.isfinite(opd), weight, 0.0)
+    inside = weight > 0
+    if int(inside.sum()) < len(known) or (weight < 0).any():
+        raise SamplingError(
+            "{cells} cells of the pupil count, too few for {terms} terms; give more, with weights of 0 or more",
+            cells=int(inside.sum()),
+            terms=len(known),
+        )
+    xi, eta = (axis[inside] for axis in np.meshgrid(at, at))
+    share = float(np.minimum(weight, cell_areas(at, at, 2 / at.size)).sum() / cell_areas(at, at, 2 / at.size).sum())
+    nodes = ClearNodes(xi, eta, weight[inside] / weight.sum(), share, domain=WHOLE)
+    made = decompose(nodes, opd[inside], basis, known)
+    root = np.sqrt(nodes.weight)
+    scale = np.array([term.norm if basis == "fringe" else 1.0 for term in known])
+    fitted, *_ = np.linalg.lstsq((zernike_values(known, xi, eta) * root).T, root * opd[inside], rcond=None)
+    return replace(made, waves=fitted * scale, rays=0)

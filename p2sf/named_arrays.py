@@ -1,0 +1,131 @@
+"""Arrays with names on their axes: what sweeps and databases answer, for numpy, pandas and xarray alike."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import DTypeLike
+
+from p2sf.arguments import UNITS
+from p2sf.errors import ExportError
+from p2sf.html import html_table
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Dims = tuple[str, ...]
+NamedAxes = dict[str, tuple[Dims, np.ndarray]]
+"""Values by name, with the names of their axes."""
+SHOWN = 6  # values of a coordinate in a notebook
+
+
+@dataclass(frozen=True, eq=False)
+class NamedArrays(Mapping[str, np.ndarray]):
+    """Arrays by name, each with named axes, and coordinates along these.
+
+    ``found["tangential"]`` is an array of numpy, and ``np.asarray(found)`` the first of them. Units are in the names.
+
+    Attributes
+    ----------
+    arrays : dict
+        By name the names of the axes and the array, ``(dims, values)``.
+    coords : dict
+        The same for what lies along the axes, and for what is one number for all of them.
+    """
+
+    arrays: NamedAxes
+    coords: NamedAxes
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        found = self.arrays.get(name) or self.coords.get(name)
+        if found is None:
+            raise KeyError(f"{name}; there are {', '.join((*self.arrays, *self.coords))}")
+        return found[1]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.arrays)
+
+    def __len__(self) -> int:
+        return len(self.arrays)
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:
+        return np.array(next(iter(self.arrays.values()))[1], dtype, copy=copy)
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Return the length of every axis by its name."""
+        pairs = (
+            zip(dims, values.shape, strict=True) for dims, values in (*self.coords.values(), *self.arrays.values())
+        )
+        return {name: size for both in pairs for name, size in both}
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return a dataset of xarray, with coordinates and units. Raises ExportError without xarray."""
+        xarray_module = _imported("xarray")
+        coords, arrays = (
+            {name: (dims, values, _attributes(name)) for name, (dims, values) in part.items()}
+            for part in (self.coords, self.arrays)
+        )
+        dataset: "xarray.Dataset" = xarray_module.Dataset(arrays, coords)
+        return dataset
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """Return a table of pandas: one row for each place on all axes, an array a column. ExportError without pandas.
+
+        What has fewer axes stands in every row; a place without a coordinate is its number.
+        """
+        pandas = _imported("pandas")
+        sizes = {name: self.sizes[name] for dims, _ in self.arrays.values() for name in dims}
+        places = [self.coords[name][1] if name in self.coords else np.arange(size) for name, size in sizes.items()]
+        beside = {name: part for name, part in self.coords.items() if name not in sizes}
+        columns = {name: _spread(dims, values, sizes) for name, (dims, values) in (beside | self.arrays).items()}
+        if not sizes:
+            return pandas.DataFrame(columns)
+        return pandas.DataFrame(columns, pandas.MultiIndex.from_product(places, names=list(sizes)))
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{name}: {size}" for name, size in self.sizes.items()) or "one point"
+        return f"<{', '.join(self.arrays)} over ({sizes})>"
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for name, (dims, values) in (self.coords | self.arrays).items():
+            few = values.size <= SHOWN
+            text = (
+                np.array2string(values, precision=5, separator=", ") if few else f"{np.min(values)} … {np.max(values)}"
+            )
+            rows.append((name, " × ".join(dims), text))
+        return html_table(repr(self), ("array", "axes", "values"), rows)
+
+
+def along(name: str, values: np.ndarray) -> NamedAxes:
+    """Return a coordinate along its own axis, or of one number without one."""
+    return {name: ((name,) if values.ndim else (), values)}
+
+
+def _spread(dims: Dims, values: np.ndarray, sizes: Mapping[str, int]) -> np.ndarray:
+    """Return values at all places of axes of these sizes, (places,)."""
+    shape = [sizes[name] if name in dims else 1 for name in sizes]
+    order = [dims.index(name) for name in sizes if name in dims]
+    found: np.ndarray = np.broadcast_to(values.transpose(order).reshape(shape), tuple(sizes.values()))
+    return found.reshape(prod(sizes.values()))
+
+
+def _attributes(name: str) -> dict[str, str]:
+    """Return the unit of a quantity by the ending of its name."""
+    unit = next((unit for ending, unit in UNITS if name.endswith(ending)), "")
+    return {"units": unit} if unit else {}
+
+
+def _imported(name: str) -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module(name)
+    except ImportError as error:
+        raise ExportError(
+            "{library} is not installed; pip install 'p2sf[xarray]'", library=error.name or name
+        ) from error

@@ -1,0 +1,121 @@
+"""Fields of lens files: signed, along x and y, wherever a lens that is not symmetric tells them apart."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf import Source
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lensfile import load_lens
+from p2sf.lensfile.writing import write_lens
+from p2sf.tolerance.differentials import usual_sources
+from tests.support.lenses.lens_files import FOLDER, read
+
+TILTED = "tilted_fields.zmx"
+PLACES = ((0.0, -5.0), (0.0, 5.0), (3.0, 0.0))
+INDEX = 1.5168000345005885  # N-BK7 at the d line
+
+
+def spot_mm(x_deg: float, y_deg: float) -> float:
+    """Return the RMS spot of the file's tilted singlet, mm, by a tracer in space that shares nothing with the package.
+
+    Everything stands in the axes of the glass, which are turned by 12° about x from those of the pupil and the sensor.
+    """
+    turn = np.deg2rad(12.0)
+    frame = np.array([[1, 0, 0], [0, np.cos(turn), np.sin(turn)], [0, -np.sin(turn), np.cos(turn)]]).T
+    radius, around = np.meshgrid(4 * np.sqrt((np.arange(6) + 0.5) / 6), 2 * np.pi * np.arange(12) / 12)
+    start = np.stack([radius * np.cos(around), radius * np.sin(around), 0 * radius], -1).reshape(-1, 3)
+    to_lens = np.array([1.0, 1.0, 1.0])
+    place = (start - [0, 0, 2]) @ frame
+    ray = np.array([np.tan(np.deg2rad(x_deg)), np.tan(np.deg2rad(y_deg)), 1.0]) * to_lens
+    ray = np.broadcast_to(ray / np.linalg.norm(ray) @ frame, place.shape)
+    for vertex, curved, before, behind in ((0.0, 50.0, 1.0, INDEX), (4.0, -50.0, INDEX, 1.0)):
+        middle = np.array([0.0, 0.0, vertex + curved])
+        along = ((middle - place) * ray).sum(-1)
+        root = np.sqrt(along**2 - ((place - middle) ** 2).sum(-1) + curved**2)
+        place = place + (along - np.sign(curved) * root)[:, None] * ray
+        normal = (middle - place) / curved
+        cosine = (ray * normal).sum(-1)
+        bent = np.sqrt(1 - (before / behind) ** 2 * (1 - cosine**2))
+        ray = before / behind * ray + (bent - before / behind * cosine)[:, None] * normal
+    place, ray = (place - [0, 0, 4]) @ frame.T, ray @ frame.T
+    lands = (place + ((46.5 - place[:, 2]) / ray[:, 2])[:, None] * ray)[:, :2]
+    return float(np.sqrt(((lands - lands.mean(0)) ** 2).sum(-1).mean()))
+
+
+def own_spot_mm(lens: Lens, field: tuple[float, float]) -> float:
+    from p2sf.raytrace.trace import trace
+
+    radius, around = np.meshgrid(4 * np.sqrt((np.arange(6) + 0.5) / 6), 2 * np.pi * np.arange(12) / 12)
+    start = np.stack([radius * np.cos(around), radius * np.sin(around), 0 * radius], -1).reshape(-1, 3)
+    slopes = np.array([*Source(field_deg=field).slopes_xy, 1.0])
+    lands = trace(lens, start, slopes, 0.5875618).points[-1][:, :2]
+    return float(np.sqrt(((lands - lands.mean(0)) ** 2).sum(-1).mean()))
+
+
+def test_fields_keep_sign_and_azimuth():
+    lens = load_lens(FOLDER / TILTED)
+    assert (lens.fields_x_deg, lens.fields_deg) == tuple(zip(*PLACES, strict=True))
+    assert lens.field_places_deg == ((3.0, 0.0), (0.0, -5.0), (0.0, 5.0)) and lens.widest_field_deg == 5
+    spots = [spot_mm(*place) for place in PLACES]
+    for place, spot in zip(PLACES, spots, strict=True):
+        assert own_spot_mm(lens, place) == pytest.approx(spot, rel=1e-9)
+    assert max(spots) > 1.2 * min(spots)
+
+
+@pytest.mark.parametrize("ending", ["toml", "zmx", "seq"])
+def test_fields_come_back_from_every_format(ending, tmp_path):
+    lens = load_lens(FOLDER / TILTED)
+    write_lens(lens, tmp_path / f"out.{ending}")
+    again = load_lens(tmp_path / f"out.{ending}")
+    assert again.fields_deg == pytest.approx(lens.fields_deg, abs=1e-11)
+    assert again.fields_x_deg == pytest.approx(lens.fields_x_deg, abs=1e-11)
+
+
+def test_a_symmetric_lens_shows_each_angle_once():
+    lens = read("doublet.zmx", ("XFLN 0 0", "XFLN -1.0 0")).lens
+    assert (lens.fields_x_deg, lens.fields_deg) == ((-1.0, 0.0), (0.0, 1.0))
+    assert lens.field_places_deg == ((0.0, 1.0),) and lens.widest_field_deg == 1
+
+
+def test_an_object_above_the_axis_has_a_chief_ray_downwards():
+    """Object heights point the other way than angles, image heights of an image turned upside down the same way."""
+    near = read(TILTED, ("FTYP 0", "FTYP 1"), ("DISZ INFINITY", "DISZ 100.0"), ("YFLN -5 5 0", "YFLN 10 0 0")).lens
+    assert near.fields_deg[0] == pytest.approx(-np.rad2deg(np.arctan(0.1)), rel=1e-12)
+    assert near.fields_x_deg[2] == pytest.approx(-np.rad2deg(np.arctan(0.03)), rel=1e-12)
+    image = read(TILTED, ("FTYP 0", "FTYP 2")).lens
+    assert image.fields_deg[0] < 0 < image.fields_deg[1] and image.fields_x_deg[2] > 0
+
+
+def test_a_table_may_state_fields_along_x():
+    lens = read("singlet.csv", ("# fields_deg: 0, 5", "# fields_x_deg: 1, -2\n# fields_deg: 0, 5")).lens
+    assert (lens.fields_x_deg, lens.fields_deg) == ((1.0, -2.0), (0.0, 5.0))
+
+
+def test_tolerances_look_at_the_field_that_is_stated():
+    lens = replace(load_lens(FOLDER / TILTED), fields_deg=(0.0, -4.0), fields_x_deg=(0.0, 3.0))
+    assert usual_sources(lens, Source())[-1].field_xy_deg == pytest.approx((3.0, -4.0), rel=1e-12)
+
+
+def test_there_are_as_many_angles_along_x_as_along_y():
+    lens = load_lens(FOLDER / TILTED)
+    with pytest.raises(GeometryError):
+        replace(lens, fields_x_deg=(1.0,))
+
+
+@pytest.mark.parametrize("ending", ["toml", "zmx", "seq"])
+def test_reference_weights_and_aim_come_back(ending, tmp_path):
+    lens = load_lens(FOLDER / "microscope_cone.zmx")
+    write_lens(lens, tmp_path / f"out.{ending}")
+    again = load_lens(tmp_path / f"out.{ending}")
+    assert again.reference_wavelength_nm == pytest.approx(656.2725)
+    assert (again.wavelength_weights, again.aim == lens.aim) == (lens.wavelength_weights, ending != "seq")
+
+
+def test_a_reference_is_one_of_the_wavelengths_and_each_of_these_has_a_weight():
+    lens = load_lens(FOLDER / "microscope_cone.zmx")
+    for wrong in ({"reference_nm": 500.0}, {"wavelength_weights": (1.0,)}, {"wavelength_weights": (0.0, 0.0, 0.0)}):
+        with pytest.raises(GeometryError):
+            replace(lens, **wrong)

@@ -1,0 +1,95 @@
+"""What a camera with its lens answers is what the functions of the library do, asked for the same."""
+
+from math import inf
+
+import numpy as np
+import pytest
+
+import p2sf
+from p2sf.errors import P2SFError
+from p2sf.paraxial.first_order import cardinal_points
+from p2sf.tolerance import Tolerance, share_within
+
+LENS = p2sf.load_lens("achromat_f6")
+CAMERA = p2sf.Camera(LENS, focus_mm=4000, f_number=8, pixel_um=40.0, obscuration=0.2, sensor_shift_um=15)
+RNG = np.random.default_rng(5)
+pytestmark = pytest.mark.filterwarnings("ignore::p2sf.P2SFWarning")
+
+
+def test_a_database_covers_the_lens_as_it_is_set():
+    found = CAMERA.database("seidel")
+    np.testing.assert_array_equal(found.depths_mm, [2000, inf])
+    assert found.fields_deg[-1] == pytest.approx(LENS.widest_field_deg) and found.fields_deg[0] == 0
+    waves = sorted(LENS.wavelengths_nm)
+    np.testing.assert_allclose(found.wavelengths_nm[[0, -1]], [waves[0], waves[-1]], rtol=1e-12)
+    source = CAMERA.source(3000, 0.5)
+    for own, direct in zip(
+        vars(found.coefficients(source)).values(),
+        vars(p2sf.coefficients(LENS, source, camera=CAMERA)).values(),
+        strict=True,
+    ):
+        assert own == pytest.approx(direct, abs=1e-9)
+    free = p2sf.Camera(LENS).database("seidel", wavelengths_nm=[550])
+    focal = cardinal_points(LENS, LENS.reference_wavelength_um).effective_focal_length
+    assert free.depths_mm[0] == pytest.approx(20 * float(focal)) and free.wavelengths_nm.size == 1
+
+
+@pytest.mark.parametrize("depths", [None, 3000.0, RNG.uniform(3000, 5000, (12, 16))])
+def test_a_photograph_is_that_of_a_plan(depths):
+    values = RNG.uniform(0, 1, (12, 16, 3))
+    found = CAMERA.photograph(values, depths, tolerance=0.2)
+    seen = depths if depths is not None else 4000.0
+    scene = p2sf.Scene(
+        p2sf.Sensor(12, 16, 40.0),
+        near_mm=float(np.min(seen)),
+        far_mm=float(np.max(seen)),
+        tolerance=0.2,
+        focus_mm=4000,
+        f_number=8,
+    )
+    masked = p2sf.with_mask(LENS, p2sf.PupilMask(obscuration=0.2))
+    still = p2sf.form_image(p2sf.plan(masked, scene), values, None if np.ndim(seen) == 0 else seen)
+    assert found.shape == values.shape and found.dtype == np.float32
+    unshifted = p2sf.Camera(LENS, focus_mm=4000, f_number=8, pixel_um=40.0, obscuration=0.2)
+    np.testing.assert_allclose(unshifted.photograph(values, depths, tolerance=0.2), still, atol=1e-6)
+
+
+def test_a_photograph_of_one_colour_keeps_its_shape():
+    values = np.zeros((11, 15))
+    values[5, 7] = 1.0
+    found = CAMERA.photograph(values, tolerance=0.2)
+    assert found.shape == (11, 15) and np.unravel_index(found.argmax(), found.shape) == (5, 7)
+
+
+def test_yields_are_the_shares_that_keep_limits():
+    limits = {"strehl": 0.7, "mtf20": 0.5, "mtf40": 0.2}
+    found = CAMERA.tolerances(limits, builds=400, seed=3)
+    assert found.yields.keys() == {*limits, "all"} and found.errors.keys() == found.yields.keys()
+    for name, limit in limits.items():
+        criterion = "mtf" if name.startswith("mtf") else name
+        share, error = share_within(found.builds[name], {criterion: limit})
+        assert (found.yields[name], found.errors[name]) == (share, error)
+        assert np.mean(found.values[name] >= limit) == share
+    assert found.yields["all"] <= min(found.yields[name] for name in limits)
+    tolerance, harm = found.harms("strehl")[0]
+    assert isinstance(tolerance, Tolerance) and harm > 0
+    assert "strehl" in repr(found)
+
+
+@pytest.mark.parametrize(
+    "limits", [{}, {"mtf": 0.3}, {"mtf0": 0.3}, {"strehl": 1.5}, {"rms_waves": -1.0}, {"speed": 1.0}]
+)
+def test_limits_that_are_none_are_refused(limits):
+    with pytest.raises(P2SFError):
+        CAMERA.tolerances(limits)
+
+
+@pytest.mark.parametrize("image", [np.zeros(5), np.zeros((4, 4, 2)), np.zeros((4, 4), complex)])
+def test_what_is_no_picture_is_refused(image):
+    with pytest.raises(P2SFError):
+        CAMERA.photograph(image)
+
+
+def test_a_photograph_needs_pixels():
+    with pytest.raises(P2SFError):
+        p2sf.Camera(LENS).photograph(np.zeros((4, 4, 3)))
