@@ -69,7 +69,7 @@ class NamedArrays(Mapping[str, np.ndarray]):
             {name: (dims, values, _attributes(name)) for name, (dims, values) in part.items()}
             for part in (self.coords, self.arrays)
         )
-        dataset: "xarray.Dataset" = xarray_module.Dataset(arrays, coords)
+        dataset: xarray.Dataset = xarray_module.Dataset(arrays, coords)
         return dataset
 
     def to_dataframe(self) -> "pandas.DataFrame":

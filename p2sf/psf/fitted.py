@@ -124,7 +124,7 @@ def fitted_waves(
         weight = np.where(passed, weight, 0.0)
     weight /= weight.sum()
     blur = found.steepness.radial / found.steepness.spread
-    return Waves(pupil_amplitude(weight, phase), fx, fy, nodes.domain.symmetric, blur, reach_um)
+    return Waves(pupil_amplitude(weight, phase), fx, fy, nodes.domain, blur, reach_um)
 
 
 def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:

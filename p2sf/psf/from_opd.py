@@ -20,6 +20,7 @@ from p2sf.psf.picture import Origin, psf_from_intensity, resolved
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
 from p2sf.psf.sums.plane_waves import Waves
+from p2sf.pupil.domain import WHOLE
 from p2sf.pupil.quadrature import cell_areas
 from p2sf.pupil.transform import matrix_dft
 from p2sf.threads import one_blas_thread
@@ -126,7 +127,7 @@ class _Pupil:
         fy, fx = np.meshgrid(along, along, indexing="ij")
         amplitude = (self.clear * np.exp(2j * np.pi * self.opd))[lit] / self.clear.sum()
         blur = sqrt(2) * _steepest_step(self.opd, self.clear) * size / 2 / spread
-        return Waves(amplitude, fx[lit], fy[lit], False, blur, reach_um=size / (2 * spread) / sqrt(2))
+        return Waves(amplitude, fx[lit], fy[lit], WHOLE, blur, reach_um=size / (2 * spread) / sqrt(2))
 
 
 def centres(size: int) -> np.ndarray:

@@ -20,6 +20,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.result import Psf
+from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
@@ -44,14 +45,14 @@ Columns = tuple[np.ndarray, np.ndarray, np.ndarray]
 class RayBlur:
     """Landing points of the light of pupil cells, µm from the chief ray, (radii, directions).
 
-    ``light``: of each cell, as a share of all light that enters; if none of it arrives the point is infinite. ``even``:
-    the cells are those of the half disc ξ > 0, and the other half's light lands in the mirror image.
+    ``light``: of each cell, as a share of all light that enters; if none of it arrives the point is infinite.
+    ``domain``: the part of the pupil that the cells cover; light of HALF lands in the mirror image too.
     """
 
     x_um: np.ndarray
     y_um: np.ndarray
     light: np.ndarray
-    even: bool
+    domain: PupilDomain
 
 
 def geometric_psf(
@@ -121,9 +122,9 @@ def ray_blur(
     if six:
         return _behind_mask(lens, source, _seidel_blur(six, GRIDS[quality]), six)
     x, y, sent = _trace_grid(lens, source, TRACED[quality], clip)
-    passed, even = np.isfinite(x), not lens.misaligned
+    passed = np.isfinite(x)
     x, y = (_of_passed(values, passed, GRIDS[quality]) for values in (x, y))
-    blur = _lit(x, y, finely(sent, GRIDS[quality]), even)
+    blur = _lit(x, y, finely(sent, GRIDS[quality]), lens.pupil_domain)
     blur = _behind_mask(lens, source, blur, None)
     if passed.all():
         return blur
@@ -134,7 +135,7 @@ def ray_blur(
 def _coarse_blur(lens: Lens, source: Source, quality: str, clip: bool, six: Coefficients | None) -> RayBlur:
     """Return the blur without the mask from the traced rays alone."""
     grid = TRACED[quality]
-    return _seidel_blur(six, grid) if six else _lit(*_trace_grid(lens, source, grid, clip), not lens.misaligned)
+    return _seidel_blur(six, grid) if six else _lit(*_trace_grid(lens, source, grid, clip), lens.pupil_domain)
 
 
 def _seidel_blur(c: Coefficients, grid: tuple[int, int]) -> RayBlur:
@@ -144,13 +145,13 @@ def _seidel_blur(c: Coefficients, grid: tuple[int, int]) -> RayBlur:
     along_xi = 4 * c.w40 * square * xi + 2 * c.w31 * xi * eta + 2 * focus * xi
     along_eta = 4 * c.w40 * square * eta + c.w31 * (square + 2 * eta * eta) + 2 * c.w22 * eta + 2 * focus * eta
     scale = float(c.wavelength_um) / float(c.reduced_slope)
-    return RayBlur(scale * along_xi, scale * along_eta, share, True)
+    return RayBlur(scale * along_xi, scale * along_eta, share, HALF)
 
 
-def _lit(x_um: np.ndarray, y_um: np.ndarray, light: np.ndarray, even: bool) -> RayBlur:
+def _lit(x_um: np.ndarray, y_um: np.ndarray, light: np.ndarray, domain: PupilDomain) -> RayBlur:
     """Return the blur of cells with this light per unit share."""
-    light = polar(*light.shape, not even)[2] * light
-    return RayBlur(x_um, y_um, light / light.sum(), even)
+    light = polar(*light.shape, domain)[2] * light
+    return RayBlur(x_um, y_um, light / light.sum(), domain)
 
 
 @lru_cache(maxsize=4)
@@ -159,7 +160,7 @@ def _trace_grid(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -
 
     A ray that cannot be aimed has none. Cached, since the width of the window is computed from them first.
     """
-    xi, eta, _ = polar(*grid, lens.misaligned)
+    xi, eta, _ = polar(*grid, lens.pupil_domain)
     rays = pencil(lens, source, xi.ravel(), eta.ravel(), clip=clip, aim_error=SUM_AIM_ERROR)
     columns = rays.x_um, rays.y_um, np.nan_to_num(rays.launch * rays.transmission)
     x, y, light = (write_protect(column.reshape(xi.shape)) for column in columns)
@@ -167,14 +168,13 @@ def _trace_grid(lens: Lens, source: Source, grid: tuple[int, int], clip: bool) -
 
 
 @lru_cache(maxsize=8)
-def polar(radii: int, directions: int, whole: bool = False) -> Columns:
-    """Return ξ, η and shares of cells even in ρ and θ of the half disc ξ > 0, (radii, directions), of unit sum.
+def polar(radii: int, directions: int, domain: PupilDomain = HALF) -> Columns:
+    """Return ξ, η and shares of cells even in ρ and θ of a part of the disc, (radii, directions), of unit sum.
 
-    ``whole``: of the whole disc, in as many directions.
     Rings of equal area would start so far out that a uniform blur would have a dark hole in its centre.
     """
     rho = ((np.arange(radii) + 0.5) / radii)[:, None]
-    theta = (np.arange(directions) + 0.5) * (2 if whole else 1) * np.pi / directions
+    theta = (np.arange(directions) + 0.5) * domain.turn / directions
     share = np.broadcast_to(2 * rho / (radii * directions), (radii, directions))
     return write_protect(rho * np.sin(theta)), write_protect(rho * np.cos(theta)), share
 
@@ -187,36 +187,36 @@ def _behind_mask(lens: Lens, source: Source, blur: RayBlur, six: Coefficients | 
     mask = mask_seen(lens, source)
     if mask.clear:
         return blur
-    sides = (1, -1) if blur.even else (1,)
+    sides = blur.domain.images
     x, y, light = (np.concatenate([column] * len(sides)) for column in (blur.x_um, blur.y_um, blur.light))
     grid = blur.light.shape[0], blur.light.shape[1]
     x = np.repeat(sides, grid[0])[:, None] * x
     if mask.phased:
         six = six or coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-        slopes = np.concatenate([path_slopes(mask, grid, side, not blur.even) for side in sides], axis=1)
+        slopes = np.concatenate([path_slopes(mask, grid, side, blur.domain) for side in sides], axis=1)
         across, up = slopes / -float(six.reduced_slope)
         x, y = x + across, y + up
-    light = light * np.concatenate([passing(mask, grid, side, not blur.even) for side in sides])
-    return RayBlur(x, y, light / (light.sum() or 1.0), False)
+    light = light * np.concatenate([passing(mask, grid, side, blur.domain) for side in sides])
+    return RayBlur(x, y, light / (light.sum() or 1.0), WHOLE)
 
 
 @lru_cache(maxsize=16)
-def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool = False) -> np.ndarray:
-    """Return ∂/∂ξ and ∂/∂η of a mask's path in the cells of the half disc, its left half for ``side`` −1.
+def path_slopes(mask: PupilMask, grid: tuple[int, int], side: int, domain: PupilDomain = HALF) -> np.ndarray:
+    """Return ∂/∂ξ and ∂/∂η of a mask's path in the cells of the domain, of its mirror image for ``side`` −1.
 
     In µm per pupil radius, (2, radii, directions), by central differences.
     """
-    xi, eta, _ = polar(*grid, whole)
+    xi, eta, _ = polar(*grid, domain)
     across = mask.path_um(side * xi + SLOPE_STEP, eta) - mask.path_um(side * xi - SLOPE_STEP, eta)
     up = mask.path_um(side * xi, eta + SLOPE_STEP) - mask.path_um(side * xi, eta - SLOPE_STEP)
     return write_protect(np.stack([across, up]) / (2 * SLOPE_STEP))
 
 
 @lru_cache(maxsize=16)
-def passing(mask: PupilMask, grid: tuple[int, int], side: int, whole: bool = False) -> np.ndarray:
-    """Return the share of light that passes a mask in each cell of the half disc, the left half for ``side`` −1."""
+def passing(mask: PupilMask, grid: tuple[int, int], side: int, domain: PupilDomain = HALF) -> np.ndarray:
+    """Return the share of light that passes a mask in each cell of the domain, of its mirror image for ``side`` −1."""
     radii, directions = grid
-    xi, eta, _ = polar(WITHIN * radii, WITHIN * directions, whole)
+    xi, eta, _ = polar(WITHIN * radii, WITHIN * directions, domain)
     light = mask.opens(side * xi, eta) * np.square(mask.amplitude(side * xi, eta))
     return write_protect(light.reshape(radii, WITHIN, directions, WITHIN).mean(axis=(1, 3)))
 
@@ -266,8 +266,9 @@ def density(blur: RayBlur, pixels: int, pixel_um: float) -> np.ndarray:
         right = light * (column - left)
         counted += np.bincount((at + step).ravel(), (light - right).ravel(), side * side)
         counted += np.bincount((at + step + 1).ravel(), right.ravel(), side * side)
-    half = counted.reshape(side, side)[1 : pixels + 1, 1 : 2 * middle + 2]  # the chief ray in the middle of its column
-    return ((half + half[:, ::-1]) / 2 if blur.even else half)[:, :pixels]
+    own = counted.reshape(side, side)[1 : pixels + 1, 1 : 2 * middle + 2]  # the chief ray in the middle of its column
+    images = blur.domain.images
+    return np.asarray(sum(own[:, ::image] for image in images) / len(images))[:, :pixels]
 
 
 def over_unaberrated(psf: Psf, na: float, mask: PupilMask) -> np.ndarray:

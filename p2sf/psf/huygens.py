@@ -260,7 +260,7 @@ def ray_waves(pupil: RayPupil, counts: Counts, reach_um: float, watch: "Watch | 
     amplitude, fx, fy, share, field, far = (np.concatenate(column) for column in zip(*blocks, strict=True))
     # The field over the area is its mean, exactly 1 for an evenly filled pupil.
     amplitude /= field.sum() / share.sum()
-    waves = Waves(amplitude, fx, fy, nodes.domain.symmetric, float(far.max(initial=0.0)), reach_um)
+    waves = Waves(amplitude, fx, fy, nodes.domain, float(far.max(initial=0.0)), reach_um)
     return RayWaves(waves, counts, nodes.xi.size - share.size, nodes.xi.size)
 
 

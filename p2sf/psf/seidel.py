@@ -18,6 +18,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.psf.sums.seidel_sum import wave_number
+from p2sf.pupil.domain import HALF
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
@@ -191,7 +192,7 @@ def _waves_reaching(c: Coefficients, fitted: FittedPencil, reach_um: float) -> W
     nodes, scale = disc_nodes(*counts), -float(wave_number(c))  # the conjugate, as a fit
     amplitude = pupil_amplitude(nodes.weight, -wavefront(c, nodes.xi, nodes.eta))
     blur = fitted.steepness.radial / fitted.steepness.spread
-    return Waves(amplitude, scale * nodes.xi, scale * nodes.eta, True, blur, reach_um)
+    return Waves(amplitude, scale * nodes.xi, scale * nodes.eta, HALF, blur, reach_um)
 
 
 def energy_fraction(

@@ -71,9 +71,7 @@ def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: flo
     nodes = lens.pupil_domain.nodes(counts)
     amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
     rays = coarse_pencil(lens, source, coarse)
-    return RayWaves(
-        Waves(amplitude, fx, fy, nodes.domain.symmetric, _farthest_um(rays), reach_um), counts, 0, rays.phase.size
-    )
+    return RayWaves(Waves(amplitude, fx, fy, nodes.domain, _farthest_um(rays), reach_um), counts, 0, rays.phase.size)
 
 
 def smooth_blur_um2(lens: Lens, source: Source) -> float | None:

@@ -3,8 +3,9 @@
 Some three thousand states: lenses × fields × depths × methods × masks × clipped rims × tilts × zooms, as PSFs, MTF,
 energy, Zernike terms, coefficients, kernels in pictures, databases, tolerances, plans and measurements. Each version
 computes them in a process of its own, through public functions and the command line, so that the modules behind these
-may move. Printed per kind: how many figures there are, how many differ by more than rounding, the worst difference and
-where; then what differs on purpose (`DELIBERATE`), and what only one version refuses.
+may move. Every twelfth state is a part (``--parts``); with ``--keep`` the parts of a commit are computed once, and a
+run can be continued. Printed per kind: how many figures there are, how many differ by more than rounding, the worst
+difference and where; then what differs on purpose (`DELIBERATE`), and what only one version refuses.
 
 A picture differs by its largest difference over its peak, a number by the difference over the larger of the two or, if
 that is larger, over the unit below which a difference means nothing (`FLOORS`).
@@ -31,7 +32,7 @@ from typing import Any
 import numpy as np
 
 HERE = Path(__file__).resolve().parents[2]
-QUICK = 12  # every so many states with --quick
+PARTS = 12  # part k has every twelfth state from the k-th on; --quick is the first part
 METHODS = ("seidel", "fitted", "traced", "huygens")
 RELAYS = {"telecentric_relay": 90.9, "relay": 95.0}  # mm, the depth whose picture they form
 NEAR = 40  # focal lengths to the near plane of other lenses, which are focused there
@@ -451,12 +452,12 @@ def _numeric(values: Any) -> bool:
         return False
 
 
-def compute(path: Path, step: int, kinds: list[str]) -> None:
-    """Write the figures of the version that Python finds: {(kind, state): {name: value} or the text of a refusal}."""
+def compute(path: Path, part: int, kinds: list[str]) -> None:
+    """Write a part of the figures of the version that Python finds: {(kind, state): {name: value} or a refusal}."""
     found: dict[tuple[str, str], Any] = {}
     warnings.simplefilter("ignore")
     for number, (kind, name, figures) in enumerate(states()):
-        if number % step or (kinds and not kind.startswith(tuple(kinds))):
+        if number % PARTS != part or (kinds and not kind.startswith(tuple(kinds))):
             continue
         try:
             found[kind, name] = dict(flat(figures()))
@@ -530,18 +531,22 @@ def _reason(kind: str, name: str, apart: float) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("other", type=Path, nargs="?", help="folder of the earlier checkout")
-    parser.add_argument("--quick", action="store_true", help=f"every {QUICK}th state")
+    parser.add_argument("--quick", action="store_true", help=f"every {PARTS}th state")
+    parser.add_argument("--parts", nargs="*", type=int, default=range(PARTS), help=f"some of the {PARTS} parts")
     parser.add_argument("--kinds", nargs="*", default=[], help="kinds that begin so, such as MTF")
     parser.add_argument("--keep", type=Path, help="folder where figures stay, so that those of a version are made once")
     parser.add_argument("--compute", type=Path, help=argparse.SUPPRESS)
     given = parser.parse_args()
-    step = QUICK if given.quick else 1
+    parts = [0] if given.quick else given.parts
     if given.compute:
-        compute(given.compute, step, given.kinds)
+        compute(given.compute, parts[0], given.kinds)
         return
     with tempfile.TemporaryDirectory() as folder:
         keep = given.keep or Path(folder)
-        before, now = (_figures(root, keep, step, given.kinds) for root in (given.other, HERE))
+        before, now = {}, {}
+        for part in parts:
+            before |= _figures(given.other, keep, part, given.kinds)
+            now |= _figures(HERE, keep, part, given.kinds)
     table, deliberate, refusals = compared(now, before)
     for kind, row in sorted(table.items()):
         print(f"{kind:30s} {row.states:5d} states {_shown(row)}")
@@ -557,14 +562,14 @@ def _shown(row: Row) -> str:
     return f"{row.figures:6d} figures, {row.differing:5d} differ, worst {row.worst:8.1e}  {row.where}"
 
 
-def _figures(root: Path, keep: Path, step: int, kinds: list[str]) -> dict[Any, Any]:
-    """Return the figures of one checkout, from a process of its own."""
+def _figures(root: Path, keep: Path, part: int, kinds: list[str]) -> dict[Any, Any]:
+    """Return a part of the figures of one checkout, from a process of its own."""
     name = subprocess.run(["git", "-C", root, "rev-parse", "HEAD"], capture_output=True, text=True).stdout.strip()
     dirty = subprocess.run(["git", "-C", root, "status", "--porcelain"], capture_output=True, text=True).stdout.strip()
-    path = keep / f"{name or root.name}-{step}-{'-'.join(kinds)}.pickle"
+    path = keep / f"{name or root.name}-{part}-{'-'.join(kinds)}.pickle"
     if dirty or not path.exists():
         one = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "P2SF_THREADS": "1"}
-        words = [sys.executable, __file__, "--compute", str(path), *(["--quick"] if step > 1 else [])]
+        words = [sys.executable, __file__, "--compute", str(path), "--parts", str(part)]
         words += ["--kinds", *kinds] if kinds else []
         subprocess.run(words, env=os.environ | one | {"PYTHONPATH": str(root)}, check=True)
     return pickle.loads(path.read_bytes())

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.messages import Message
+from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import nodes_for
 from p2sf.pupil.transform import sum_plane_waves
@@ -15,6 +16,7 @@ from p2sf.raytrace.ray_field import Steepness
 
 Counts = tuple[int, int]
 """Radial and angular node counts of the whole disc."""
+ODD = np.array([0, 1, 0, 0, 1, 0])  # whether a moment changes its sign where fx does
 RADIAL_STEP, ANGULAR_STEP = 4, 16  # of node counts, so that cached nodes serve the next picture too
 
 
@@ -52,14 +54,15 @@ def disc_words(counts: Counts) -> Message:
 class Waves:
     """Plane waves whose sum is the field, 1 at most: complex amplitudes (…, nodes), frequencies in cycles per µm.
 
-    ``even``: the nodes are one half of a set that is even in fx, and amplitudes include the other half. ``blur_um``:
-    largest distance of rays from the chief ray. ``reach_um``: distance from it up to which the nodes resolve the phase.
+    ``domain``: HALF where the nodes are one half of a set that is even in fx, and amplitudes include the other half.
+    ``blur_um``: largest distance of rays from the chief ray. ``reach_um``: distance from it up to which the nodes
+    resolve the phase.
     """
 
     amplitude: np.ndarray
     fx: np.ndarray
     fy: np.ndarray
-    even: bool
+    domain: PupilDomain
     blur_um: float
     reach_um: float = inf
 
@@ -72,7 +75,7 @@ class Waves:
         """Return the field over a grid of x and y, µm, complex, (…, y, x)."""
         amplitude = self.amplitude.astype(np.result_type(dtype, np.complex64), copy=False)
         fx, fy = (f.astype(dtype, copy=False) for f in (self.fx, self.fy))
-        return sum_plane_waves(amplitude, fx, fy, x, y, self.even)
+        return sum_plane_waves(amplitude, fx, fy, x, y, self.domain.symmetric)
 
     def intensity(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
         """Return the intensity over a grid of x and y, µm, (…, y, x)."""
@@ -96,12 +99,10 @@ class Waves:
         Where the intensity is not concave, the step is along the gradient.
         """
         along = self.amplitude * np.exp((2j * pi * y) * self.fy)
-        turn = (2 * pi * x) * self.fx
-        if self.even:
-            field, _, by_y, by_xx, _, by_yy = self._moments_of(along * np.cos(turn))
-            _, by_x, _, _, by_xy, _ = self._moments_of(1j * along * np.sin(turn)) if x else np.zeros(6)
-        else:
-            field, by_x, by_y, by_xx, by_xy, by_yy = self._moments_of(along * np.exp(1j * turn))
+        turn = (2j * pi * x) * self.fx
+        images = self.domain.images
+        sums = [self._moments_of(along * np.exp(image * turn)) * image**ODD for image in images]
+        field, by_x, by_y, by_xx, by_xy, by_yy = sum(sums) / len(images)
         # E′ = 2πi Σ f·wave and E″ = −4π² Σ f²·wave; of |E|², half of its derivatives, in units of 2π.
         back = complex(field).conjugate()
         slope_x, slope_y = -(back * by_x).imag, -(back * by_y).imag

@@ -242,8 +242,11 @@ def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple
 
 
 def _seidel_error(study: Study, places: Sequence[Place]) -> float:
-    """Return the worst error of kernels by Seidel coefficients; infinite if they do not describe the lens."""
-    if study.lens.misaligned or reason_against_coefficients(study.lens):
+    """Return the worst error of kernels by Seidel coefficients; infinite if the lens has none.
+
+    Those of a misaligned lens are of the aligned one, at the places where its own rays land.
+    """
+    if reason_against_coefficients(study.lens):
         return inf
     pupils = [study.pupil_at(place) for place in places]
     made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)

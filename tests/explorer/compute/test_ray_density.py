@@ -5,6 +5,7 @@ from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.errors import GeometryError
 from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.geometric import RayBlur, density, geometric_psf, over_unaberrated, polar, ray_blur
+from p2sf.pupil.domain import HALF
 from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
@@ -90,13 +91,13 @@ def test_an_even_blur_has_neither_a_hole_nor_rings(exact, quality, pixels):
 def test_each_ray_is_shared_by_the_pixels_about_it_and_its_mirror_image(pixels):
     """One ray a quarter of a pixel right of and above the chief ray's pixel; beyond the window nothing comes back."""
     middle, one = pixels // 2, np.array([[0.5]])
-    found = density(RayBlur(0.5 * one, 0.5 * one, 2 * one, True), pixels, 1.0)
+    found = density(RayBlur(0.5 * one, 0.5 * one, 2 * one, HALF), pixels, 1.0)
     right, level = np.array([0.0, 0.75, 0.25]) / 2, np.array([0.75, 0.25])
     assert found[middle : middle + 2, middle - 1 : middle + 2] == pytest.approx(np.outer(level, right + right[::-1]))
     assert found.sum() == pytest.approx(1)
     for place in (middle + 1.0, np.inf, -middle - 1.0):
-        assert density(RayBlur(place * one * 2, 0 * one, 2 * one, True), pixels, 1.0).sum() == 0
-        assert density(RayBlur(0 * one, place * one * 2, 2 * one, True), pixels, 1.0).sum() == 0
+        assert density(RayBlur(place * one * 2, 0 * one, 2 * one, HALF), pixels, 1.0).sum() == 0
+        assert density(RayBlur(0 * one, place * one * 2, 2 * one, HALF), pixels, 1.0).sum() == 0
 
 
 def test_interpolated_rays_land_where_traced_ones_do():
@@ -107,7 +108,7 @@ def test_interpolated_rays_land_where_traced_ones_do():
     some = slice(None, None, 997)
     rays = pencil(setup.lens, setup.source, xi.ravel()[some], eta.ravel()[some])
     reach = UM_PER_MM * np.abs(rays.dy).max()
-    assert blur.even and blur.light.sum() == pytest.approx(1)
+    assert blur.domain is HALF and blur.light.sum() == pytest.approx(1)
     # Straight lines between 20 × 48 rays: the curvature of a blur of aberrations leaves some thousandths of its reach.
     assert np.abs(x.ravel()[some] - UM_PER_MM * rays.dx).max() < 5e-3 * reach
     assert np.abs(y.ravel()[some] - UM_PER_MM * rays.dy).max() < 5e-3 * reach
