@@ -9,7 +9,7 @@ from functools import cache
 
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import LINES_UM, refractive_index
-from p2sf.glass.pages import SUPPLIERS, Kind, Page, page, page_names
+from p2sf.glass.pages import CATALOGUES, SUPPLIERS, Kind, Page, page, page_names
 from p2sf.messages import Alternatives, Message
 
 # Glasses of two makers with one name are the same glass if their indices agree to the last digit of a data sheet.
@@ -33,8 +33,9 @@ class CatalogueEntry:
 def find_entry(text: str) -> CatalogueEntry:
     """Return the glass named "MAKER NAME", "NAME", or "shelf/book/page" of refractiveindex.info.
 
-    Case does not matter. Raises GlassError, naming candidates, for a name in no catalogue or one that several makers
-    use for glasses of different indices.
+    Case does not matter, and a name without its maker means a former glass only where nobody sells it now. Raises
+    GlassError, naming candidates, for a name in no catalogue or one that several makers use for glasses of different
+    indices.
     """
     words = text.split()
     if text.count("/") == 2:
@@ -47,7 +48,8 @@ def find_entry(text: str) -> CatalogueEntry:
         raise GlassError(
             'glass "{name}" is in no catalogue; {suggestion}', name=text, suggestion=_suggestion(name, _labels())
         )
-    return _unambiguous(text, [_from_shelf(key) for key in sold])
+    current = [key for key in sold if _shelf()[key].startswith(f"{SUPPLIERS}/")]
+    return _unambiguous(text, [_from_shelf(key) for key in current or sold])
 
 
 def _of_maker(maker: str, name: str, text: str) -> CatalogueEntry:
@@ -106,8 +108,11 @@ def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> Message:
 
 @cache
 def _shelf() -> dict[tuple[str, str], str]:
-    """Return (MAKER, NAME) in capitals → shelf/book/page of every maker's glass, in the order of the catalogue."""
-    sold = (name for name in page_names() if name.startswith(f"{SUPPLIERS}/"))
+    """Return (MAKER, NAME) in capitals → shelf/book/page of every maker's glass, in the order of the catalogue.
+
+    A glass of a maker's catalogue replaces that of the same name in the database.
+    """
+    sold = (name for name in page_names() if name.startswith((f"{SUPPLIERS}/", f"{CATALOGUES}/")))
     return {(_maker(book), glass.upper()): f"{shelf}/{book}/{glass}" for shelf, book, glass in map(_parts, sold)}
 
 

@@ -19,8 +19,7 @@ PAIRED = "1", "2", "3", "4", "5", "6"  # formulas with a constant and pairs of c
 def lines(database: Path) -> Iterator[str]:
     """Yield the line of every complete page: name, kind, wavelengths in µm and numbers, as in `pages.Page`."""
     for name, path in sorted(catalogue(database).items()):
-        indices = [part for part in _yaml(database / "data" / path)["DATA"] if part["type"] != "tabulated k"]
-        fields = _fields(name, indices[0]) if indices else (Kind.ABSORPTION,)
+        fields = page_fields(name, database / "data" / path)
         if fields[0] in PAIRED and len(fields[2].split()) % 2 == 0:
             print(f"{name} is skipped: a resonance or a power lacks its second coefficient", file=sys.stderr)
         else:
@@ -38,10 +37,17 @@ def catalogue(database: Path) -> dict[str, str]:
     }
 
 
+def page_fields(name: str, path: Path) -> tuple[str, ...]:
+    """Return kind, wavelengths and numbers of a page in its file, in the digits of the database."""
+    indices = [part for part in _yaml(path)["DATA"] if part["type"] != "tabulated k"]
+    return _fields(name, indices[0]) if indices else (Kind.ABSORPTION,)
+
+
 def _fields(name: str, part: dict[str, str]) -> tuple[str, ...]:
-    """Return kind, wavelengths and numbers of one part of a page, in the digits of the database."""
+    """Return what `page_fields` does for one part of a page."""
     if part["type"].startswith("formula"):
-        return part["type"].split()[1], part["wavelength_range"], part["coefficients"]
+        ends = part.get("wavelength_range") or part["range"]  # before 2023
+        return part["type"].split()[1], ends, part["coefficients"]
     by_wavelength: dict[float, tuple[str, str]] = {}
     for wavelength, index, *_ in map(str.split, part["data"].strip().splitlines()):
         by_wavelength.setdefault(float(wavelength), (wavelength, index))  # some tables repeat a row

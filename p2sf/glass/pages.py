@@ -1,7 +1,8 @@
 """The pages of refractiveindex.info that the package ships: a formula with its coefficients, or a table, per material.
 
 One compressed text file contains them in decimal, as the database does, so that coefficients have double precision. It
-is read on the first look-up; a page is parsed when it is requested. `collect` creates the file.
+is read on the first look-up; a page is parsed when it is requested. `collect` creates the file. A second one, of
+`p2sf.lensfile.collect_agf`, has former and moulded glasses that the database lacks, from catalogues of their makers.
 """
 
 import gzip
@@ -11,8 +12,10 @@ from functools import cache
 from pathlib import Path
 
 DATA = Path(__file__).with_name("refractiveindex_info.tsv.gz")
+MORE_DATA = Path(__file__).with_name("makers_catalogues.tsv.gz")
 LONGEST_TABLE = 200  # points; a longer table of a supplier is thinned evenly, one from research omitted
 SUPPLIERS = "specs"  # the shelf of the makers' data sheets
+CATALOGUES = "catalogues"  # the shelf of what is in their catalogues and not in the database
 
 
 class Kind(StrEnum):
@@ -41,15 +44,21 @@ class Page:
         return self.wavelengths_um[0], self.wavelengths_um[-1]
 
 
-@cache
-def _lines() -> tuple[str, dict[str, bytes]]:
-    """Return the first line of the file, and shelf/book/page → the rest of its line, not yet decoded."""
-    head, *lines = gzip.decompress(DATA.read_bytes()).splitlines()
+def read_lines(path: Path) -> tuple[str, dict[str, bytes]]:
+    """Return the first line of a file of pages, and shelf/book/page → the rest of its line, not yet decoded."""
+    head, *lines = gzip.decompress(path.read_bytes()).splitlines()
     return head.decode(), {name.decode(): rest for name, _, rest in (line.partition(b"\t") for line in lines)}
 
 
+@cache
+def _lines() -> tuple[str, dict[str, bytes]]:
+    """Return what `read_lines` does for both files together."""
+    (head, database), (more, catalogues) = map(read_lines, (DATA, MORE_DATA))
+    return f"{head}; {more}", database | catalogues
+
+
 def page_names() -> tuple[str, ...]:
-    """Return "shelf/book/page" of every page, sorted."""
+    """Return "shelf/book/page" of every page, those of the database first, each sorted."""
     return tuple(_lines()[1])
 
 
@@ -60,5 +69,5 @@ def page(name: str) -> Page:
 
 
 def data_version() -> str:
-    """Return the release of the database from which the file was created, and its licence."""
+    """Return the sources of the pages: the release of the database with its licence, and the catalogues."""
     return _lines()[0]

@@ -241,7 +241,10 @@ def _range(entry: Entry, source: LensText, name_line: int) -> tuple[float, float
 
 
 def _transmittance(entry: Entry, source: LensText) -> InternalTransmittance | None:
-    """Return what the IT lines of a glass state; one that is not complete states nothing."""
+    """Return what the IT lines of a glass state; one that is not complete states nothing.
+
+    A share, a thickness or a wavelength that cannot be, such as −999 for no measurement, leaves the glass without any.
+    """
     records = []
     for line, words in entry.get(REPEATED, ()):
         if len(words) < 3:
@@ -249,12 +252,11 @@ def _transmittance(entry: Entry, source: LensText) -> InternalTransmittance | No
         what = Message("wavelength"), Message("internal transmittance"), Message("thickness")
         wave, share, thickness = (number(*pair, source, line) for pair in zip(words, what, strict=False))
         record = wave, min(share, 1.0) if share <= MOST_PASSED else share, thickness
-        try:
-            InternalTransmittance((record,))
-        except GlassError as error:
-            raise source.error(error.message, line) from None
         records.append(record)
-    return InternalTransmittance(tuple(records)) if records else None
+    try:
+        return InternalTransmittance(tuple(records)) if records else None
+    except GlassError:
+        return None
 
 
 def nd_and_vd(glass: Medium) -> tuple[float, float]:

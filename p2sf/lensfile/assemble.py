@@ -144,8 +144,11 @@ def _medium(
     except GlassError as failure:
         where = surface.name if surface else Message("object space")
         raise source.error("{place}: {error}", line or len(source.lines), place=where, error=failure) from failure
+    number = surface.number if surface else None
     if found.substitution:
-        notes.add("substituted", found.substitution, surface.number if surface else None, line)
+        notes.add("substituted", found.substitution, number, line)
+    if found.choice:
+        notes.add("caution", found.choice, number, line)
     return found.medium
 
 

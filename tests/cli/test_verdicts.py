@@ -55,7 +55,7 @@ def test_the_table_counts_and_says_why(capsys, folder):
 def test_glasses_of_a_catalogue_and_substitutes_count(capsys, folder):
     own = text_of("doublet.zmx").replace("GCAT SCHOTT", "GCAT OWN SCHOTT").replace("N-BK7", "HOUSE1")
     (folder / "own.zmx").write_text(own, encoding="utf-8")
-    (folder / "old.zmx").write_text(text_of("doublet.zmx").replace("N-BK7", "BK7"), encoding="utf-8")
+    (folder / "old.zmx").write_text(text_of("doublet.zmx").replace("N-BK7", "S-BK7"), encoding="utf-8")
     plain = json.loads(listed(capsys, folder, "--json")[1])["opens"]
     more = json.loads(listed(capsys, folder, "--json", "--agf", FOLDER / "own.agf")[1])["opens"]
     most = json.loads(listed(capsys, folder, "--json", "--agf", FOLDER / "own.agf", "--accept-substitutes")[1])["opens"]

@@ -103,10 +103,10 @@ def test_a_focal_length_agrees_with_other_programs():
 
 @pytest.mark.parametrize(
     ("maker", "count"),
-    [("SCHOTT", 171), ("OHARA", 410), ("HOYA", 190), ("CDGM", 314), ("SUMITA", 176), ("HIKARI", 376), ("LZOS", 51)],
+    [("SCHOTT", 367), ("OHARA", 417), ("HOYA", 410), ("CDGM", 341), ("SUMITA", 203), ("HIKARI", 381), ("LZOS", 105)],
 )
 def test_every_glass_of_a_maker_has_an_index(maker, count):
-    """The numbers of glasses are those of the database's release; the indices must be those of a transparent solid."""
+    """The numbers of glasses are those of the database and the catalogues; the indices those of a transparent solid."""
     labels = glasses_by_maker()[maker]
     assert len(labels) == count
     for label in labels:
@@ -224,7 +224,7 @@ def test_media_are_values(medium):
         ("SCHOT N-BK7", ['"SCHOT N-BK7"', "did you mean", "SCHOTT N-BK7"]),
         ("N-BK8", ['"N-BK8"', "did you mean", "SCHOTT N-BK7"]),
         ("SCHOTT N-BK8", ["catalogue of SCHOTT", "did you mean SCHOTT N-BK7"]),
-        ("BK7", ["did you mean SCHOTT N-BK7"]),
+        ("BK9", ["did you mean"]),
         ("UNOBTAINIUM", ['"UNOBTAINIUM" is in no catalogue', "write maker and name", "vd ="]),
         ("main/SiO2/Nobody", ["main/SiO2/Nobody", "check shelf/book/page"]),
         ("main/Si/Franta-300K", ["main/Si/Franta-300K", "table of 4001 points", "wavelengths_um = […]"]),

@@ -34,7 +34,7 @@ def zemax(tmp_path) -> Path:
 @pytest.fixture
 def obsolete(zemax) -> Path:
     """Return a file whose glass is no longer sold, so that a substitute needs consent."""
-    zemax.write_text(zemax.read_text().replace("GLAS N-BK7", "GLAS BK7"))
+    zemax.write_text(zemax.read_text().replace("GLAS N-BK7", "GLAS S-BK7"))
     return zemax
 
 

@@ -2143,7 +2143,9 @@
 <message><source>{frames} frames and {focus} focus positions; give one for each</source><translation>{frames} Aufnahmen und {focus} Fokuslagen; für jede eine angeben</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
 <message><source>{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd</source><translation>{glass} steht in keinem Katalog; seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
-<message><source>{glass} replaced by {substitute}, {difference}</source><translation>{glass} ersetzt durch {substitute}, {difference}</translation></message>
+<message><source>{glass} (nd {nd:.5f})</source><translation>{glass} (nd {nd:.5f})</translation></message>
+<message><source>glass {name} is sold with different indices, and the file does not say by whom; {taken} is taken, from which {other} differs by {f_line:+.5f}, {d_line:+.5f}, {c_line:+.5f} at F, d and C</source><translation>Das Glas {name} wird mit verschiedenen Indizes verkauft, und die Datei sagt nicht, von wem; genommen ist {taken}, von dem {other} bei F, d und C um {f_line:+.5f}, {d_line:+.5f}, {c_line:+.5f} abweicht</translation></message>
+<message><source>{glass} replaced by {substitute}; the file does not tell the index it wants</source><translation>{glass} ersetzt durch {substitute}; die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>{glass} shares its name with another maker's glass of this lens; save as TOML</source><translation>{glass} heißt wie das Glas eines anderen Herstellers in diesem Objektiv; als TOML speichern</translation></message>
 <message><source>{keyword} is of number {number}, which does not exist; correct it</source><translation>{keyword} betrifft Nummer {number}, die es nicht gibt; berichtigen</translation></message>
 <message><source>{keyword} is of surface {number}, which does not exist; correct it</source><translation>{keyword} betrifft Fläche {number}, die es nicht gibt; berichtigen</translation></message>
@@ -2411,8 +2413,6 @@
 <message><source>× no coma</source><translation>× keine Koma</translation></message>
 <message><source>× sensor shifts</source><translation>× Sensorversatz</translation></message>
 <message><source>× wavelengths</source><translation>× Wellenlängen</translation></message>
-<message><source>Δn at d unknown, the file does not tell the index it wants</source><translation>Δn bei d unbekannt, die Datei nennt den gewünschten Index nicht</translation></message>
-<message><source>Δn at d {value:+.5f}</source><translation>Δn bei d {value:+.5f}</translation></message>
 <message><source>η, pupil radii (towards the field)</source><translation>η, Pupillenradien (zum Feld hin)</translation></message>
 <message><source>η, stop radii (towards the field)</source><translation>η, Blendenradien (zum Feld hin)</translation></message>
 <message><source>λ</source><translation>λ</translation></message>
