@@ -29,7 +29,7 @@ if TYPE_CHECKING:
         SamplingError,
     )
     from p2sf.export.psf_cube import open_database
-    from p2sf.image.picture import form_image
+    from p2sf.image.picture import form_image, sharpen_image
     from p2sf.io.psf_files import read_psf, write_psf
     from p2sf.io.psf_plot import draw_psf
     from p2sf.lens.lens import Aperture, Lens, Surface, with_absorption, with_mask
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from p2sf.psf.result import Psf
     from p2sf.pupil.mask import PupilMap, PupilMask
     from p2sf.raytrace.zernike_fit import ZernikeFit
-    from p2sf.scene.planning.plan import plan
+    from p2sf.scene.planning.plan import Plan, plan
     from p2sf.scene.scene import Channel, Scene
     from p2sf.scene.sensor import Sensor
     from p2sf.studies.tradeoff import tradeoff
@@ -75,6 +75,7 @@ __all__ = [
     "P2SFError",
     "P2SFWarning",
     "Placement",
+    "Plan",
     "PointFit",
     "Psf",
     "Pupil",
@@ -112,6 +113,7 @@ __all__ = [
     "psf_of_opd",
     "read_psf",
     "render",
+    "sharpen_image",
     "tolerances",
     "tradeoff",
     "widget",
@@ -138,6 +140,7 @@ _ELSEWHERE = {
     "P2SFError": "p2sf.errors",
     "P2SFWarning": "p2sf.errors",
     "Placement": "p2sf.lens.placement",
+    "Plan": "p2sf.scene.planning.plan",
     "PointFit": "p2sf.measure.fitting.point_fit",
     "Psf": "p2sf.psf.result",
     "Pupil": "p2sf.metrics.opd_pupil",
@@ -168,6 +171,7 @@ _ELSEWHERE = {
     "plan": "p2sf.scene.planning.plan",
     "psf_of_opd": "p2sf.psf.from_opd",
     "read_psf": "p2sf.io.psf_files",
+    "sharpen_image": "p2sf.image.picture",
     "tolerances": "p2sf.tolerance.yields",
     "tradeoff": "p2sf.studies.tradeoff",
     "widget": "p2sf.notebook_widget",

@@ -52,7 +52,7 @@ from p2sf.paraxial.pupils import (
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 if TYPE_CHECKING:
-    from p2sf import Psf, Stored, Sweep, ToleranceStudy
+    from p2sf import Plan, Psf, Stored, Sweep, ToleranceStudy
 
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]
@@ -379,25 +379,76 @@ class Camera(Settings):
         RequestError, GeometryError, GlassError
             As for `p2sf.plan` and `p2sf.form_image`, and for a camera without ``pixel_um``.
         """
-        from p2sf import Channel, Scene, Sensor, form_image, plan
+        from p2sf import form_image
 
-        if self.pixel_um is None:
-            raise RequestError("this camera has no pixels; give {parameter}", parameter="pixel_um")
-        values = real_array("image", image)
-        if values.ndim not in (2, 3):
-            raise RequestError("a picture of shape {shape}; give rows, columns and colours", shape=str(values.shape))
-        depths = np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
-        lens, middle = self.its_lens, self.its_lens.reference_wavelength_um
-        seen = set_up_source(lens, Source(float(depths.max()), wavelength_um=middle), self.settings).lens
-        near, far = float(depths.min()), float(depths.max())
-        sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
-        scene = Scene(sensor, near_mm=near, far_mm=far, tolerance=tolerance, clip=clip)
-        if values.ndim == 2:
-            scene = replace(scene, channels=(Channel("light", (middle * NM_PER_UM,), (1.0,)),))
-        planned = plan(seen, scene)
+        values, depths = real_array("image", image), self._depths(depth_mm)
+        planned = self._plan(values, depths, tolerance, clip)
         given = None if depths.size == 1 else depths
         formed: np.ndarray = form_image(planned, values.reshape(*values.shape[:2], -1), given, **how)
         return formed.reshape(values.shape)
+
+    def sharpen(
+        self,
+        photo: ArrayLike,
+        depth_mm: float | None = None,
+        *,
+        noise: float | None = None,
+        tolerance: float = 0.05,
+        clip: bool = False,
+        threads: int | None = None,
+    ) -> np.ndarray:
+        """Return a photo that this camera took, sharpened by a Wiener filter with the kernels of every place.
+
+        Parameters
+        ----------
+        photo : array_like
+            Linear light, floats with white at 1, (rows, columns, 3) or (rows, columns), as for `photograph`.
+        depth_mm : float, optional
+            The depth that is made sharp, mm; the distance in focus, or infinity, by default.
+        noise : float, optional
+            Standard deviation of the photo's noise; estimated from its quiet parts by default.
+        tolerance, clip
+            As for `photograph`.
+        threads : int, optional
+            As for `p2sf.render`.
+
+        Returns
+        -------
+        numpy.ndarray
+            Linear light, float32, of the shape of ``photo``.
+
+        Raises
+        ------
+        RequestError, GeometryError, GlassError
+            As `photograph` does, and for a noise that is not positive.
+        """
+        from p2sf import sharpen_image
+
+        values, depths = real_array("photo", photo), self._depths(depth_mm)
+        planned = self._plan(values, depths, tolerance, clip)
+        sharp: np.ndarray = sharpen_image(planned, values.reshape(*values.shape[:2], -1), noise=noise, threads=threads)
+        return sharp.reshape(values.shape)
+
+    def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:
+        """Return the depths of a picture, (1,) or of every pixel, by default the distance in focus."""
+        return np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
+
+    def _plan(self, values: np.ndarray, depths: np.ndarray, tolerance: float, clip: bool) -> "Plan":
+        """Return the plan of a picture of these pixels and depths; RequestError without ``pixel_um``."""
+        from p2sf import Channel, Scene, Sensor, plan
+
+        if self.pixel_um is None:
+            raise RequestError("this camera has no pixels; give {parameter}", parameter="pixel_um")
+        if values.ndim not in (2, 3):
+            raise RequestError("a picture of shape {shape}; give rows, columns and colours", shape=str(values.shape))
+        lens, middle = self.its_lens, self.its_lens.reference_wavelength_um
+        near, far = float(depths.min()), float(depths.max())
+        seen = set_up_source(lens, Source(far, wavelength_um=middle), self.settings).lens
+        sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
+        scene = Scene(sensor, near_mm=near, far_mm=far, tolerance=tolerance, clip=clip)
+        if values.ndim == 2 or values.shape[2] == 1:
+            scene = replace(scene, channels=(Channel("light", (middle * NM_PER_UM,), (1.0,)),))
+        return plan(seen, scene)
 
     def tolerances(
         self, limits: Mapping[str, float], depth_mm: float | None = None, wavelength_nm: float | None = None, **how: Any

@@ -11,10 +11,22 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, LensName, Output, Threads, Whole, check_output, check_whole
+from p2sf.camera import Camera, explicit_values
+from p2sf.cli.options import (
+    AS_IN_ITS_FILE,
+    CameraFlags,
+    Json,
+    LensName,
+    Output,
+    Threads,
+    Whole,
+    check_output,
+    check_whole,
+)
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.image.charts import CHARTS, draw_chart
+from p2sf.image.deblur import photo_noise
 from p2sf.io.photo_files import WRITABLE, read_photo, write_photo
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
@@ -188,13 +200,17 @@ def image(
 def _check_kept(output: Path, picture: str, scene: Scene) -> None:
     """Raise RequestError where the output would overwrite the picture or the depth map it is made of."""
     for path in filter(None, (None if picture.startswith(CHART) else picture, scene.depth_map)):
-        if exists(path) and exists(output) and samefile(path, output):
-            raise RequestError(
-                "{parameter} is {path}, which would overwrite the input {input}; choose another name",
-                parameter="output",
-                path=str(output),
-                input=path,
-            )
+        _check_not_input(output, path)
+
+
+def _check_not_input(output: Path, path: str) -> None:
+    if exists(path) and exists(output) and samefile(path, output):
+        raise RequestError(
+            "{parameter} is {path}, which would overwrite the input {input}; choose another name",
+            parameter="output",
+            path=str(output),
+            input=path,
+        )
 
 
 def _short(value: object) -> str:
@@ -248,11 +264,51 @@ def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
 
 def _sharpen(lattice: "Lattice", formed: np.ndarray, shown: Shown) -> np.ndarray:
     """Return the picture sharpened with its kernels, assuming the noise of 8 bits at least."""
-    from p2sf.image.deblur import richardson_lucy, wiener
+    from p2sf.image.deblur import LEAST_NOISE, richardson_lucy, wiener
 
     if shown.deblur == "wiener":
-        return wiener(formed, lattice, max(shown.noise, 1e-3))
+        return wiener(formed, lattice, max(shown.noise, LEAST_NOISE))
     return richardson_lucy(formed, lattice)
+
+
+def sharpen(
+    lens: LensName,
+    photo: Annotated[Path, Parameter(help="A PNG, TIFF, JPEG or HEIF that the lens took, not cropped.")],
+    /,
+    *,
+    pixel_um: Annotated[float | None, Parameter(help="Distance between the pixels of the photo on the sensor.")] = None,
+    depth_mm: Annotated[float | None, Parameter(help="The depth to sharpen; the distance in focus, or ∞.")] = None,
+    camera: CameraFlags = AS_IN_ITS_FILE,
+    clip: Annotated[bool, Parameter(help="Stop rays at the rims of all surfaces.")] = False,
+    noise: Annotated[
+        float | None, Parameter(help="Its standard deviation, white being 1; estimated if left out.")
+    ] = None,
+    tolerance: Annotated[float, Parameter(help="Relative error of each kernel that is allowed.")] = 0.05,
+    encoding: Annotated[
+        Literal["srgb", "linear"] | None, Parameter(help="What the numbers of the file mean, as for image.")
+    ] = None,
+    output: Output = None,
+    threads: Threads = None,
+    as_json: Json = False,
+) -> None:
+    """Sharpen a photo that the lens took, by the kernels of every place, and write it as .png or .tif."""
+    if output is None or pixel_um is None:
+        missing = "output" if output is None else "pixel_um"
+        raise RequestError("there is no {parameter}; give it", parameter=missing)
+    check_output(output, WRITABLE)
+    _check_not_input(output, str(photo))
+    own = Camera(find_lens(lens), pixel_um=pixel_um, **explicit_values(camera))
+    taken = read_photo(photo, encoding)
+    values = taken.values if taken.values.shape[2] == 3 else taken.values[..., 0]
+    level = photo_noise(taken.values) if noise is None else noise
+    sharp = own.sharpen(values, depth_mm, noise=level, tolerance=tolerance, clip=clip, threads=threads)
+    write_photo(output, sharp, taken.encoding)
+    rows, columns = sharp.shape[:2]
+    if as_json:
+        about = {"file": str(output), "rows": rows, "columns": columns, "encoding": taken.encoding, "noise": level}
+        return print_json(about)
+    print(f"{output}: {columns} × {rows} pixels, {taken.encoding}, noise {level:.2g} of white")
+    return None
 
 
 def depth_map(scene: Scene) -> np.ndarray | None:

@@ -20,6 +20,7 @@ from p2sf.threads import for_each, one_blas_thread
 # within 0.2 dB of its best for every noise from 0.001 to 0.02; without, it loses up to 3.3 dB, and with twice the noise
 # 2.3 dB (`python -m tests.benchmarks.deblurring`).
 KERNEL_ERROR = 0.01
+LEAST_NOISE = 1e-3  # of white, a quarter of a step of 8 bits
 DARKEST = 1e-4  # of white: the floor that keeps the Richardson–Lucy ratio finite
 MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
 MASK_NORM = 6.0  # √ of the sum of squares of (1, −2, 1) × (1, −2, 1)
@@ -157,6 +158,11 @@ def estimated_noise(values: np.ndarray) -> float:
     both = np.abs(down[:, :-2] - 2 * down[:, 1:-1] + down[:, 2:])
     quiet = [_quiet(plane) for plane in np.moveaxis(both, -1, 0)]
     return MAD * float(np.sqrt(np.mean(np.square(quiet)))) / MASK_NORM
+
+
+def photo_noise(values: np.ndarray) -> float:
+    """Return `estimated_noise`, at least LEAST_NOISE: what rounding to whole numbers adds, and demosaicing hides."""
+    return max(LEAST_NOISE, estimated_noise(values))
 
 
 def _quiet(plane: np.ndarray) -> float:

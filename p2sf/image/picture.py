@@ -1,4 +1,4 @@
-"""The picture that a script forms: `p2sf.form_image`."""
+"""The pictures that a script forms and sharpens: `p2sf.form_image` and `p2sf.sharpen_image`."""
 
 from typing import Literal
 
@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
-from p2sf.image.form import Forming
+from p2sf.image.deblur import photo_noise, wiener
+from p2sf.image.form import Forming, check_picture, plan_lattice
 from p2sf.image.form import form_image as form
 from p2sf.scene.planning.plan import Plan
 from p2sf.threads import using_threads
@@ -62,3 +63,35 @@ def form_image(
     depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
     with using_threads(threads):
         return form(planned, values, depths, Forming(method, surround))
+
+
+@check_arguments
+def sharpen_image(
+    planned: Plan, photo: ArrayLike, *, noise: float | None = None, threads: int | None = None
+) -> np.ndarray:
+    """Sharpen a photo of the far end of a scene, by a Wiener filter with the kernel of every place.
+
+    Parameters
+    ----------
+    planned : Plan
+        The result of `plan` for the lens and the scene.
+    photo : array_like
+        The photo in linear light, floats with white at 1, shape (rows, columns, channels) as for `form_image`.
+    noise : float, optional
+        Standard deviation of its noise; estimated from its quiet parts by default.
+    threads : int, optional
+        As for `render`.
+
+    Returns
+    -------
+    numpy.ndarray
+        The sharpened photo, linear light, float32, shape (rows, columns, channels).
+
+    Raises
+    ------
+    RequestError
+        As `form_image` does, and for a noise that is not positive.
+    """
+    values = check_picture(planned.scene, photo)
+    lattice = plan_lattice(planned, planned.vergences[0])
+    return wiener(values, lattice, photo_noise(values) if noise is None else noise, threads=threads)

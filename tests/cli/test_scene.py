@@ -57,6 +57,23 @@ def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):
     assert main([*arguments, "--preview"]) == 0
 
 
+def test_a_photo_is_sharpened(tmp_path, capsys):
+    photo, out = tmp_path / "photo.tif", tmp_path / "sharp.tif"
+    write_photo(photo, np.full((30, 40), 0.25, np.float32), "linear")
+    arguments = ["sharpen", "achromat_f6", str(photo), "--focus-mm", "4000", "--tolerance", "0.2", "-o", str(out)]
+    assert main([*arguments, "--pixel-um", "20", "--noise", "0.01", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {
+        "file": str(out),
+        "rows": 30,
+        "columns": 40,
+        "encoding": "linear",
+        "noise": 0.01,
+    }
+    assert read_photo(out).values[..., 0] == pytest.approx(np.full((30, 40), 0.25), abs=1e-3)
+    assert main(arguments) == 2 and "--pixel-um" in capsys.readouterr().err
+    assert main([*arguments[:-1], str(photo), "--pixel-um", "20"]) == 2 and "--output" in capsys.readouterr().err
+
+
 def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):
     depth = np.zeros((40, 60), np.float32)
     depth[:, :30] = 20000.0

@@ -17,7 +17,7 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_fro
 from p2sf.errors import GeometryError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
-from p2sf.image.deblur import estimated_noise, psnr, wiener, with_one_kernel
+from p2sf.image.deblur import photo_noise, psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
@@ -140,7 +140,6 @@ UNMEASURED = {
 RAY_NOTE = Message("These PSFs are ray densities; they are so wide that pixels hide most of what diffraction adds.")
 SHARPENED = ("sharpened", "axis")  # of what can be shown
 TAKEN = "taken"  # of what can be shown: the photo was taken through the lens, and is sharpened
-LEAST_NOISE = 1e-3  # of white, that sharpening reckons with
 NO_PHOTO = "choose a photo that was taken through this lens by Photo…, or drop it here: a chart was not"
 NO_PIXEL = "choose how large the pixels of the camera are; To Image in Measured states those of the measured picture"
 FILTERED = "Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo."
@@ -292,7 +291,7 @@ def _sharpen(
     photo = _taken_values(request)
     small = request.shape == small_shape(request.shape)
     used, lattice = _taken_lattice(request, photo.shape[-1], watch, quick, known)
-    noise = max(LEAST_NOISE, estimated_noise(photo))
+    noise = photo_noise(photo)
     sharp = wiener(photo, lattice, noise, part_of(watch, PLANNING, 1.0)) if small or not quick else photo
     count, product = psf_counts(used)
     why_not = no_plan(used) if quick else None
