@@ -194,6 +194,18 @@ class Sweep:
             found, dict.fromkeys(("line_x", "line_y", "edge_x", "edge_y"), along("position_um", position))
         )
 
+    def performance(self, frequency_per_mm: ArrayLike = (10.0, 30.0), *, clip: bool = False) -> NamedArrays:
+        """Return what an engineer reads first, by exact rays: see `p2sf.metrics.performance.Performance`.
+
+        ``rms_waves``, ``strehl``, contrasts ``tangential`` and ``sagittal`` at ``frequency_per_mm``, ``radius_80_um``,
+        ``distortion``, ``illumination`` and ``lateral_colour_um``; NaN where there is no such figure.
+        """
+        frequency = _axis("frequency_per_mm", frequency_per_mm)
+        found = self._over(partial(_performance_of, frequency_per_mm=frequency, clip=clip))
+        names = "rms_waves", "strehl", "radius_80_um", "distortion", "illumination", "lateral_colour_um"
+        contrasts = dict.fromkeys(("tangential", "sagittal"), along("frequency_per_mm", frequency))
+        return self._named(found, dict.fromkeys(names[:2], NOTHING) | contrasts | dict.fromkeys(names[2:], NOTHING))
+
     def coefficients(self) -> NamedArrays:
         """Return what `p2sf.coefficients` does, ``w40`` … ``wd`` in waves, ``na``, and the image's place, mm."""
         found = self._over(_six_of)
@@ -367,6 +379,13 @@ def _energy_of(point: SweepPoint, radius_um: np.ndarray, **how: Any) -> Figures:
     from p2sf.metrics.measures import energy_in
 
     return vars(energy_in(*point.parts(**how), radius_um))
+
+
+def _performance_of(point: SweepPoint, frequency_per_mm: np.ndarray, clip: bool) -> Figures:
+    from p2sf.metrics.performance import performance_of
+
+    setup = point.setup
+    return vars(performance_of(setup.lens, setup.source, frequency_per_mm, clip, partial(point.parts, "traced", clip)))
 
 
 def _lines_of(point: SweepPoint, position_um: np.ndarray, **how: Any) -> Figures:

@@ -9,21 +9,29 @@ from PySide6.QtWidgets import QLabel
 from p2sf.conventions import UM_PER_MM
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.matrix.overlays import PLAIN, USUAL_PER_MM, CurveOverlay, OverlayRequest, answer
+from p2sf_explorer.compute.matrix.overlays import (
+    PLAIN,
+    USUAL_PER_MM,
+    CurveOverlay,
+    OverlayRequest,
+    answer,
+    compared_fields,
+)
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.state.scales import read_number
+from p2sf_explorer.state.limits import MOST_FIELDS
 from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser
 from p2sf_explorer.widgets.chart_card import NotedChart, curve_sign, reach
+from p2sf_explorer.widgets.compared_lists import FieldList, FrequencyList
 from p2sf_explorer.widgets.curves import ENDLESS
 from p2sf_explorer.widgets.readout import Readout
-from p2sf_explorer.widgets.value_edit import ValueList
 
 TIP = (
     "Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and "
-    "sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present point."
+    "sagittal (fine). Type any fields, or choose how many; wavelengths are those of Matrix. A vertical line marks the "
+    "present point."
 )
 OF = (
     ("fields", "MTF of all fields"),
@@ -34,9 +42,9 @@ OF = (
     ("distortion", "distortion of colours"),
     ("illumination", "relative illumination"),
 )
-HUES = ("text", "marginal", "chief", "third", "#cc79a7", "#a6761d")  # the first of what belongs to none
-PER_MM = {"": 1.0, "/mm": 1.0, "1/mm": 1.0}
-MOST = 16
+FURTHER = "#cc79a7", "#a6761d", "#56b4e9", "#7570b3", "#009e73", "#e6ab02", "#e7298a", "#66a61e", "#999999"
+HUES = ("text", "marginal", "chief", "third", *FURTHER)  # the first of what belongs to none
+MOST = 2 * MOST_FIELDS
 FROM_ZERO = {"contrast": 1.04, "relative illumination, %": 104.0}  # axes that begin there, and where they end
 HINTS = {"contrast": "thick tangential, fine sagittal", "distortion, %": "thick exact rays, fine third order"}
 
@@ -48,14 +56,14 @@ class OverlaysPanel:
         self._store = store
         self.widget = SideCard("Overlays", TIP)
         self.of = chooser(OF, "Which curves are shown", self.widget)
-        self.frequencies = ValueList((), self.widget)
-        self.frequencies.name(tr("At"), lambda text: read_number(text, "spatial frequency", PER_MM))
+        self.fields, self.frequencies = FieldList(store, self.widget), FrequencyList(store, self.widget)
         self.legend, self.note = QLabel(self.widget), Readout(self.widget)
         self.legend.setTextFormat(Qt.TextFormat.RichText)
         self.chart = NotedChart("frequency on the sensor, 1/mm", "contrast")
         self.zero = self.chart.add_curve("line")
         self.curves = [self.chart.add_curve("text") for _ in range(MOST)]
         self.widget.add_line(self.of)
+        self.widget.add_line(self.fields)
         self.widget.add_line(self.frequencies)
         self.widget.add_line(self.legend)
         self.widget.add_line(self.note)
@@ -66,19 +74,15 @@ class OverlaysPanel:
         self._live: Live | None = None
         self._theme = LIGHT
         self.widget.bind(store, curves_of=self.of)
-        self.frequencies.listed.connect(self._list_values)
-        self.frequencies.refused.connect(store.refused.emit)
-
-    def _list_values(self, values: tuple[float, ...]) -> None:
-        self._store.update(curves_frequencies_per_mm=values)
 
     def show(self, live: Live) -> None:
         """Paint curves that fit a frame, or have them made in the background."""
         self._live = live
         view: CurveOverlay | OverlayRequest = live.views["curves"]
         self.frequencies.setVisible(live.state.curves.of in ("field", "focus"))
-        *texts, last = (f"{f:g}" for f in live.state.curves.frequencies_per_mm or USUAL_PER_MM)
-        self.frequencies.show_values((*texts, f"{last}/mm"))
+        self.frequencies.show_frequencies(live.state.curves.frequencies_per_mm or USUAL_PER_MM)
+        self.fields.setVisible(live.state.curves.of == "fields")
+        self.fields.show_fields(compared_fields(live.state))
         if isinstance(view, CurveOverlay):
             self.asking.forget()
             self._paint(None, view)

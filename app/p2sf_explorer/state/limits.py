@@ -40,6 +40,7 @@ CHOICES = {
     "curves_of": ("fields", "colours", "field", "focus", "lateral", "distortion", "illumination"),
 }
 MOST_LISTED = 5  # values of a list
+MOST_FIELDS = 12  # of curves and of the table of figures
 # The smallest and the largest meaningful value, and the name and unit of the quantity in a sentence.
 RANGES: dict[str, tuple[float, float, Message, str]] = {
     **{each.name: (*each.typed, each.words, each.unit) for each in PARAMETERS.values() if each.typed and each.words},
@@ -57,6 +58,7 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "lesson_step": (0, 1000, Message("step of the lesson"), ""),
     "matrix_rows": (2, MOST_LISTED, Message("number of rows"), ""),
     "matrix_columns": (2, MOST_LISTED, Message("number of columns"), ""),
+    "curves_count": (2, MOST_FIELDS, Message("number of fields"), ""),
     "frequency_per_mm": (1e-3, 1e5, Message("spatial frequency"), "1/mm"),
     "tolerances_frequency_per_mm": (1e-3, 1e5, Message("spatial frequency"), "1/mm"),
     "tolerances_limit": (0.0, 1e6, Message("limit of the criterion"), ""),
@@ -74,6 +76,7 @@ LISTED = {
     "matrix_wavelengths_nm": "wavelength_nm",
     "matrix_depths_mm": "depth_mm",
     "matrix_shifts_um": "sensor_shift_um",
+    "curves_fields_deg": "field_deg",
     "curves_frequencies_per_mm": "frequency_per_mm",
 }
 MOST_WAVES = 1000.0
@@ -118,6 +121,7 @@ PLAIN: dict[str, type] = {
     "matrix_rows": int,
     "matrix_columns": int,
     "matrix_shared": bool,
+    "curves_count": int,
     "tolerances_draw": int,
     "tolerances_build": int,
 }

@@ -123,6 +123,16 @@ REGISTRY = (
         by_hand=REMAINS,
     ),
     PanelEntry(
+        "Rays",
+        "performance",
+        "Performance",
+        "6.3",
+        "performance:PerformancePanel",
+        "compute.views.performance:performance",
+        minus=Message("This is A: B has fields of its own, whose table is there with B on screen."),
+        by_hand=REMAINS,
+    ),
+    PanelEntry(
         "Aberrations",
         "coefficients",
         "Coefficients",

@@ -27,6 +27,7 @@ from p2sf_explorer.state.limits import (
     LINKABLE,
     LISTED,
     MASK,
+    MOST_FIELDS,
     MOST_LISTED,
     MOST_WAVES,
     OPTIONAL,
@@ -374,16 +375,16 @@ class MeasuredView:
         _check_entries(self)
 
 
-def _check_list(values: object, name: str, least: int) -> None:
-    """Raise P2SFError unless the values are none, or ``least`` to `MOST_LISTED` numbers that their quantity can be."""
+def _check_list(values: object, name: str, least: int, most: int = MOST_LISTED) -> None:
+    """Raise P2SFError unless the values are none, or ``least`` to ``most`` numbers that their quantity can be."""
     low, high, words, unit = RANGES[LISTED[name]]
-    if not isinstance(values, tuple) or (values and not least <= len(values) <= MOST_LISTED):
+    if not isinstance(values, tuple) or (values and not least <= len(values) <= most):
         raise P2SFError(
             "{name} is {value}; give {least} to {most} numbers, or none for those that the window chooses",
             name=name,
             value=_quote(values),
             least=least,
-            most=MOST_LISTED,
+            most=most,
         )
     for value in values:
         _check_number(value, name, (low, high), words, unit)
@@ -417,15 +418,22 @@ class MatrixView:
 
 @dataclass(frozen=True)
 class CurvesView:
-    """Curves laid over each other: ``of`` fields, colours …, at ``frequencies_per_mm`` where one is needed."""
+    """Curves laid over each other: ``of`` fields, colours …, at ``frequencies_per_mm`` where one is needed.
+
+    ``count`` is how many fields the window chooses where ``fields_deg`` is empty. The table of figures has the same
+    fields and frequencies.
+    """
 
     PREFIX: ClassVar[str] = "curves_"
 
     of: str = "fields"
+    count: int = 5
+    fields_deg: tuple[float, ...] = ()
     frequencies_per_mm: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         _check_entries(self)
+        _check_list(self.fields_deg, "curves_fields_deg", 1, MOST_FIELDS)
         _check_list(self.frequencies_per_mm, "curves_frequencies_per_mm", 1)
 
 

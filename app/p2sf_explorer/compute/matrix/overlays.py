@@ -94,8 +94,7 @@ def overlay_request(live: Live) -> OverlayRequest:
     state, matrix = optics(live.state), live.state.matrix
     widest = float(degrees_from_slope(widest_slope(live)))
     if view.of == "fields":
-        fields = matrix.fields_deg or stated_fields(lens, matrix.rows)
-        return OverlayRequest("fields", change(state, field_deg=0.0), lens, FREQUENCIES, fields)
+        return OverlayRequest("fields", change(state, field_deg=0.0), lens, FREQUENCIES, compared_fields(live.state))
     if view.of == "field":
         fields = tuple(np.linspace(0.0, widest, FIELDS[quality]).tolist())
         found = OverlayRequest("field", change(state, field_deg=0.0), lens, len(fields), fields)
@@ -112,6 +111,11 @@ def overlay_request(live: Live) -> OverlayRequest:
         return OverlayRequest("colours", shown, lens, BANDS[quality], wavelengths=waves)
     fields = tuple(np.linspace(0.0, widest, (FIELDS if view.of == "illumination" else RAYS)[quality]).tolist())
     return OverlayRequest(view.of, change(state, field_deg=0.0), lens, len(fields), fields, wavelengths=waves)
+
+
+def compared_fields(state: State) -> tuple[float, ...]:
+    """Return the fields whose curves and figures are compared, degrees."""
+    return state.curves.fields_deg or stated_fields(prescription(state), state.curves.count)
 
 
 Tell = Callable[[float, object], None]

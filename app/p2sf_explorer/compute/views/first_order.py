@@ -48,6 +48,11 @@ def rows(live: Live) -> tuple[Row, ...]:
             else Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
             "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
         ),
+        (
+            "RMS wavefront",
+            Message("{value} λ", value=Number(significant(live.pupil.rms, 3))),
+            "Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur.",
+        ),
         ("Peak of the PSF", _peak(live), "Where it is on the sensor: x and y from the chief ray."),
         ("Focal length f′", length(s.focal_length_mm), "Effective focal length f′ = −1/C of the system matrix."),
         (

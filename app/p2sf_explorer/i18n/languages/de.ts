@@ -430,7 +430,6 @@
 <message><source>Open the lens as its file has it</source><translation>Öffnung wie in der Datei</translation></message>
 <message><source>Open this panel in its own window, or put it back (Ctrl+D)</source><translation>Diese Ansicht in einem eigenen Fenster öffnen oder zurückstellen (Strg+D)</translation></message>
 <message><source>Overlays</source><translation>Vergleichskurven</translation></message>
-<message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Fields and wavelengths are those of Matrix; a vertical line marks the present point.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder und Wellenlängen sind die der Matrix; eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
 <message><source>P2SF Explorer</source><translation>P2SF Explorer</translation></message>
 <message><source>P2SF lens (*.toml);;PSF database (*.npz)</source><translation>P2SF-Objektiv (*.toml);;PSF-Datenbank (*.npz)</translation></message>
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET-Objektiv (*.json)</translation></message>
@@ -529,7 +528,6 @@
 <message><source>RMS in x</source><translation>RMS in x</translation></message>
 <message><source>RMS in y</source><translation>RMS in y</translation></message>
 <message><source>RMS radius</source><translation>RMS-Radius</translation></message>
-<message><source>RMS wavefront</source><translation>RMS-Wellenfront</translation></message>
 <message><source>RMS wavefront {value} λ</source><translation>RMS-Wellenfront {value} λ</translation></message>
 <message><source>RMS wavefront, waves</source><translation>RMS-Wellenfront, Wellen</translation></message>
 <message><source>RMS {rms} λ</source><translation>RMS {rms} λ</translation></message>
@@ -1439,7 +1437,6 @@
 <message><source>number of columns</source><translation>Anzahl der Spalten</translation></message>
 <message><source>number of configurations</source><translation>Zahl der Konfigurationen</translation></message>
 <message><source>number of extra data</source><translation>Nummer der Zusatzdaten</translation></message>
-<message><source>number of fields</source><translation>Anzahl der Felder</translation></message>
 <message><source>number of rays drawn from a point</source><translation>Zahl der von einem Punkt gezeichneten Strahlen</translation></message>
 <message><source>number of rows</source><translation>Anzahl der Zeilen</translation></message>
 <message><source>number of the build</source><translation>Nummer des Exemplars</translation></message>
@@ -2427,5 +2424,17 @@
 <message><source>▶</source><translation>▶</translation></message>
 <message><source>▸ Pupil shape</source><translation>▸ Pupillenform</translation></message>
 <message><source>▾ Pupil shape</source><translation>▾ Pupillenform</translation></message>
+<message><source>Copy as CSV</source><translation>Als CSV kopieren</translation></message>
+<message><source>Copy the table with all its digits as CSV (Ctrl+Shift+D)</source><translation>Die Tabelle mit allen Ziffern als CSV kopieren (Strg+Umschalt+D)</translation></message>
+<message><source>Performance</source><translation>Leistung</translation></message>
+<message><source>Performance: figures over the field by exact rays. RMS: of the wavefront, without piston and tilt. S and T: sagittal and tangential contrast. R80: the radius that holds 80 % of the light. Illumination: relative to the middle of the field. Lateral colour: shortest less longest wavelength of the lens. Click a row to go to its field.</source><translation>Leistung: Zahlen über das Feld aus exakten Strahlen. RMS: der Wellenfront, ohne Konstante und Verkippung. S und T: sagittaler und tangentialer Kontrast. R80: Radius, der 80 % des Lichts enthält. Helligkeit: bezogen auf die Feldmitte. Farbquerfehler: kürzeste minus längste Wellenlänge des Objektivs. Ein Klick auf eine Zeile geht zu ihrem Feld.</translation></message>
+<message><source>RMS</source><translation>RMS</translation></message>
+<message><source>This is A: B has fields of its own, whose table is there with B on screen.</source><translation>Das ist A: B hat eigene Felder, deren Tabelle erscheint, wenn B zu sehen ist.</translation></message>
+<message><source>illumination</source><translation>Helligkeit</translation></message>
+<message><source>there is no field to compute; list at least one</source><translation>es ist kein Feld zu berechnen; mindestens eines angeben</translation></message>
+<message><source>Overlays: one curve for each field, wavelength or spatial frequency. Contrast is tangential (thick) and sagittal (fine). Type any fields, or choose how many; wavelengths are those of Matrix. A vertical line marks the present point.</source><translation>Vergleichskurven: eine Kurve für jedes Feld, jede Wellenlänge oder Ortsfrequenz. Der Kontrast ist tangential (dick) und sagittal (fein). Felder eintippen oder ihre Zahl wählen; die Wellenlängen sind die der Matrix. Eine senkrechte Linie zeigt die jetzige Stelle.</translation></message>
+<message><source>number of fields</source><translation>Zahl der Felder</translation></message>
+<message><source>RMS wavefront</source><translation>RMS der Wellenfront</translation></message>
+<message><source>Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur.</source><translation>Effektivwert der Wellenfront über die Pupille, ohne Konstante und Verkippung, die nicht unscharf machen.</translation></message>
 </context>
 </TS>

@@ -6,7 +6,6 @@ from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRectF, QSignalBl
 from PySide6.QtGui import QColor, QPainter
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHeaderView,
     QStyledItemDelegate,
     QStyleOptionViewItem,
     QTableWidget,
@@ -23,6 +22,7 @@ from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.build_errors import LARGEST
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import ToleranceView
+from p2sf_explorer.widgets.plain_table import PlainTable
 
 WORST_TIP = "Worst builds: click to see one as A beside the lens as designed, B"
 HARMS = {"rms_waves": "adds, λ", "strehl": "takes", "mtf": "takes", "boresight_um": "shifts, µm"}
@@ -57,39 +57,6 @@ def unit_words(kind: Kind) -> str:
     return tr("fr.") if kind in IRREGULAR else UNITS[kind]
 
 
-class _Table(QTableWidget):
-    """A table of rows that are chosen whole, in the look of the theme."""
-
-    def __init__(self, heads: tuple[str, ...], name: str):
-        super().__init__(0, len(heads))
-        self.setHorizontalHeaderLabels([tr(head) for head in heads])
-        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setTabKeyNavigation(False)
-        self.setShowGrid(False)
-        self.verticalHeader().hide()
-        header = self.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setSectionResizeMode(len(heads) - 1, QHeaderView.ResizeMode.Stretch)
-        self.setAccessibleName(tr(name))
-        self.setMinimumHeight(60)
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the scale of a theme."""
-        self.verticalHeader().setDefaultSectionSize(theme.px(22))
-        self.viewport().update()
-
-    def put(self, row: int, column: int, text: str, right: bool = False) -> QTableWidgetItem:
-        """Write a cell."""
-        item = QTableWidgetItem(text)
-        side = Qt.AlignmentFlag.AlignRight if right else Qt.AlignmentFlag.AlignLeft
-        item.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
-        item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
-        self.setItem(row, column, item)
-        return item
-
-
 SHARE_ROLE = Qt.ItemDataRole.UserRole
 
 
@@ -110,7 +77,7 @@ class BarDelegate(QStyledItemDelegate):
         super().paint(painter, option, index)
 
 
-class ErrorTable(_Table):
+class ErrorTable(PlainTable):
     """Errors, the most harmful first; a ± value may be typed over.
 
     ``typed``: which one, and its new amount; ``refused``: why a text is none.
@@ -192,7 +159,7 @@ def _doubt(harm: float, form_error: float, most: float) -> str:
     return local(tr(FORM_TIP, value=significant(harm + form_error, 2)))
 
 
-class BuildList(_Table):
+class BuildList(PlainTable):
     """The worst builds; a click, or Enter, opens one (``opened``: its number from 0)."""
 
     opened = Signal(int)
