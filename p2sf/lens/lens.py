@@ -15,11 +15,12 @@ from p2sf.conventions import NM_PER_UM, FloatOrArray, angle_from_axis
 from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR, MIRROR, Medium, transmittance_of
 from p2sf.html import html_table
+from p2sf.lens.grating import Phase
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.properties import PROPERTIES, turned_breaks
 from p2sf.lens.rim import Rim
-from p2sf.lens.shapes import Conic, Diffraction, EvenTerms, Part, RadialPart, SagAndSlope, Shape
+from p2sf.lens.shapes import Conic, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Message
 from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
@@ -58,10 +59,10 @@ class Surface:
         A4, A6, …, in mm⁻³, mm⁻⁵, …
     semi_diameter : float
         Radius of the clear aperture, mm.
-    shape : RadialPolynomial, Qcon or Qbfs, optional
+    shape : Shape, optional
         A shape added to the sag of the conic and its aspheric terms.
-    diffraction : Diffraction, optional
-        The phase that a diffractive surface adds.
+    diffraction : Diffraction or Grating, optional
+        The phase that a diffractive surface adds, or the lines of a grating.
     before, after : tuple of Placement
         Coordinate breaks, applied in order, from the axes before the surface to its own, and from its own to those
         behind it, along whose z the thickness is measured.
@@ -84,7 +85,7 @@ class Surface:
     aspheric: tuple[float, ...] = ()
     semi_diameter: float = inf
     shape: Shape | None = None
-    diffraction: Diffraction | None = None
+    diffraction: Phase | None = None
     before: tuple[Placement, ...] = ()
     after: tuple[Placement, ...] = ()
     inner_radius: float = 0.0

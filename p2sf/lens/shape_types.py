@@ -3,15 +3,20 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
+from p2sf.lens.anamorphic import Biconic, Toroid
 from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.shapes import EXTENDED, EXTENDED_ODD, ODD, Qbfs, Qcon, RadialPolynomial, Shape
 
 
 class ShapeType(NamedTuple):
-    """A function from coefficients and normalisation radius to a shape, and the largest number of coefficients."""
+    """A function from coefficients and normalisation radius to a shape, and the largest number of coefficients.
 
-    of: Callable[[tuple[float, ...], float], Shape]
+    With ``keys`` it is one from these keywords instead, which are fields of the shape.
+    """
+
+    of: Callable[..., Shape]
     most: int = 60
+    keys: tuple[str, ...] = ()
 
 
 def _even(numbers: tuple[float, ...], radius: float) -> Shape:
@@ -29,4 +34,6 @@ SHAPES = {
     "XY polynomial": ShapeType(XYPolynomial, XYPolynomial.most),
     "Zernike standard sag": ShapeType(ZernikeStandardSag, ZernikeStandardSag.most),
     "Zernike fringe sag": ShapeType(ZernikeFringeSag, ZernikeFringeSag.most),
+    "biconic": ShapeType(Biconic, keys=("radius_x", "radius_y", "conic_x", "conic_y", "turn_deg")),
+    "toroid": ShapeType(Toroid, keys=("radius_x", "radius_y", "conic_y", "coefficients", "turn_deg")),
 }

@@ -351,6 +351,14 @@ class Diffraction:
     normalisation_mm: float
     order: float = 1.0
 
+    radial = True
+    name = Message("diffractive")
+
+    @property
+    def mean(self) -> "Diffraction":
+        """Return the phase itself, which is of revolution."""
+        return self
+
     @property
     def numbers(self) -> tuple[float, ...]:
         """Return all numbers of the phase."""
@@ -372,11 +380,20 @@ class Diffraction:
         phase, slope = _even_terms(self.coefficients, square * scale)
         return phase * self.order, slope * (self.order * scale)
 
+    def phase_and_gradient(self, x: FloatOrArray, y: FloatOrArray) -> tuple[FloatOrArray, np.ndarray]:
+        """Return the phase in radians and its derivatives in x and y, (2, …), per mm, at places in mm."""
+        phase, slope = self.phase_and_slope(x * x + y * y)
+        return phase, np.stack(np.broadcast_arrays(2 * slope * x, 2 * slope * y))
+
     def path_terms(self, wavelength_um: FloatOrArray) -> tuple[FloatOrArray, FloatOrArray]:
         """Return the coefficients of r² and r⁴ of the added path, mm⁻¹ and mm⁻³."""
         second, fourth = (*self.coefficients, 0.0, 0.0)[:2]
         unit = wavelength_um * (self.order * WAVES_MM)
         return unit * (second / self.normalisation_mm**2), unit * (fourth / self.normalisation_mm**4)
+
+    def turned(self, angle_deg: float) -> "Diffraction":
+        """Return the phase itself."""
+        return self
 
     def scaled(self, factor: float) -> "Diffraction":
         """Return the phase stretched to ``factor`` times the radius."""

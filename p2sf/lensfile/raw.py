@@ -8,10 +8,11 @@ from typing import Literal
 
 from p2sf.errors import RequestError
 from p2sf.glass.media import Medium
+from p2sf.lens.grating import Phase
 from p2sf.lens.lens import USUAL_AIM, Aim
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
-from p2sf.lens.shapes import Diffraction, Shape
+from p2sf.lens.shapes import Shape
 from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -67,7 +68,7 @@ class RawSurface:
     semi_diameter: float = inf
     inner_radius: float = 0.0
     shape: Shape | None = None
-    diffraction: Diffraction | None = None
+    diffraction: Phase | None = None
     before: tuple[Placement, ...] = ()
     after: tuple[Placement, ...] = ()
     ideal_focal_length: float = inf

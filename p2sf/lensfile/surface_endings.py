@@ -1,7 +1,10 @@
 """Whether a lens file of some format has a line for all that the surfaces of a lens are."""
 
+from dataclasses import replace
+
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.placement import Placement
 from p2sf.lens.properties import PROPERTIES, TOML
 from p2sf.lens.shapes import Shape
 from p2sf.messages import Message
@@ -22,6 +25,31 @@ def type_in_file(types: dict[type[Shape], str], shape: Shape, number: int, endin
     if type(shape) not in types:
         raise _refusal(number, shape.name, ending, TOML in shape.endings)
     return types[type(shape)]
+
+
+def in_own_axes(surface: Surface) -> Surface:
+    """Return the same surface with breaks about z in place of the turn of its shape or grating, for files without one.
+
+    Rims turn with the axes and are turned back.
+    """
+    turn = getattr(surface.diffraction or surface.shape, "turn_deg", 0.0)
+    if not turn:
+        return surface
+    upright = {each.name: each.turned(getattr(surface, each.name), -turn) for each in PROPERTIES}
+    into, back = Placement(tilt_z_deg=turn), Placement(tilt_z_deg=-turn)
+    return replace(surface, **upright | {"before": (*surface.before, into), "after": (back, *surface.after)})
+
+
+def check_plain(surface: Surface, what: Message, number: int) -> None:
+    """Raise LensFileError for a conic or terms beside a shape or grating whose line in a file has no room for them."""
+    alone = replace(surface, shape=None) if surface.shape else surface
+    if any(alone.aspheric) or alone.shape or (surface.shape and (alone.curvature or alone.conic or alone.diffraction)):
+        raise LensFileError(
+            "surface {surface} has a curvature, terms or diffraction beside its {kind}, for which the file has no "
+            "line; save as TOML",
+            surface=number,
+            kind=what,
+        )
 
 
 def _refusal(number: int, what: Message, ending: str, elsewhere: bool) -> LensFileError:

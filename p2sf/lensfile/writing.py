@@ -8,11 +8,13 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import Any
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
+from p2sf.lens.anamorphic import Anamorphic
 from p2sf.lens.even_terms import even_asphere, power_terms
 from p2sf.lens.freeform import Freeform, ZernikeSag
+from p2sf.lens.grating import Grating
 from p2sf.lens.lens import Lens, Surface, message_if_misaligned
 from p2sf.lens.properties import ISET, PROPERTIES, ZEMAX
 from p2sf.lens.shapes import Qbfs
@@ -24,7 +26,7 @@ from p2sf.lensfile.formats.zemax import FREEFORMS
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits, write_text
-from p2sf.lensfile.surface_endings import check_endings, type_in_file
+from p2sf.lensfile.surface_endings import check_endings, check_plain, in_own_axes, type_in_file
 from p2sf.lensfile.toml.columns import columns_of
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
@@ -36,6 +38,7 @@ ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
 UNLIMITED = 1e10  # mm: no rim
 HIGHEST_ZEMAX_ORDER = 16
 HIGHEST_ZEMAX_ODD = 8
+MOST_TOROID = 7  # terms, to y¹⁴
 MOST_ISET_TERMS = 20
 SPECTRUM_NM = tuple(range(400, 701, 10))
 
@@ -184,7 +187,7 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
 
 def _zemax_rows(lens: Lens, number: int, stop: int) -> list[list[str]]:
     """Return the lines of a surface, and of the coordinate breaks before and behind it."""
-    surface, before = lens.surfaces[number - 1], lens.media[number - 1]
+    surface, before = in_own_axes(lens.surfaces[number - 1]), lens.media[number - 1]
     breaks = [row for placement in surface.before for row in break_rows(placement, 0.0)]
     open_wide = not isfinite(surface.semi_diameter) and not surface.inner_radius and not surface.rim
     idle = surface.bare and surface.medium == before and number != stop and open_wide
@@ -206,17 +209,20 @@ def _zemax_break(row: Sequence[float], more: float = 0.0) -> list[str]:
 
 def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list[str]:
     kind, numbers = _zemax_shape(surface, number)
+    curvature, conic = surface.curvature, surface.conic
+    if isinstance(surface.shape, Anamorphic):
+        curvature, conic = surface.shape.curvatures[1], surface.shape.conic_y
     rim = surface.semi_diameter
     if number == stop and lens.aperture.kind == "stop_semi_diameter":
         rim = lens.aperture.value
     return [
         *["  STOP"] * (number == stop),
         f"  TYPE {kind}",
-        f"  CURV {digits(surface.curvature)}",
+        f"  CURV {digits(curvature)}",
         *numbers,
         f"  DISZ {digits(surface.thickness)}",
         *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
-        *[f"  CONI {digits(surface.conic)}"] * bool(surface.conic),
+        *[f"  CONI {digits(conic)}"] * bool(conic),
         f"  DIAM {digits(rim) if isfinite(rim) else 0} {int(isfinite(rim))} 0 0 1",
         *_zemax_rim(surface, number),
     ]
@@ -248,6 +254,12 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
     The first type that holds it is taken: even and odd aspheres in powers of r, extended ones in powers of r over the
     normalisation radius, to which Qcon is converted exactly.
     """
+    if isinstance(surface.shape, Anamorphic):
+        return _zemax_anamorphic(surface, surface.shape, number)
+    if isinstance(surface.diffraction, Grating):
+        check_plain(surface, surface.diffraction.name, number)
+        lines = surface.diffraction.lines_per_mm / UM_PER_MM
+        return "DGRATING", [f"  PARM 1 {digits(lines)}", f"  PARM 2 {digits(surface.diffraction.order)}"]
     radius, terms = power_terms(surface)
     odd, top = any(power % 2 for power in terms), max(terms, default=0)
     step = 1 if odd else 2
@@ -275,6 +287,21 @@ def _zemax_shape(surface: Surface, number: int) -> tuple[str, list[str]]:
         return "ODDASPHE" if odd else "EVENASPH", parameters
     listed = tuple(terms.get(power, 0.0) for power in range(step, top + 1, step))
     return "XOSPHERE" if odd else "XASPHERE", _extra_data(radius, listed)
+
+
+def _zemax_anamorphic(surface: Surface, shape: Anamorphic, number: int) -> tuple[str, list[str]]:
+    """Return the type of a shape with two radii and its parameters; 0 is an infinite radius."""
+    check_plain(surface, shape.name, number)
+    kind, names = shape.zemax
+    numbers = [*(getattr(shape, name) for name in names), *shape.coefficients]
+    if len(shape.coefficients) > MOST_TOROID:
+        raise LensFileError(
+            "surface {surface} has a term in y^{power}, and a Zemax toroid holds powers up to y^{most}; save as TOML",
+            surface=number,
+            power=2 * len(shape.coefficients),
+            most=2 * MOST_TOROID,
+        )
+    return kind, [f"  PARM {place} {digits(x) if isfinite(x) else 0}" for place, x in enumerate(numbers, 1)]
 
 
 def _own_type(surface: Surface, shape: Qbfs | Freeform, number: int) -> tuple[str, list[str]]:

@@ -16,9 +16,9 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.html import cell, html_table
+from p2sf.lens.grating import Phase
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.properties import PROPERTIES
-from p2sf.lens.shapes import Diffraction
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import crossing
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
@@ -314,7 +314,7 @@ def _shape_of(surface: Surface) -> tuple[float, float]:
 
 
 @lru_cache(maxsize=64)
-def _diffractive(lens: Lens) -> tuple[tuple[int, Diffraction], ...]:
+def _diffractive(lens: Lens) -> tuple[tuple[int, Phase], ...]:
     """Return the diffractive surfaces: their indices from 0, and their diffraction."""
     return tuple((at, s.diffraction) for at, s in enumerate(lens.surfaces) if s.diffraction is not None)
 

@@ -14,14 +14,16 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import FloatOrArray
+from p2sf.lens.grating import Phase
 from p2sf.lens.lens import Surface
 from p2sf.lens.placement import Motion
 from p2sf.lens.rim import Rim
-from p2sf.lens.shapes import WAVES_MM, Diffraction
+from p2sf.lens.shapes import WAVES_MM
 
 NEWTON_STEPS = 40
 # A root is found when the sag differs from the ray's height by no more than the rounding of their sum.
 ROUNDING = 16 * np.finfo(float).eps
+SHARES = tuple(share * side for share in (0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 1.0) for side in (1, -1))
 
 
 class Status(IntEnum):
@@ -176,37 +178,82 @@ def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) 
     )
 
 
+class SagMiss(NamedTuple):
+    """How far a surface is above rays in z, ray·normal, and what `Normal` takes of its slopes, where rays stand."""
+
+    miss: np.ndarray
+    along: np.ndarray
+    slope: FloatOrArray
+    uneven: np.ndarray | None
+
+
+def _sag_miss(beam: Beam, surface: Surface) -> SagMiss:
+    """Return how far rays are from a surface of several parts; NaN beyond its edge."""
+    sag, slope = surface.sag_and_slope(beam.x * beam.x + beam.y * beam.y)
+    along = beam.r - 2 * slope * (beam.x * beam.p + beam.y * beam.q)
+    uneven = None
+    for part in surface.uneven_parts:
+        more, gradient = part.sag_and_gradient(beam.x, beam.y, surface.curvature, surface.conic)
+        sag, uneven = sag + more, gradient if uneven is None else uneven + gradient
+        along = along - (gradient * beam.ray[:2]).sum(0)
+    return SagMiss(sag - beam.z, along, slope, uneven)
+
+
 def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
     """Carry rays to a surface of several parts by Newton's method, from the conicoid or, if that is missed, the plane.
 
-    A ray for which it does not converge is refused.
+    A step beyond the edge is halved. A ray for which it does not converge is refused.
     """
-    step, *_ = _conic_step(beam, surface.curvature, surface.conic, index)
-    beam.advance(np.where(np.isfinite(step), step, 0.0), index)
-    uneven = None
+    start, *_ = _conic_step(beam, surface.curvature, surface.conic, index)
+    beam.advance(np.where(np.isfinite(start), start, 0.0), index)
+    if surface.uneven_parts:
+        _within_edge(beam, surface, index)
+    step = np.zeros(beam.x.shape)
     for _ in range(NEWTON_STEPS):
-        sag, slope = surface.sag_and_slope(beam.x * beam.x + beam.y * beam.y)
-        along = beam.r - 2 * slope * (beam.x * beam.p + beam.y * beam.q)
-        uneven = None
-        for part in surface.uneven_parts:
-            more, gradient = part.sag_and_gradient(beam.x, beam.y, surface.curvature, surface.conic)
-            sag, uneven = sag + more, gradient if uneven is None else uneven + gradient
-            along -= (gradient * beam.ray[:2]).sum(0)
-        miss = sag - beam.z
+        at = _sag_miss(beam, surface)
         size = np.abs(beam.x) + np.abs(beam.y) + np.abs(beam.z)
         if surface.addends_mm:
             size += surface.addends_mm
-        open_ = ~(np.abs(miss) <= ROUNDING * size)
-        if not open_.any() or not np.isfinite(miss[open_]).any():
+        open_, beyond = ~(np.abs(at.miss) <= ROUNDING * size), np.isnan(at.miss)
+        if not (open_ & ~(beyond & (step == 0))).any():
             break
-        beam.advance(np.where(open_, miss / along, 0.0), index)
-    beam.fail(~np.isfinite(miss), Status.MISSED, number)
-    beam.fail(open_ | ~(along > 0 if _forwards(index) else along < 0), Status.REFUSED, number)
-    slope = 2 * slope
+        onward = np.where(beyond, -step / 2, np.where(open_, at.miss / at.along, 0.0))
+        beam.advance(onward, index)
+        step = np.where(beyond, step / 2, onward)
+    beam.fail(~np.isfinite(at.miss), Status.MISSED, number)
+    beam.fail(open_ | ~(at.along > 0 if _forwards(index) else at.along < 0), Status.REFUSED, number)
+    slope, uneven = 2 * at.slope, at.uneven
     square = 1 + slope * slope * (beam.x * beam.x + beam.y * beam.y)
     if uneven is not None:
         square = 1 + np.square(slope * beam.place[:2] + uneven).sum(0)
-    return Normal(slope, 1.0, square, along, along * along, uneven)
+    return Normal(slope, 1.0, square, at.along, at.along * at.along, uneven)
+
+
+def _beyond_edge(beam: Beam, surface: Surface) -> np.ndarray:
+    """Return which rays, of those that have not failed, are where the surface has no sag."""
+    beyond: np.ndarray = np.isnan(_sag_miss(beam, surface).miss) & (beam.status == Status.PASSED)
+    return beyond
+
+
+def _within_edge(beam: Beam, surface: Surface, index: FloatOrArray) -> None:
+    """Carry rays that meet the plane of the vertex beyond the edge of the surface to where it has a sag, if anywhere.
+
+    A steep ray meets a deep cylinder inside its edge although it crosses that plane outside. Places are tried up to the
+    ray's height from the plane, and the nearest is taken.
+    """
+    if not _beyond_edge(beam, surface).any():
+        return
+    reach = (np.abs(beam.x) + np.abs(beam.y)) / np.abs(beam.r)
+    home, moved = beam.place.copy(), np.zeros(beam.x.shape)
+    for share in SHARES:
+        lost = _beyond_edge(beam, surface)
+        if not lost.any():
+            break
+        moved = np.where(lost, share * reach, moved)
+        beam.place[...] = home + moved * beam.ray
+    moved = np.where(_beyond_edge(beam, surface), 0.0, moved)
+    beam.place[...] = home
+    beam.advance(moved, index)
 
 
 def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: FloatOrArray, number: int) -> None:
@@ -234,17 +281,16 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
         beam.ray[:2] -= push * beam.place[:2]
 
 
-def diffract(beam: Beam, normal: Normal | None, diffraction: Diffraction, after: FloatOrArray, number: int) -> None:
+def diffract(beam: Beam, normal: Normal | None, diffraction: Phase, after: FloatOrArray, number: int) -> None:
     """Bend every ray by n'K' = nK + (λ/2π)∇φ + Γ·normal, and add λφ/2π to its path (Welford 1975).
 
     φ is a function of x and y. The normal's multiple Γ follows from |n'K'| = n'; where there is none, the order is
     evanescent.
     """
-    square = beam.x * beam.x + beam.y * beam.y
-    phase, slope = diffraction.phase_and_slope(square)
+    phase, gradient = diffraction.phase_and_gradient(beam.x, beam.y)
     unit = WAVES_MM * beam.wavelength_um
     beam.path += unit * phase
-    beam.ray[:2] += (2 * unit * slope) * beam.place[:2]
+    beam.ray[:2] += unit * gradient
     steep, axial, length_square = _complete_normal(beam, normal)
     along = beam.r * axial - (steep * beam.ray[:2]).sum(0)
     gain = after * after - (beam.ray * beam.ray).sum(0)

@@ -10,12 +10,15 @@ from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, ConstantIndex
 from p2sf.lens import (
     Aperture,
+    Biconic,
     Diffraction,
+    Grating,
     Irregularity,
     Lens,
     Placement,
     Rim,
     Surface,
+    Toroid,
     Transmission,
     XYPolynomial,
     ZernikeFringeSag,
@@ -38,9 +41,12 @@ from p2sf.raytrace.trace import launch, per_ray, run, trace
 
 PLAIN = Surface(40.0, 4.0, ConstantIndex(1.5), semi_diameter=8.0)
 MIXED = (0.0, 0.01, 0.0, 0.02, -0.03, 0.01, 0.02, 0.005)  # mm, of every term of a shape
-SHAPE_SAMPLES = {kind: each.of(MIXED, 8.0) for kind, each in SHAPES.items() if "odd" not in kind} | {
+BY_TERMS = [kind for kind, each in SHAPES.items() if not each.keys]
+SHAPE_SAMPLES = {kind: SHAPES[kind].of(MIXED, 8.0) for kind in BY_TERMS if "odd" not in kind} | {
     "odd asphere": SHAPES["odd asphere"].of((0.0, 1e-3, 2e-4, -1e-5), 1.0),
     "extended odd asphere": SHAPES["extended odd asphere"].of((0.0, 0.02, 0.01), 8.0),
+    "biconic": Biconic(radius_x=60.0, radius_y=-45.0, conic_x=-2.0, conic_y=0.5, turn_deg=15.0),
+    "toroid": Toroid(radius_x=-50.0, radius_y=40.0, conic_y=-0.7, coefficients=(0.0, 2e-5), turn_deg=-70.0),
 }
 # A value of every property, another than the default: of a new one, state it here.
 SAMPLES = {
@@ -51,7 +57,7 @@ SAMPLES = {
     "aspheric": (1e-5, -2e-8),
     "semi_diameter": 6.0,
     "shape": SHAPE_SAMPLES,
-    "diffraction": Diffraction((-250.0, 14.0), 10.0),
+    "diffraction": {"diffractive": Diffraction((-250.0, 14.0), 10.0), "grating": Grating(90.0, -2.0, 25.0)},
     "before": (Placement(0.1, -0.2, 0.0, 0.5, 0.3),),
     "after": (Placement(-0.1, 0.2, 0.0, -0.5, -0.3),),
     "inner_radius": 1.0,
@@ -63,15 +69,21 @@ SAMPLES = {
 WAVELENGTH = 0.5875618
 WRITERS = {TOML: lens_to_toml, ZEMAX: lens_to_zmx, CODE_V: lens_to_seq, ISET: lens_to_iset}
 CASES = [
-    *(pytest.param(name, value, id=name) for name, value in SAMPLES.items() if name != "shape"),
-    *(pytest.param("shape", shape, id=kind) for kind, shape in SHAPE_SAMPLES.items()),
+    *(pytest.param(name, value, id=name) for name, value in SAMPLES.items() if not isinstance(value, dict)),
+    *(
+        pytest.param(name, one, id=kind)
+        for name, kinds in SAMPLES.items()
+        if isinstance(kinds, dict)
+        for kind, one in kinds.items()
+    ),
 ]
 each_case = pytest.mark.parametrize(("name", "value"), CASES)
 UNBOUNDED = ("ideal_focal_length", "aspheric")  # inf, and no terms at all, are nothing to interpolate from
 
 
 def sample(name: str, value: object) -> Surface:
-    base = Surface(thickness=4.0, medium=ConstantIndex(1.5)) if name == "ideal_focal_length" else PLAIN
+    alone = name == "ideal_focal_length" or isinstance(value, Biconic | Toroid)  # which are whole surfaces
+    base = Surface(thickness=4.0, medium=ConstantIndex(1.5), semi_diameter=8.0) if alone else PLAIN
     return replace(base, **{name: value})
 
 
@@ -258,6 +270,10 @@ def test_every_shape_has_its_type_and_is_known_by_its_kind():
     """A shape without a type in lens files, or whose type makes another, fails."""
     assert {type(shape) for shape in SHAPE_SAMPLES.values()} == set(_concrete(Shape))
     for kind, each in SHAPES.items():
+        if each.keys:
+            assert each.of().kind == kind and TOML in each.of().endings <= EVERY
+            assert {f.name for f in fields(each.of)} == set(each.keys)
+            continue
         numbers = (0.01, 0.0, 0.02) if kind == "extended odd asphere" else (0.0, 0.01, 0.0, 0.02)
         shape = each.of(numbers, 1.0 if kind == "odd asphere" else 9.0)
         assert shape.kind == kind

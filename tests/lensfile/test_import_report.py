@@ -26,11 +26,11 @@ def test_the_report_is_printed_and_the_lens_written(capsys, tmp_path):
 
 
 def test_a_refused_lens_is_exit_code_2_and_one_sentence(capsys, tmp_path):
-    path = tmp_path / "toroid.zmx"
-    path.write_text(text_of("doublet.zmx").replace("TYPE EVENASPH", "TYPE TOROIDAL"), encoding="utf-8")
+    path = tmp_path / "binary.zmx"
+    path.write_text(text_of("doublet.zmx").replace("TYPE EVENASPH", "TYPE BINARY_1"), encoding="utf-8")
     code, text, errors = run(capsys, path, "-o", tmp_path / "out.toml")
     assert (code, text) == (2, "") and errors.count("\n") == 1
-    assert "surface 3 has type TOROIDAL" in errors and not (tmp_path / "out.toml").exists()
+    assert "surface 3 has type BINARY_1" in errors and not (tmp_path / "out.toml").exists()
 
 
 def test_a_substitute_needs_consent(capsys, tmp_path):

@@ -129,7 +129,7 @@ def diffract(surface: Surface, y: float, wavelength_um: float) -> float:
     """Return what a diffractive surface adds to the optical cosine along y, (λ/2π)dφ/dy."""
     if surface.diffraction is None:
         return 0.0
-    return 2 * y * WAVES_MM * wavelength_um * float(surface.diffraction.phase_and_slope(y * y)[1])
+    return WAVES_MM * wavelength_um * float(surface.diffraction.phase_and_gradient(0.0, y)[1][1])
 
 
 def refract(

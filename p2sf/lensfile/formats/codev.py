@@ -8,13 +8,15 @@ numbers are told by their size (`_finish`).
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from math import inf, log, nan, pi
+from math import atan2, degrees, inf, log, nan, pi
 from typing import NamedTuple
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import MIRROR, Medium
+from p2sf.lens.anamorphic import Anamorphic, Biconic, Toroid
 from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens.grating import Grating
 from p2sf.lens.lens import Lens
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, RadialPolynomial, Shape
@@ -34,8 +36,8 @@ TILTS = Message("is tilted or decentred otherwise than by XDE to CDE")
 SHAPES = Message("has a shape that is not a sphere, a conic or an asphere in powers of r")
 REFUSED = {
     **dict.fromkeys("XOD YOD ZOD GLB RET".split(), TILTS),
-    **dict.fromkeys("GRT HOE HX1 GRO GRS HX2 HY1 HY2 HZ1 HZ2".split(), Message("diffracts")),
-    **dict.fromkeys("XTO YTO AAS CYL XYP ZRN RDX CUX UDS ODD ANA BIC SPL".split(), SHAPES),
+    **dict.fromkeys("HOE HX1 HX2 HY1 HY2 HZ1 HZ2".split(), Message("diffracts")),
+    **dict.fromkeys("XYP ZRN UDS ODD ANA BIC SPL AR BR CR DR AP BP CP DP".split(), SHAPES),
     **dict.fromkeys("GRN GIR URN".split(), Message("is followed by a gradient index")),
     **dict.fromkeys("NSS NSE ENT EXI".split(), Message("begins a non-sequential part")),
     **dict.fromkeys("CUF FRE".split(), Message("is a Fresnel surface")),
@@ -154,6 +156,8 @@ class CodeVReading:
     special: dict[int, dict[str, float]] = field(default_factory=dict)
     special_kinds: dict[int, str] = field(default_factory=dict)
     phase: dict[int, dict[str, float]] = field(default_factory=dict)
+    anamorphic: dict[int, dict[str, float]] = field(default_factory=dict)  # KX, KY and the radius RDX in xz, by the id
+    anamorphic_kinds: dict[int, str] = field(default_factory=dict)
     tilts: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of XDE … CDE by the surface's id
     rims: dict[int, dict[str, float]] = field(default_factory=dict)  # numbers of RIM_NAMES by the surface's id
     returns: dict[int, str] = field(default_factory=dict)  # DAR, REV or BEN by the surface's id
@@ -325,6 +329,18 @@ def _set(name: str, what: Message) -> Callable[[CodeVReading, CodeVCommand, RawS
     return read
 
 
+def _two_radii(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read YTO, XTO, CYL or AAS, a surface with two radii, and its RDX or CUX in xz, its KX and KY."""
+    name = command.name[:3]
+    if name in TWO_RADII:
+        reading.anamorphic_kinds[id(surface)] = name
+        return
+    value = reading.number(command, 0, Message("number of a toroid or an anamorphic asphere"))
+    if name in ("RDX", "CUX"):
+        name, value = "RDX", to_curvature(value, True) if name == "CUX" else value
+    reading.anamorphic.setdefault(id(surface), {})[name] = value
+
+
 def _stop(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     reading.raw.stop = surface.number
 
@@ -388,13 +404,20 @@ def _special_value(reading: CodeVReading, command: CodeVCommand, surface: RawSur
 
 
 def _diffracts(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
-    """Read DIF DOE, HCT R, HOR order, HWL nm and HCO C1 value …: a phase of revolution; LensFileError for others."""
+    """Read DIF DOE, HCT R, HOR order, HWL nm and HCO C1 value …: a phase of revolution; LensFileError for others.
+
+    GRT or DIF GRT with GRO order, GRS spacing and the direction GRX, GRY, GRZ across its planes is a grating in lines.
+    """
     values, words = reading.phase.setdefault(surface.number, {}), [word.upper() for word in command.words]
     place = re.fullmatch(r"C(\d{1,2})", words[0]) if words and command.name[:3] == "HCO" else None
     if command.name[:3] in ("HOR", "HWL"):
         values[command.name[:3]] = reading.number(command, 0, Message("order or wavelength of a phase"))
     elif place:
         values[f"C{int(place[1])}"] = reading.number(command, 1, Message("coefficient of a phase"))
+    elif command.name[:3] in GRATING:
+        values[command.name[:3]] = reading.number(command, 0, Message("number of a grating"), 0.0)
+    elif (command.name[:3], *words[:1]) == ("DIF", "GRT"):
+        values["GRT"] = 0.0
     elif (command.name[:3], *words[:1]) not in (("DIF", "DOE"), ("HCT", "R")):
         raise reading.source.error(
             "{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is",
@@ -425,6 +448,8 @@ def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> N
         surface.semi_diameter = value if value > 0 else inf
 
 
+GRATING = ("GRT", "GRO", "GRS", "GRX", "GRY", "GRZ")
+TWO_RADII = ("YTO", "XTO", "CYL", "AAS")
 ONE_LETTER = {"WL", "NA", "K", *ORDERS}
 
 
@@ -457,7 +482,8 @@ ON_SURFACE = {
     **dict.fromkeys(("ELX", "ELY"), _ellipse),
     "SPS": _special,
     "SCO": _special_value,
-    **dict.fromkeys(("DIF", "HOR", "HWL", "HCT", "HCO"), _diffracts),
+    **dict.fromkeys(("DIF", "HOR", "HWL", "HCT", "HCO", *GRATING), _diffracts),
+    **dict.fromkeys((*TWO_RADII, "RDX", "CUX", "KX", "KY"), _two_radii),
     **dict.fromkeys(("RDY", "CUY"), _radius),
     **dict.fromkeys(ORDERS, _coefficient),
 }
@@ -479,8 +505,7 @@ IN_SYSTEM = {
 def read_codev(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .seq file; LensFileError with its line for what P2SF does not trace.
 
-    Refused by surface number and name: tilts of unread kinds, diffractive, toric and other
-    surfaces that are not spheres, conics or even aspheres.
+    Refused by surface number and name: tilts of unread kinds, holograms and special surfaces of other kinds.
     """
     listed = list(commands(source))
     count = max((int(number) for command in listed for number in _zoom_count(command)), default=1)
@@ -758,7 +783,11 @@ def _shape(reading: CodeVReading, surface: RawSurface) -> None:
         surface.aspheric = {power: surface.aspheric.get(power, 0.0) + value for power, value in terms.items()}
     elif terms:
         surface.shape = RadialPolynomial(tuple(terms.get(k, 0.0) for k in range(1, max(terms) + 1)), abs(radius))
+    _anamorphic(reading, surface)
     phase = dict(reading.phase.get(surface.number, {}))
+    if phase.keys() & set(GRATING):
+        surface.diffraction = _grating(reading, surface, phase)
+        return
     order, wavelength_nm = phase.pop("HOR", 1.0), phase.pop("HWL", 0.0)
     paths = {int(name[1:]): value for name, value in phase.items() if value}
     if not paths or not order:
@@ -770,6 +799,48 @@ def _shape(reading: CodeVReading, surface: RawSurface) -> None:
     wave = 2 * pi * reading.raw.unit_mm * NM_PER_UM * UM_PER_MM / wavelength_nm
     numbers = tuple(wave * paths.get(place, 0.0) for place in range(1, max(paths) + 1))
     surface.diffraction = Diffraction(numbers, 1.0, order)
+
+
+def _anamorphic(reading: CodeVReading, surface: RawSurface) -> None:
+    """Give a surface its two radii: S or RDY is that in yz. K and A, B, … are of the curve, in xz for XTO."""
+    kind, numbers = reading.anamorphic_kinds.get(id(surface), ""), reading.anamorphic.get(id(surface), {})
+    if not kind:
+        if any(numbers.values()):
+            raise reading.source.error(
+                "{surface} has a radius or a conic constant in x, but is neither YTO, XTO, CYL nor AAS; state which",
+                surface.line,
+                surface=surface.name,
+            )
+        return
+    x, y = numbers.get("RDX", 0.0) or inf, 1 / surface.curvature if surface.curvature else inf
+    terms = tuple(surface.aspheric.get(power, 0.0) for power in range(2, max(surface.aspheric, default=0) + 1, 2))
+    if kind == "AAS" and any(terms):
+        raise reading.source.error("{surface} {reason}", surface.line, surface=surface.name, reason=SHAPES)
+    shape: Anamorphic
+    if kind == "AAS":
+        conic_x, conic_y = numbers.get("KX", 0.0), numbers.get("KY", surface.conic)
+        shape = Biconic(radius_x=x, radius_y=y, conic_x=conic_x, conic_y=conic_y)
+    elif kind == "XTO":
+        shape = Toroid(radius_x=y, radius_y=x, conic_y=surface.conic, coefficients=terms, turn_deg=90.0)
+    else:
+        shape = Toroid(radius_x=x, radius_y=y, conic_y=surface.conic, coefficients=terms)
+    surface.shape, surface.curvature, surface.conic, surface.aspheric = shape, 0.0, 0.0, {}
+
+
+def _grating(reading: CodeVReading, surface: RawSurface, numbers: dict[str, float]) -> Grating | None:
+    """Return the grating of GRS and GRO across GRX, GRY, by default y; its order counts as Zemax counts it."""
+    spacing, order = numbers.get("GRS", 0.0), numbers.get("GRO", 1.0)
+    if not spacing or numbers.get("GRZ"):
+        raise reading.source.error(
+            "{surface} is a grating without a spacing (GRS), or its planes are not parallel to the axis (GRZ); correct "
+            "it",
+            surface.line,
+            surface=surface.name,
+        )
+    x, y = numbers.get("GRX", 0.0), numbers.get("GRY", 0.0)
+    told = "the order of the grating ({order:g}) turns rays towards +y where it is positive; see that it is meant so"
+    reading.notes.add("caution", told, surface.number, surface.line, order=order)
+    return Grating(1 / spacing, order, degrees(atan2(-x, y)) if x or y else 0.0) if order else None
 
 
 def _freeform(kind: str, values: dict[str, float], radius: float) -> Shape | None:

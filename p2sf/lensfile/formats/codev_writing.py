@@ -7,19 +7,21 @@ from typing import NamedTuple
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import AIR, CatalogueGlass, ConstantIndex, Medium, ModelGlass, TabulatedIndex
+from p2sf.lens.anamorphic import Anamorphic
 from p2sf.lens.even_terms import power_terms
 from p2sf.lens.freeform import Freeform, XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens.grating import Grating, Phase
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
 from p2sf.lens.properties import CODE_V
-from p2sf.lens.shapes import Diffraction, Shape
+from p2sf.lens.shapes import Shape
 from p2sf.lens.tilts import decentred_surface
 from p2sf.lensfile.conjugates import FAR, limiting_rim
 from p2sf.lensfile.formats.codev import BORN_WOLF, FREEFORMS, ORDERS, TILT_NAMES
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits
-from p2sf.lensfile.surface_endings import check_endings, type_in_file
+from p2sf.lensfile.surface_endings import check_endings, check_plain, in_own_axes, type_in_file
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
@@ -82,7 +84,7 @@ def _head(lens: Lens) -> list[str]:
 
 def _rows(lens: Lens, number: int) -> list[CodeVRow]:
     """Return a surface, and the planes that its breaks need before and behind it."""
-    surface, here = lens.surfaces[number - 1], lens.media[number - 1]
+    surface, here = in_own_axes(lens.surfaces[number - 1]), lens.media[number - 1]
     behind = lens.media[number]
     kind, own = _own_break(surface)
     if kind:
@@ -110,7 +112,8 @@ def _own_break(surface: Surface) -> tuple[str, Placement]:
 def _surface(lens: Lens, row: CodeVRow, stop: int, private: dict[Medium, str]) -> list[str]:
     """Return the commands of a row."""
     surface, number = row.surface, abs(row.number)
-    radius = surface.radius if isfinite(surface.radius) else 0.0
+    radius = surface.shape.radius_y if isinstance(surface.shape, Anamorphic) else surface.radius
+    radius = radius if isfinite(radius) else 0.0
     thickness = surface.thickness if row.number >= 0 else 0.0
     glass = "REFL" if surface.reflects else _glass(row.medium, private)
     lines = [" ".join(f"S {digits(radius)} {digits(thickness)} {glass}".split())]
@@ -132,6 +135,10 @@ def _shape(surface: Surface, number: int) -> list[str]:
     """Return K and A to J, the polynomial SPS ODD or a freeform; LensFileError for what none holds."""
     if isinstance(surface.shape, Freeform):
         return _freeform(surface, surface.shape, number)
+    if isinstance(surface.shape, Anamorphic):
+        return _anamorphic(surface, surface.shape, number)
+    if isinstance(surface.diffraction, Grating):
+        check_plain(surface, surface.diffraction.name, number)
     radius, terms = power_terms(surface)
     if radius == 1 and all(power in LETTERS for power in terms):
         conic = [f"K {digits(surface.conic)}"] * bool(surface.conic or terms)
@@ -173,10 +180,31 @@ def _freeform(surface: Surface, shape: Freeform, number: int) -> list[str]:
     return [*lines, *(f"SCO {name} {digits(value)}" for name, value in named if value)]
 
 
-def _phase(diffraction: Diffraction | None, lens: Lens) -> list[str]:
-    """Return a phase of revolution, A = 2πC/λ₀ at the lens's reference wavelength λ₀."""
+def _anamorphic(surface: Surface, shape: Anamorphic, number: int) -> list[str]:
+    """Return YTO or AAS and the numbers of a shape with two radii but for that in yz; A, B, … belong to y⁴, y⁶, …."""
+    check_plain(surface, shape.name, number)
+    kind, names = shape.code_v
+    numbers = {command: getattr(shape, name) for command, name in names.items()}
+    terms: dict[int, float] = {2 * place: alpha for place, alpha in enumerate(shape.coefficients, 1) if alpha}
+    if not terms.keys() <= LETTERS.keys():
+        raise LensFileError(
+            "surface {surface} has a term in y² or beyond y^{most}, for which a CODE V toroid has no line; save as "
+            "TOML",
+            surface=number,
+            most=max(LETTERS),
+        )
+    numbers |= {LETTERS[power]: alpha for power, alpha in terms.items()}
+    return [kind, *(f"{command} {digits(value)}" for command, value in numbers.items() if value and isfinite(value))]
+
+
+def _phase(diffraction: Phase | None, lens: Lens) -> list[str]:
+    """Return a phase of revolution, A = 2πC/λ₀ at the lens's reference wavelength λ₀, or a grating."""
     if diffraction is None:
         return []
+    if isinstance(diffraction, Grating):
+        if not diffraction.lines_per_mm:
+            return []
+        return ["GRT", f"GRO {digits(diffraction.order)}", f"GRS {digits(1 / diffraction.lines_per_mm)}"]
     wave = lens.reference_wavelength_um
     unit = wave / (UM_PER_MM * 2 * pi)
     terms = (a * unit / diffraction.normalisation_mm ** (2 * k) for k, a in enumerate(diffraction.coefficients, 1))

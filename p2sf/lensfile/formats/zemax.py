@@ -8,10 +8,13 @@ from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import NoReturn
+from typing import Any, NoReturn
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.glass.media import MIRROR
+from p2sf.lens.anamorphic import Anamorphic, Biconic, Toroid
 from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens.grating import Grating
 from p2sf.lens.lens import Lens
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
@@ -26,11 +29,8 @@ from p2sf.lensfile.source_text import LensText, number, whole
 from p2sf.messages import Message
 
 REFUSED_TYPES = {
-    "TOROIDAL": Message("a toroid that is not round"),
-    "BICONICX": Message("a surface that is not round"),
     "BICONICZ": Message("a surface that is not round"),
     "IRREGULA": Message("a surface that is not round"),
-    "DGRATING": Message("a grating that diffracts"),
     "BINARY_1": Message("a diffractive surface"),
     "BINARY_3": Message("a diffractive surface"),
     "PARAX_XY": Message("an ideal lens that is not round"),
@@ -46,8 +46,10 @@ FREEFORMS: dict[str, type[XYPolynomial] | type[ZernikeStandardSag] | type[Zernik
     "SZERNSAG": ZernikeStandardSag,
     "FZERNSAG": ZernikeFringeSag,
 }
+ANAMORPHIC: dict[str, type[Anamorphic]] = {shape.zemax[0]: shape for shape in (Biconic, Toroid)}
 READ_TYPES = (
-    *("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "QED_TYPE", "PARAXIAL"),
+    *("STANDARD", "EVENASPH", "ODDASPHE", "XASPHERE", "XOSPHERE", "BINARY_2", "DGRATING", "QED_TYPE", "PARAXIAL"),
+    *ANAMORPHIC,
     *FREEFORMS,
 )
 MOST_TERMS = 60  # of an extended asphere or a phase
@@ -465,8 +467,7 @@ IN_SYSTEM = {
 def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .zmx file; LensFileError with its line for what P2SF does not trace.
 
-    Refused by surface number and name: gratings, toroids, gradients,
-    non-sequential parts, black boxes, and any unknown type.
+    Refused by surface number and name: gradients, non-sequential parts, black boxes, and any unknown type.
     """
     reading = ZemaxReading(source, notes)
     for reading.line, text in enumerate(source.lines, 1):
@@ -687,6 +688,11 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
         surface.aspheric = {step * place: value for place, value in parameters.items() if place and value}
     if kind in FREEFORMS:
         _freeform(reading, surface, kind, parameters)
+    if kind in ANAMORPHIC:
+        _anamorphic(reading, surface, ANAMORPHIC[kind], parameters)
+    if kind == "DGRATING" and parameters.get(1) and parameters.get(2):
+        lines = parameters[1] * UM_PER_MM * reading.raw.unit_mm  # per unit of length, as all of a raw surface
+        surface.diffraction = Grating(lines, parameters[2])
     if kind == "QED_TYPE":
         _forbes(reading, surface)
     if kind not in ("XASPHERE", "XOSPHERE", "BINARY_2"):
@@ -700,6 +706,33 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
     elif any(terms):
         every = terms if step == 1 else tuple(x for term in terms for x in (0.0, term))
         surface.shape = RadialPolynomial(every, radius)
+
+
+def _anamorphic(
+    reading: ZemaxReading, surface: RawSurface, shape: type[Anamorphic], parameters: dict[int, float]
+) -> None:
+    """Give a surface a biconic or a toroid, whose curvature and conic constant in yz are its own; LensFileError.
+
+    A toroid may have Zernike terms in its extra data, whose number they begin with.
+    """
+    _, names = shape.zemax
+    numbers: dict[str, Any] = {name: parameters.get(place, 0.0) for place, name in enumerate(names, 1)}
+    numbers["radius_x"] = numbers["radius_x"] or inf
+    if "coefficients" in shape.__dataclass_fields__:
+        terms = [parameters.get(place, 0.0) for place in range(len(names) + 1, len(names) + 8)]
+        used = max((count for count, term in enumerate(terms, 1) if term), default=0)
+        numbers["coefficients"] = tuple(terms[:used])
+    if reading.extra.get(surface.number, {}).get(1):
+        raise reading.source.error(
+            "{surface} has Zernike terms on a shape that is not of revolution ({kind}), which is not read; leave them "
+            "out",
+            surface.line,
+            surface=surface.name,
+            kind=shape.name,
+        )
+    radius = 1 / surface.curvature if surface.curvature else inf
+    surface.shape = shape(radius_y=radius, conic_y=surface.conic, **numbers)
+    surface.curvature = surface.conic = 0.0
 
 
 def _forbes(reading: ZemaxReading, surface: RawSurface) -> None:

@@ -17,6 +17,7 @@ from p2sf.glass.media import (
     TabulatedIndex,
 )
 from p2sf.glass.transmittance import InternalTransmittance
+from p2sf.lens.grating import Grating, Phase
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Surface, scale_surface
 from p2sf.lens.shape_types import SHAPES
@@ -91,6 +92,10 @@ def _transmittance_text(passed: InternalTransmittance) -> str:
 def _shape_text(shape: Shape | None) -> str:
     if shape is None:
         return ""
+    if keys := SHAPES[shape.kind].keys:
+        stated = ((key, getattr(shape, key)) for key in keys)
+        numbers = (f"{key} = {list_text(x) if isinstance(x, tuple) else digits(x)}" for key, x in stated if x)
+        return f'{{ type = "{shape.kind}", {", ".join(numbers)} }}'
     radius = "" if shape.kind == ODD else f"normalisation_radius = {digits(shape.normalisation_mm)}, "
     return f'{{ type = "{shape.kind}", {radius}coefficients = {list_text(shape.stated)} }}'
 
@@ -99,10 +104,13 @@ def _read_shape(surface: Table) -> Shape | None:
     table = surface.inline("shape")
     if table is None:
         return None
-    table.check_keys(("type", "normalisation_radius", "coefficients"))
     kind = table.string("type")
     if kind not in SHAPES:
         table.fail('type "{kind}" of a shape is unknown; write one of {kinds}', kind=kind, kinds=tuple(SHAPES))
+    keys = SHAPES[kind].keys
+    table.check_keys(("type", *(keys or ("normalisation_radius", "coefficients"))))
+    if keys:
+        return SHAPES[kind].of(**{key: _named_number(table, key) for key in keys if key in table.values})
     if kind == ODD and "normalisation_radius" in table.values:
         table.fail('an odd asphere has no normalisation radius; write type = "extended odd asphere"')
     made = SHAPES[kind]
@@ -110,18 +118,33 @@ def _read_shape(surface: Table) -> Shape | None:
     return made.of(numbers, 1.0 if kind == ODD else table.number("normalisation_radius", OPENING))
 
 
-def _diffraction_text(diffraction: Diffraction | None) -> str:
+def _named_number(table: Table, key: str) -> float | tuple[float, ...]:
+    """Return a radius, which may be infinite, another number, or the list of coefficients of a shape."""
+    if key == "coefficients":
+        return _terms(table)
+    return table.number(key, RADIUS if key.startswith("radius") else FINITE)
+
+
+def _diffraction_text(diffraction: Phase | None) -> str:
     if diffraction is None:
         return ""
-    order, radius = digits(diffraction.order), digits(diffraction.normalisation_mm)
+    order = digits(diffraction.order)
+    if isinstance(diffraction, Grating):
+        turned = f", turn_deg = {digits(diffraction.turn_deg)}" if diffraction.turn_deg else ""
+        return f"{{ order = {order}, lines_per_length = {digits(diffraction.lines_per_mm)}{turned} }}"
+    radius = digits(diffraction.normalisation_mm)
     numbers = list_text(diffraction.coefficients)
     return f"{{ order = {order}, normalisation_radius = {radius}, coefficients = {numbers} }}"
 
 
-def _read_diffraction(surface: Table) -> Diffraction | None:
+def _read_diffraction(surface: Table) -> Phase | None:
     table = surface.inline("diffraction")
     if table is None:
         return None
+    if "lines_per_length" in table.values:
+        table.check_keys(("order", "lines_per_length", "turn_deg"))
+        order, turn = (table.number(key, FINITE, usual) for key, usual in (("order", 1.0), ("turn_deg", 0.0)))
+        return Grating(table.number("lines_per_length", FINITE), order, turn)
     table.check_keys(("order", "normalisation_radius", "coefficients"))
     radius = table.number("normalisation_radius", OPENING)
     return Diffraction(_terms(table), radius, table.number("order", FINITE, 1.0))

@@ -1,14 +1,25 @@
 """A ray tracer in forty digits for surfaces of any shape: Newton's method on x, y and z, with gradients by differences.
 
-It shares nothing with `p2sf` but the numbers of a `Lens`: sags are written out by their definitions, Snell's law is
-that of vectors with positive indices, and the surfaces stand along z.
+It shares nothing with `p2sf` but the numbers of a `Lens`: sags are written out by their definitions, Snell's law and
+that of gratings are those of vectors with positive indices, and surfaces stand where `space_rays` puts them.
 """
 
 from math import isqrt
 
-from mpmath import atan2, cos, factorial, hypot, inf, matrix, mp, mpf, sin, sqrt
+from mpmath import atan2, cos, factorial, hypot, inf, matrix, mp, mpf, pi, sign, sin, sqrt
 
-from p2sf.lens import Lens, Surface, XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens import (
+    Biconic,
+    Diffraction,
+    Grating,
+    Lens,
+    Surface,
+    Toroid,
+    XYPolynomial,
+    ZernikeFringeSag,
+    ZernikeStandardSag,
+)
+from tests.support.rays.space_rays import poses
 
 DIGITS = 40
 STEP = mpf(10) ** -13  # of central differences, whose error is its square times a third derivative: 1e-26
@@ -37,8 +48,36 @@ def monomials(count: int) -> list[tuple[int, int]]:
     return found
 
 
+def bend(radius: float):
+    return mpf(0) if abs(radius) == inf else 1 / mpf(radius)
+
+
+def turned(angle_deg: float, x, y):
+    """Return the coordinates of a place in axes that stand at an angle, from x towards y."""
+    angle = mpf(angle_deg) * pi / 180
+    return cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x
+
+
+def anamorphic_sag(shape, x, y):
+    """Return the sag of a biconic, or that of a toroid, a point of a circle about an axis along y."""
+    x, y = turned(shape.turn_deg, x, y)
+    cy, ky = bend(shape.radius_y), mpf(shape.conic_y)
+    if isinstance(shape, Biconic):
+        cx, kx = bend(shape.radius_x), mpf(shape.conic_x)
+        below = 1 + sqrt(1 - (1 + kx) * (cx * x) ** 2 - (1 + ky) * (cy * y) ** 2)
+        return (cx * x * x + cy * y * y) / below
+    curve = cy * y * y / (1 + sqrt(1 - (1 + ky) * (cy * y) ** 2))
+    curve += sum(mpf(alpha) * y ** (2 * k) for k, alpha in enumerate(shape.coefficients, 1))
+    if abs(shape.radius_x) == inf:
+        return curve
+    axis = mpf(shape.radius_x)
+    return axis - sign(axis) * sqrt((axis - curve) ** 2 - x * x)
+
+
 def shape_sag(shape, x, y):
-    """Return the sag of a freeform shape by its definition."""
+    """Return the sag of a shape that is not of revolution by its definition."""
+    if isinstance(shape, Biconic | Toroid):
+        return anamorphic_sag(shape, x, y)
     u, v = x / mpf(shape.normalisation_mm), y / mpf(shape.normalisation_mm)
     if isinstance(shape, XYPolynomial):
         pairs = zip(shape.coefficients, monomials(len(shape.coefficients)), strict=True)
@@ -67,18 +106,26 @@ def fly(lens: Lens, point, direction, wavelength_um: float):
     with mp.workdps(DIGITS):
         here, way = matrix([mpf(v) for v in point]), matrix([mpf(v) for v in direction])
         way /= sqrt(_dot(way, way))
-        vertex, path, points = mpf(0), mpf(0), []
-        for number in range(len(lens.surfaces) + 1):
+        path, points = mpf(0), []
+        for number, pose in enumerate(poses(lens)):
             surface = lens.surfaces[number] if number < len(lens.surfaces) else Surface()
             index = mpf(float(lens.media[number].index(wavelength_um)))
-            step = _step(surface, vertex, here, way)
+            turn, origin = matrix(pose.turn.as_matrix().tolist()), matrix(pose.origin.tolist())
+            start, along = turn.T * (here - origin), turn.T * way
+            step = _step(surface, start, along)
             here, path = here + step * way, path + index * step
             points.append([here[0], here[1], here[2]])
             if number == len(lens.surfaces):
                 return points, [way[0], way[1], way[2]], path
             after = mpf(float(lens.media[number + 1].index(wavelength_um)))
-            way = _bent(way, _normal(surface, here[0], here[1]), index, after, surface.reflects)
-            vertex += mpf(surface.thickness)
+            x, y, _ = start + step * along
+            normal, phase = _normal(surface, x, y), surface.diffraction
+            if phase is None:
+                way = turn * _bent(along, normal, index, after, surface.reflects)
+                continue
+            kick, more = _kick(phase, x, y, mpf(wavelength_um) / 1000)
+            path += more
+            way = turn * _diffracted(along, normal, index, after, surface.reflects, kick)
     raise AssertionError
 
 
@@ -93,12 +140,37 @@ def _normal(surface: Surface, x, y):
     return matrix([-across / length, -up / length, 1 / length])
 
 
-def _step(surface: Surface, vertex, here, way):
+def _kick(phase, x, y, wavelength_mm):
+    """Return what a grating or a phase adds to the tangential vector n·s, mm⁻¹ times the wavelength, and to the path.
+
+    Of a grating in lines it is mλ/d along the normal of its planes, which are perpendicular to the plane z = 0.
+    """
+    if isinstance(phase, Grating):
+        angle, waves = mpf(phase.turn_deg) * pi / 180, mpf(phase.order) * mpf(phase.lines_per_mm) * wavelength_mm
+        return matrix([-waves * sin(angle), waves * cos(angle), 0]), waves * (y * cos(angle) - x * sin(angle))
+    assert isinstance(phase, Diffraction)
+    unit, radius = mpf(phase.order) * wavelength_mm / (2 * pi), mpf(phase.normalisation_mm)
+    square = (x * x + y * y) / radius**2
+    slope = sum(2 * k * mpf(a) * square ** (k - 1) for k, a in enumerate(phase.coefficients, 1)) / radius**2
+    waves = unit * sum(mpf(a) * square**k for k, a in enumerate(phase.coefficients, 1))
+    return matrix([unit * slope * x, unit * slope * y, 0]), waves
+
+
+def _diffracted(way, normal, before, after, reflects, kick):
+    """Return the direction whose tangential part is that before and the kick's (Ludwig 1973, eq. 9): |n's'| = n'."""
+    normal = normal if _dot(way, normal) > 0 else -normal
+    whole = before * way + kick
+    tangential = whole - _dot(whole, normal) * normal
+    along = sqrt(after**2 - _dot(tangential, tangential))
+    return (tangential + (-along if reflects else along) * normal) / after
+
+
+def _step(surface: Surface, here, way):
     """Return the length to the surface: from the plane of its vertex, by Newton's method."""
-    t = (vertex - here[2]) / way[2]
+    t = -here[2] / way[2]
     for _ in range(60):
         x, y, z = here + t * way
-        miss = z - vertex - sag(surface, x, y)
+        miss = z - sag(surface, x, y)
         if abs(miss) < mpf(10) ** -(DIGITS - 8):
             return t
         normal = _normal(surface, x, y)

@@ -957,7 +957,6 @@
 <message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
 <message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
-<message><source>a grating that diffracts</source><translation>ein beugendes Gitter</translation></message>
 <message><source>a lens file of this program, exactly as written</source><translation>eine Objektivdatei dieses Programms, genau wie geschrieben</translation></message>
 <message><source>a lens lists its "surfaces"</source><translation>ein Objektiv listet seine "surfaces"</translation></message>
 <message><source>a lens needs at least one surface; insert another before deleting this one</source><translation>ein Objektiv braucht mindestens eine Fläche; eine andere einfügen, bevor diese gelöscht wird</translation></message>
@@ -989,7 +988,6 @@
 <message><source>a surface that is not round</source><translation>eine Fläche, die nicht rund ist</translation></message>
 <message><source>a text</source><translation>einen Text</translation></message>
 <message><source>a tolerance of {tolerance:g}; give the R² to hold, below 1</source><translation>eine Toleranz von {tolerance:g}; das einzuhaltende R² angeben, unter 1</translation></message>
-<message><source>a toroid that is not round</source><translation>ein Toroid, das nicht rund ist</translation></message>
 <message><source>a vane crosses the shadow of surface {surface} away from the centre; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
@@ -2250,10 +2248,19 @@
 <message><source>and so in half of its space</source><translation>und das im halben Raum</translation></message>
 <message><source>median 1 − R² {median:.1e}</source><translation>Median von 1 − R² {median:.1e}</translation></message>
 <message><source>PSFs of this database are predicted to be too far from those of exact rays {where} to say how far, {median}; {remedy}</source><translation>PSFs dieser Datenbank liegen {where} zu weit von denen exakter Strahlen, um zu sagen, wie weit, {median}; {remedy}</translation></message>
+<message><source>biconic</source><translation>bikonische Fläche</translation></message>
+<message><source>grating</source><translation>Gitter</translation></message>
+<message><source>grating: {lines:g} lines per mm, order {order:g}, turned by {angle:g}°</source><translation>Gitter: {lines:g} Linien je mm, Ordnung {order:g}, um {angle:g}° gedreht</translation></message>
 <message><source>predicted 1 − R² against exact rays: median {median:.1e}, up to {worst:.1e} {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, bis {worst:.1e} {where}</translation></message>
 <message><source>predicted 1 − R² against exact rays: median {median:.1e}, too far from them to tell {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, {where} zu weit von ihnen für eine Zahl</translation></message>
 <message><source>in half of this space PSFs are too far from exact rays to predict how far</source><translation>im halben Raum liegen die PSFs zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
+<message><source>is a grating in lines</source><translation>ist ein Liniengitter</translation></message>
 <message><source>none: too far from exact rays to predict how far</source><translation>keine: zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
+<message><source>number of a grating</source><translation>Zahl eines Gitters</translation></message>
+<message><source>number of a toroid or an anamorphic asphere</source><translation>Zahl einer torischen Fläche oder anamorphotischen Asphäre</translation></message>
+<message><source>surface {surface} has a curvature, terms or diffraction beside its {kind}, for which the file has no line; save as TOML</source><translation>Fläche {surface} hat neben {kind} eine Krümmung, Glieder oder Beugung, für die die Datei keine Zeile hat; als TOML speichern</translation></message>
+<message><source>surface {surface} has a term in y^{power}, and a Zemax toroid holds powers up to y^{most}; save as TOML</source><translation>Fläche {surface} hat ein Glied in y^{power}, und eine torische Fläche von Zemax fasst Potenzen bis y^{most}; als TOML speichern</translation></message>
+<message><source>surface {surface} has a term in y² or beyond y^{most}, for which a CODE V toroid has no line; save as TOML</source><translation>Fläche {surface} hat ein Glied in y² oder über y^{most} hinaus, für das eine torische Fläche von CODE V keine Zeile hat; als TOML speichern</translation></message>
 <message><source>{parameter} is {value}; separate the numbers by semicolons, since a comma may belong to a number</source><translation>{parameter} ist {value}; Semikolons zwischen die Zahlen setzen, da ein Komma zu einer gehören kann</translation></message>
 <message><source>the tolerance of {error} is {value:g}{unit}; give a number from 0 to {high:g}</source><translation>Toleranz für {error}: {value:g}{unit}; eine Zahl von 0 bis {high:g} angeben</translation></message>
 <message><source>the point {where}: {error}</source><translation>der Punkt {where}: {error}</translation></message>
@@ -2334,6 +2341,9 @@
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
 <message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
 <message><source>the light on {pixels} pixels of {pixel_um:g} µm takes more than {most} samples a side; give fewer or smaller pixels, or {parameter} False</source><translation>über {pixels} Pixel von {pixel_um:g} µm zu integrieren braucht mehr als {most} Abtastwerte je Seite; geben Sie weniger oder kleinere Pixel an, oder {parameter} False</translation></message>
+<message><source>the order of the grating ({order:g}) turns rays towards +y where it is positive; see that it is meant so</source><translation>die Ordnung des Gitters ({order:g}) lenkt Strahlen nach +y, wenn sie positiv ist; prüfen, ob das so gemeint ist</translation></message>
+<message><source>toroid</source><translation>torische Fläche</translation></message>
+<message><source>{kind}: radii {x:g} mm in x and {y:g} mm in y, conic constants {conics:g}, turned by {angle:g}°</source><translation>{kind}: Radien {x:g} mm in x und {y:g} mm in y, konische Konstanten {conics:g}, um {angle:g}° gedreht</translation></message>
 <message><source>{pixels} usable pixels for {unknowns} unknowns; take a larger window, or fit fewer numbers</source><translation>{pixels} brauchbare Pixel für {unknowns} Unbekannte; ein größeres Fenster nehmen oder weniger Zahlen anpassen</translation></message>
 <message><source>{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again</source><translation>{place:.6g} liegt außerhalb der Pupillen, die von {low:.6g} bis {high:.6g} angepasst sind; die Szene neu planen</translation></message>
 <message><source>{place:g} mm from the last vertex</source><translation>{place:g} mm vom letzten Scheitel</translation></message>
@@ -2358,6 +2368,7 @@
 <message><source>{shading}, for which there are no six coefficients; choose the method fitted, traced or huygens, or leave {parameter} off</source><translation>{shading}, wofür es keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen oder {parameter} aus lassen</translation></message>
 <message><source>{shading}, which the paraxial pupil takes for even; aim at the stop</source><translation>{shading}, was die paraxiale Pupille für gleichmäßig nimmt; auf die Blende zielen</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
+<message><source>{shape}, terms in y², y⁴, … {terms:.6g}</source><translation>{shape}, Glieder in y², y⁴, … {terms:.6g}</translation></message>
 <message><source>{share} % ± {error} % keep {limit}</source><translation>{share} % ± {error} % halten {limit}</translation></message>
 <message><source>{shift} µm over the spectrum</source><translation>{shift} µm über das Spektrum</translation></message>
 <message><source>{size} × {size} cells</source><translation>{size} × {size} Zellen</translation></message>
@@ -2365,11 +2376,14 @@
 <message><source>{surface} diffracts by {command} {kind}, which is not read; only DOE with a phase in r (HCT R) is</source><translation>{surface} beugt durch {command} {kind}, was nicht gelesen wird; nur DOE mit einer Phase in r (HCT R) wird gelesen</translation></message>
 <message><source>{surface} diffracts without a wavelength (HWL) of its phase; add it</source><translation>{surface} beugt ohne eine Wellenlänge (HWL) der Phase; ergänzen</translation></message>
 <message><source>{surface} has Forbes's polynomials of type {kind:g}, which is neither Qbfs (0) nor Qcon (1); correct it</source><translation>{surface} hat Forbes-Polynome vom Typ {kind:g}, der weder Qbfs (0) noch Qcon (1) ist; berichtigen</translation></message>
+<message><source>{surface} has Zernike terms on a shape that is not of revolution ({kind}), which is not read; leave them out</source><translation>{surface} hat Zernike-Glieder auf einer Form, die keine Rotationsfläche ist ({kind}), was nicht gelesen wird; sie weglassen</translation></message>
 <message><source>{surface} has Zernike terms that are decentred, which is not read; centre them</source><translation>{surface} hat dezentrierte Zernike-Glieder, die nicht gelesen werden; sie zentrieren</translation></message>
+<message><source>{surface} has a radius or a conic constant in x, but is neither YTO, XTO, CYL nor AAS; state which</source><translation>{surface} hat einen Radius oder eine konische Konstante in x, ist aber weder YTO, XTO, CYL noch AAS; angeben, welche</translation></message>
 <message><source>{surface} has a shape ({kind}) that is not round or not known; only {known} are read</source><translation>{surface} hat eine Form ({kind}), die nicht rund oder nicht bekannt ist; nur {known} werden gelesen</translation></message>
 <message><source>{surface} has an infinite thickness; give a finite one</source><translation>{surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
 <message><source>{surface} has type {kind}, {description}; only the types {known} are read</source><translation>{surface} hat den Typ {kind}, {description}; nur die Typen {known} werden gelesen</translation></message>
 <message><source>{surface} has {count:g} terms and a normalisation radius of {radius:g} in its extra data (XDAT); give up to {most} terms and a positive radius</source><translation>{surface} hat {count:g} Glieder und einen Normierungsradius von {radius:g} in den Zusatzdaten (XDAT); bis zu {most} Glieder und einen positiven Radius angeben</translation></message>
+<message><source>{surface} is a grating without a spacing (GRS), or its planes are not parallel to the axis (GRZ); correct it</source><translation>{surface} ist ein Gitter ohne Abstand (GRS), oder seine Ebenen sind nicht parallel zur Achse (GRZ); berichtigen</translation></message>
 <message><source>{surface} is a special surface of type {kind}, which is not read; {known} are</source><translation>{surface} ist eine Sonderfläche vom Typ {kind}, die nicht gelesen wird; gelesen werden {known}</translation></message>
 <message><source>{surface} is tilted or decentred by its properties (SCBD); give coordinate breaks instead</source><translation>{surface} ist durch ihre Eigenschaften (SCBD) gekippt oder dezentriert; stattdessen Koordinatenbrüche angeben</translation></message>
 <message><source>{surface} is tilted or decentred by {kind} about ({pivot:g}), which is not read; only {known} about the vertex are</source><translation>{surface} ist durch {kind} um ({pivot:g}) gekippt oder dezentriert, was nicht gelesen wird; nur {known} um den Scheitel werden gelesen</translation></message>
