@@ -160,7 +160,7 @@ def draw_layout(axes: "Axes", found: Live) -> None:
         axes.plot(ray.z, ray.y, color=RAYS.get(ray.kind, "gray"), linewidth=0.7)
     for sign in (1, -1):
         axes.plot([drawn.stop_z] * 2, [sign * drawn.stop_rim, sign * drawn.half_height], color="black", linewidth=2)
-    axes.plot([drawn.sensor_z] * 2, [-found.layout.sensor_half, found.layout.sensor_half], color="black")
+    axes.plot(*drawn.sensor_line(found.layout.sensor_half), color="black")
     wide = drawn.right - drawn.left
     axes.set_xlim(drawn.left - 0.15 * wide, drawn.right + 0.05 * wide)
     half = 1.1 * max(drawn.half_height, found.layout.sensor_half)

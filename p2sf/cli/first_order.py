@@ -107,11 +107,14 @@ def coefficients_command(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, 
 
 
 def seidel_numbers(setup: Setup) -> tuple[Coefficients, np.ndarray]:
-    """Return the six coefficients, and S_I … S_V per surface in mm, shape (surfaces, 5)."""
+    """Return the six coefficients, and S_I … S_V per surface in mm, shape (surfaces, 5).
+
+    A curved sensor is one more surface.
+    """
     lens, source = setup.lens, setup.source
     where = (source.depth_mm, source.wavelength_um, setup.stop)
     sums = seidel_sums(lens, paraxial_rays(lens, *where), source.field_slope)
-    columns = [np.broadcast_to(column, len(lens.surfaces)) for column in sums.columns()]
+    columns = np.broadcast_arrays(*sums.columns())
     six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     return six, np.stack(columns, axis=-1)
 

@@ -61,6 +61,7 @@ def build_exact(lens: Lens, space: Space, stop: Stop) -> ExactDatabase:
     for terms in TERMS if np.ptp(space.wavelengths_um) else (1,):
         series = exact_series(lens, space, stop, terms)
         database = ExactDatabase(space, *series, lens.sensor_mm, {}, mask=mask_of(lens, space))
+        database = replace(database, sensor_curvature=lens.sensor_surface.curvature)
         errors = departures(database.coefficients(*points), direct)
         # With a distant pupil, rounding errors of the direct coefficients themselves are larger than usual.
         rounded = {kind: STALLED * top if errors[kind] > before[kind] / 2 > 0 else top for kind, top in allowed.items()}

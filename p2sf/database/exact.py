@@ -11,7 +11,7 @@ the entrance pupil and the index of image space: 23 numbers, from which the coef
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import acos
+from math import acos, inf
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
-from p2sf.paraxial.seidel import Coefficients, seidel_sums
+from p2sf.paraxial.seidel import Coefficients, seidel_sums, sensor_sums
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 # Numbers per wavelength of each part: a polynomial's degree in s, plus one.
@@ -49,7 +49,8 @@ class ExactDatabase:
     """Twenty-three numbers per wavelength, as Chebyshev series in wavelength over ``space``.
 
     ``series``: (terms, 23), mm and mm of path, polynomial coefficients in t = (s − ``middle``)/``half``. ``sensor_mm``:
-    position of the sensor; at any other position the coefficients are equally exact. ``errors``: the largest departure
+    position of the sensor; at any other position the coefficients are equally exact. ``sensor_curvature``: its, per mm.
+    ``errors``: the largest departure
     of each coefficient from direct evaluation at points between the nodes, in waves. ``mask``: the pupil mask in the
     coordinates of a source whose chief ray lands at +y; the coefficients do not depend on it.
     """
@@ -63,6 +64,7 @@ class ExactDatabase:
     interpolant: str = "exact"
     method: str = "seidel"
     mask: PupilMask = CLEAR
+    sensor_curvature: float = 0.0
 
     def with_sensor(self, sensor_mm: float) -> "ExactDatabase":
         """Return the same database with the sensor ``sensor_mm`` behind the last vertex; nothing is traced."""
@@ -106,16 +108,21 @@ class ExactDatabase:
         t = (near / (1.0 + pupil * near) - self.middle) / self.half
         astigmatism = c0 + t * (c1 + t * c2)
         nu, y = nu0 + t * nu1, y0 + t * y1
+        chief = chief_y + chief_nu / index * self.sensor_mm
+        distortion = d0 + t * d1
+        if self.sensor_curvature:
+            more = sensor_sums(self.sensor_curvature, nu, chief, chief_nu, index)
+            petzval, distortion = petzval + more[0] / 4, distortion + more[1] / 2
         parts = Parts(
             w40=a0 + t * (a1 + t * (a2 + t * (a3 + t * a4))),
             w31=b0 + t * (b1 + t * (b2 + t * b3)),
             w22=astigmatism,
             w20=astigmatism / 2 + petzval,
-            w11=d0 + t * d1,
+            w11=distortion,
             wd=nu * (nu / index * self.sensor_mm + y) / 2,
             nu=nu,
             y=y,
-            chief=chief_y + chief_nu / index * self.sensor_mm,
+            chief=chief,
             image_index=index,
         )
         return assemble(parts, (slope, slope * slope, slope * slope * slope), wavelength)
@@ -166,7 +173,8 @@ def _range_of_s(pupil: np.ndarray, space: Space) -> tuple[float, float]:
 
 def _polynomials(lens: Lens, base: ParaxialRays, middle: float, half: float) -> np.ndarray:
     """Return the 23 numbers at each wavelength of ``base``, shape (23, wavelengths)."""
-    sums = seidel_sums(lens, rays_at(base, middle + half * T_NODES[:, None])).total()
+    flat = replace(lens, sensor_radius=inf) if lens.sensor_surface.curvature else lens
+    sums = seidel_sums(flat, rays_at(base, middle + half * T_NODES[:, None])).total()
     centre, step = rays_at(base, middle), half * base.invariant / base.index[0]
     quartic = np.linalg.inv(np.vander(T_NODES, increasing=True))
     columns = {

@@ -236,6 +236,9 @@ class Lens:
         `p2sf.lens_at`).
     sensor_before : tuple of Placement
         Tilt and decentre of the sensor, relative to its nominal position behind the last surface.
+    sensor_radius, sensor_conic : float
+        Radius of curvature, mm, and conic constant of the sensor; by default it is a plane. Pictures of points lie in
+        the plane that touches it where their chief ray lands.
     absorption : bool
         Whether rays lose the light that the media behind the first surface absorb, if their catalogues state it.
 
@@ -264,10 +267,13 @@ class Lens:
     fields_x_deg: tuple[float, ...] = ()
     wavelength_weights: tuple[float, ...] = ()
     reference_nm: float | None = None
+    sensor_radius: float = inf
+    sensor_conic: float = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self)
         _check_surfaces(self.surfaces)
+        _check_sensor(self.sensor_radius, self.sensor_conic)
         for placement in self.sensor_before:
             placement.check(len(self.surfaces) + 1)
         _check_stop(self.stop_surface, len(self.surfaces))
@@ -348,6 +354,11 @@ class Lens:
     def sensor_mm(self) -> float:
         """Return the position of the sensor, mm behind the last vertex."""
         return self.surfaces[-1].thickness
+
+    @cached_property
+    def sensor_surface(self) -> Surface:
+        """Return the sensor as a surface, which rays meet behind the last one of the lens."""
+        return Surface(self.sensor_radius, conic=self.sensor_conic)
 
     @cached_property
     def curvatures(self) -> tuple[float, ...]:
@@ -585,6 +596,13 @@ def lens_range_um(lens: Lens) -> tuple[float, float] | None:
     if not ranges:
         return None
     return max(low for low, _ in ranges), min(high for _, high in ranges)
+
+
+def _check_sensor(radius: float, conic: float) -> None:
+    if not abs(radius) >= SMALLEST_RADIUS_MM:
+        raise GeometryError("the sensor's radius is {radius} mm; write inf for a plane", radius=radius)
+    if not isfinite(conic):
+        raise GeometryError("the sensor's conic constant is {conic}; give a finite number", conic=conic)
 
 
 def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:

@@ -24,7 +24,7 @@ Address = tuple[int, str, int]
 """Address of a number in a lens: surface from 0 (−1: the lens itself), field, index in the field's tuple."""
 WHOLE = -1
 FIELDS = ("fields_deg", "fields_x_deg")
-KEPT = ("name", "title", "source", "comment", "character", "aim", "mask", "absorption")
+KEPT = ("name", "title", "source", "comment", "character", "aim", "mask", "absorption", "sensor_radius", "sensor_conic")
 """Fields of a lens that are the same at every position; in columns they have their defaults."""
 PLAIN: dict[str, Any] = {field.name: field.default for field in fields(Lens) if field.name in (*KEPT, "positions")}
 

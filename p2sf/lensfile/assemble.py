@@ -55,7 +55,23 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
         lens = _with_line(lambda: _at_paraxial_focus(lens, raw, notes), raw, source, None)
     _read_notes(lens, raw, notes)
     _note_vignetting(lens, raw, notes)
+    lens = _with_curved_sensor(lens, raw, notes)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
+
+
+def _with_curved_sensor(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with the radius and the conic constant of the image surface; other terms of it are left out."""
+    image = raw.image
+    if image is None:
+        return lens
+    if any(image.aspheric.values()) or image.shape is not None:
+        told = (
+            "the image surface has more terms than a radius and a conic constant; these two are read, the rest is not"
+        )
+        notes.add("caution", told, None, image.line)
+    if not image.curvature:
+        return lens
+    return replace(lens, sensor_radius=raw.unit_mm / image.curvature, sensor_conic=image.conic)
 
 
 def _leave_out_object_plane(raw: RawLens, notes: Notebook) -> None:

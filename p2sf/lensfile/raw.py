@@ -89,7 +89,8 @@ class RawLens:
     ``environment``: temperature, °C, and pressure of the air, atmospheres, that indices of glasses are for.
     ``weights`` are those of the wavelengths, 1 where there are fewer; an object's cone angle is in degrees.
 
-    ``primary`` counts wavelengths from 0. ``sensor_before``: how the image surface stands.
+    ``primary`` counts wavelengths from 0. ``image``: the image surface, of which only the shape is
+    used; a plane where it is None. ``sensor_before``: how it stands.
     """
 
     surfaces: list[RawSurface] = field(default_factory=list)
@@ -114,6 +115,7 @@ class RawLens:
     title: str = ""
     source: str = ""
     sensor_stated: bool = True
+    image: RawSurface | None = None
     sensor_before: tuple[Placement, ...] = ()
 
     def apodise(self, exponent: float, source: LensText, line: int) -> None:

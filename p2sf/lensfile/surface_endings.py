@@ -5,13 +5,19 @@ from dataclasses import replace
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens, Surface
 from p2sf.lens.placement import Placement
-from p2sf.lens.properties import PROPERTIES, TOML
+from p2sf.lens.properties import CODE_V, PROPERTIES, TOML, ZEMAX
 from p2sf.lens.shapes import Shape
 from p2sf.messages import Message
 
+CURVED_SENSORS = TOML, ZEMAX, CODE_V
+
 
 def check_endings(lens: Lens, ending: str) -> None:
-    """Raise LensFileError for the first property of a surface that a file with this ending cannot express."""
+    """Raise LensFileError for the first property of a surface or of the sensor that such a file cannot express."""
+    if lens.sensor_surface.curvature and ending not in CURVED_SENSORS:
+        raise LensFileError(
+            "the sensor is curved, which a file that ends in {ending} cannot express; save as TOML", ending=ending
+        )
     plain = Surface()
     for number, surface in enumerate(lens.surfaces, 1):
         for each in PROPERTIES:

@@ -97,7 +97,10 @@ def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
         lines.append(_zemax_glass(lens.object_medium))
     rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _zemax_rows(lens, number, stop)]
     rows += [_zemax_break(one) for placement in lens.sensor_before for one in break_rows(placement, 0.0)]
-    rows.append(["  TYPE STANDARD", "  CURV 0.0", "  DISZ 0"])
+    image, conic = lens.sensor_surface, lens.sensor_conic
+    rows.append(
+        ["  TYPE STANDARD", f"  CURV {digits(image.curvature)}", "  DISZ 0", *[f"  CONI {digits(conic)}"] * bool(conic)]
+    )
     lines += [line for number, row in enumerate(rows, 1) for line in (f"SURF {number}", *row)]
     return "\n".join([*lines, *_zemax_configurations(lens, stop), ""])
 

@@ -26,7 +26,7 @@ from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 
 @dataclass(frozen=True)
 class SeidelSums:
-    """S_I … S_V per surface in mm at one field, surface axis first; ``.total()`` sums them."""
+    """S_I … S_V per surface in mm at one field, surface axis first, then of a curved sensor; ``.total()`` sums them."""
 
     spherical: np.ndarray
     coma: np.ndarray
@@ -172,7 +172,31 @@ def _unit_sums(lens: Lens, rays: ParaxialRays) -> SeidelSums:
         sums = tuple(_with_row(column, at, value) for column, value in zip(sums, here, strict=True))
     for at in _ideal(lens):
         sums = tuple(_with_row(column, at, 0.0) for column in sums)
+    if lens.sensor_surface.curvature:
+        petzval, distortion = _sums_of_sensor(lens, rays)
+        rows = (0.0, 0.0, 0.0, petzval, distortion)
+        sums = tuple(
+            np.concatenate([column, np.broadcast_to(row, column[:1].shape)])
+            for column, row in zip(np.broadcast_arrays(*sums), rows, strict=True)
+        )
     return SeidelSums(*sums)
+
+
+def _sums_of_sensor(lens: Lens, rays: ParaxialRays) -> tuple[FloatOrArray, FloatOrArray]:
+    height = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * lens.sensor_mm
+    return sensor_sums(lens.sensor_surface.curvature, rays.nu[-1], height, rays.chief_nu[-1], rays.index[-1])
+
+
+def sensor_sums(
+    curvature: FloatOrArray, nu: FloatOrArray, height: FloatOrArray, chief_nu: FloatOrArray, index: FloatOrArray
+) -> tuple[FloatOrArray, FloatOrArray]:
+    """Return S_IV and S_V of a curved sensor, for numbers or arrays; the other three sums are 0.
+
+    At the chief ray's ``height`` h the sensor lies z = ch²/2 behind its vertex. So W20 gains the defocus (n'u')²z/(2n')
+    and the chief ray lands zū' farther out, of which W11/(n'u') is the shift (Welford 1986, §7.7).
+    """
+    bend = curvature * height * height * nu / index
+    return bend * nu, bend * chief_nu
 
 
 def _with_row(column: np.ndarray, at: int, value: FloatOrArray) -> np.ndarray:
@@ -193,7 +217,7 @@ def _cached_totals(
 
 def _unit_totals(lens: Lens, rays: ParaxialRays) -> tuple:
     """Return the five sums over all surfaces; for one source in plain numbers, which is three times faster."""
-    if rays.y.ndim > 1 or _diffractive(lens) or _ideal(lens):
+    if rays.y.ndim > 1 or _diffractive(lens) or _ideal(lens) or lens.sensor_surface.curvature:
         return tuple(map(np.add.reduce, _unit_sums(lens, rays).columns()))
     columns = (column.tolist() for column in (*_shape_terms(lens), *_layers(rays)))
     invariant = float(rays.invariant)

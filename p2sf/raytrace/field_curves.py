@@ -20,7 +20,7 @@ from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
-from p2sf.raytrace.surface import Status
+from p2sf.raytrace.surface import Status, to_plane
 from p2sf.raytrace.trace import run
 
 NEAR = 1e-3  # pupil radii from the chief ray to its neighbours: the error is its square plus 1e-16 divided by it
@@ -66,26 +66,28 @@ def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
 def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | None = None) -> Foci:
     """Return the foci of exact rays close to the chief ray, equivalent to Coddington's equations.
 
-    They are the two distances along the normal of the sensor at which neighbours of the chief ray in some direction of
+    They are the two distances along the normal of the sensor, of a curved one along that at its vertex from where the
+    chief ray lands, at which neighbours of the chief ray in some direction of
     the pupil, `NEAR` from it, cross it; the tangential focus is the one whose neighbours are closer to the direction of
     the field. ``field_slope`` replaces that of ``source``.
     """
     # At a distance z the neighbours are displaced by (M + zN)·(ξ, η), M and N the derivatives of position and slope:
     # this vanishes where −z is an eigenvalue of N⁻¹M.
     slopes = np.asarray(field_slope, dtype=float)
-    xi, eta = np.array([NEAR, -NEAR, 0.0, 0.0]), np.array([0.0, 0.0, NEAR, -NEAR])
+    xi, eta = np.array([NEAR, -NEAR, 0.0, 0.0, 0.0]), np.array([0.0, 0.0, NEAR, -NEAR, 0.0])
     turned = seen_from(lens, source.azimuth_deg)
     rays = pupil_rays(turned, Sources(source.depth_mm, slopes, source.wavelength_um), xi, eta, stop=stop)
     beam = run(turned, start(rays), rays.index)
-    lost = (beam.status != Status.PASSED).any(-1)
+    lost, chief_z = (beam.status != Status.PASSED).any(-1), beam.z[..., -1].copy()
+    to_plane(beam, rays.index[-1])
     places, along = (
-        np.where(lost[..., None, None], np.eye(2), np.stack([part[..., ::2] - part[..., 1::2] for part in pair], -2))
+        np.where(lost[..., None, None], np.eye(2), np.stack([part[..., :4:2] - part[..., 1:4:2] for part in pair], -2))
         for pair in ((beam.x, beam.y), (beam.p / beam.r, beam.q / beam.r))
     )
     ((a, b), (c, d)) = np.moveaxis(np.linalg.solve(along, places), (-2, -1), (0, 1))
     half = (a - d) / 2
     apart = np.copysign(np.sqrt(np.maximum(half * half + b * c, 0.0)), half)
-    return Foci(*(np.where(lost, np.nan, -((a + d) / 2 + side * apart)) for side in (1, -1)))
+    return Foci(*(np.where(lost, np.nan, -((a + d) / 2 + side * apart) - chief_z) for side in (1, -1)))
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.domain import ClearNodes
 from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
-from p2sf.raytrace.surface import Beam, Status
+from p2sf.raytrace.surface import Beam, Status, to_plane
 from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
 
 __all__ = [
@@ -314,13 +314,15 @@ def _relative_to_chief(
     """Return a beam at the sensor as differences from its last ray, the chief ray."""
     if beam.status.any():
         _blank(beam, lens)
-    chief_x, chief_y = beam.x[..., -1:], beam.y[..., -1:]
+    chief_x, chief_y = beam.x[..., -1:].copy(), beam.y[..., -1:].copy()
+    if lens.sensor_surface.curvature:
+        to_tangent_plane(beam, lens, index)
     return Rays(
         xi=points[0][:-1],
         eta=points[1][:-1],
         launch=np.broadcast_to(launch, beam.x.shape)[..., :-1],
-        dx=beam.x[..., :-1] - chief_x,
-        dy=beam.y[..., :-1] - chief_y,
+        dx=beam.x[..., :-1] - beam.x[..., -1:],
+        dy=beam.y[..., :-1] - beam.y[..., -1:],
         kx=beam.p[..., :-1] / index,
         ky=beam.q[..., :-1] / index,
         kz=beam.r[..., :-1] / index,
@@ -336,6 +338,38 @@ def _relative_to_chief(
         chief_kx=beam.p[..., -1:] / index,
         transmission=_but_last(beam.transmission),
         clearance=_but_last(beam.clearance),
+    )
+
+
+def to_tangent_plane(beam: Beam, lens: Lens, index: FloatOrArray) -> None:
+    """Carry a beam from the sensor to the plane that touches it at the last ray, and give it in the axes of that plane.
+
+    The last ray's point becomes their origin; that ray itself stays where it is.
+    """
+    turn = tangent_axes(lens, beam.x[..., -1:], beam.y[..., -1:])
+    beam.place -= beam.place[..., -1:]
+    for vectors in (beam.place, beam.ray):
+        vectors[...] = np.einsum("ji...,j...->i...", turn, vectors)
+    to_plane(beam, index)
+
+
+def tangent_axes(lens: Lens, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:
+    """Return the axes of the plane that touches the sensor at a point of its own, (3, 3, …), as columns.
+
+    They are the sensor's, turned by the angle between both normals about the line that is at right angles to these, so
+    that directions towards the axis remain so (Rodrigues 1840).
+    """
+    x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
+    _, slope = lens.sensor_surface.sag_and_slope(x * x + y * y)
+    axial = 1 / np.sqrt(1 + 4 * slope * slope * (x * x + y * y))
+    across, up = -2 * slope * x * axial, -2 * slope * y * axial
+    share = 1 / (1 + axial)
+    return np.array(
+        [
+            [1 - across * across * share, -across * up * share, across],
+            [-across * up * share, 1 - up * up * share, up],
+            [-across, -up, axial],
+        ]
     )
 
 
@@ -386,13 +420,17 @@ def opd_on_sphere(rays: Rays, radius: FloatOrArray) -> np.ndarray:
 
 def exit_radius(lens: Lens, source: Source | Sources, rays: Rays, stop: Stop | None = None) -> np.ndarray:
     """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
-    along = rays.chief_kz
-    if (
-        lens.steps[-1] is None
-    ):  # the cosine about the axis behind the last surface, which a tilted sensor does not share
+    along: np.ndarray = rays.chief_kz
+    place: FloatOrArray = lens.sensor_mm
+    turn = np.array([0.0, 0.0, 1.0])  # the axis behind the last surface in those of the picture
+    if lens.steps[-1] is None:
         turn = seen_from(lens, getattr(source, "azimuth_deg", 0.0)).motions[-1].rotation[2]
+    if lens.sensor_surface.curvature:
+        place = place + lens.sensor_surface.sag(rays.chief_x, rays.chief_y)
+        turn = np.einsum("j,ji...->i...", turn, tangent_axes(lens, rays.chief_x, rays.chief_y))
+    if lens.steps[-1] is None or lens.sensor_surface.curvature:
         along = turn[0] * rays.chief_kx + turn[1] * rays.chief_ky + turn[2] * rays.chief_kz
-    radius: np.ndarray = (lens.sensor_mm - entrance(lens, source, stop).exit_plane) / along
+    radius: np.ndarray = (place - entrance(lens, source, stop).exit_plane) / along
     return radius
 
 

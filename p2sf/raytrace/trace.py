@@ -13,7 +13,7 @@ from p2sf.lens.lens import Lens, absorptions, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, default_stop, rim_radii, stop_rim
 from p2sf.raytrace.ideal import object_point, refract_ideal
-from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract, to_plane
+from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
 
@@ -140,7 +140,7 @@ def run(
     visit: Callable[[int], None] | None = None,
     first: int = 1,
 ) -> Beam:
-    """Carry a beam through the lens to the sensor plane, or onto and through surface ``last``, and return it.
+    """Carry a beam through the lens to the sensor, or onto and through surface ``last``, and return it.
 
     ``first`` > 1 continues a beam whose last surface was the one before it. ``rims``, one per surface, mm, clip the
     beam. ``visit(number)`` is called on every surface and on the sensor, which counts as the surface behind the last;
@@ -158,7 +158,7 @@ def run(
                 _to_next_axes(beam, lens, number, index)
         if last is None:
             path = beam.path.copy() if absorbed else beam.path
-            to_plane(beam, index[-1])
+            meet(beam, lens.sensor_surface, index[-1], len(lens.surfaces) + 1)
             if absorbed:
                 _absorb(beam, absorbed[-1], path, index[-1])
             if visit:

@@ -1,5 +1,7 @@
 """What is read and written again is the same lens: TOML exactly, .zmx and ISET .json as far as they can say it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -176,3 +178,18 @@ def test_two_makers_of_one_name_do_not_become_one(tmp_path):
     lens = Lens(tuple(Surface(50.0, 2.0, m, semi_diameter=5.0) for m in media), Aperture("f_number", 8.0), 1)
     with pytest.raises(LensFileError, match="shares its name with another maker's glass"):
         write_lens(lens, tmp_path / "lens.zmx")
+
+
+@pytest.mark.parametrize("ending", ["zmx", "seq", "toml"])
+def test_a_curved_sensor_is_kept(tmp_path, ending):
+    lens = replace(find_lens("cooke_triplet"), sensor_radius=-40.0, sensor_conic=-0.7)
+    path = tmp_path / f"lens.{ending}"
+    write_lens(lens, path)
+    again = load_lens(path)
+    assert (again.sensor_radius, again.sensor_conic) == (-40.0, -0.7)
+
+
+def test_a_curved_sensor_is_never_flattened(tmp_path):
+    with pytest.raises(LensFileError) as caught:
+        write_lens(replace(find_lens("cooke_triplet"), sensor_radius=-40.0), tmp_path / "lens.json")
+    assert caught.value.message.values["ending"] == ".json"

@@ -99,6 +99,7 @@ class Section:
 
 
 UPRIGHT = Section()
+PLANE = Surface()
 
 
 @lru_cache(maxsize=64)
@@ -169,11 +170,11 @@ def _same_place(lens: Lens, one: int, other: int) -> bool:
     return bool(np.abs(lens.frames[one].origin - lens.frames[other].origin).max() <= SAME_PLACE_MM)
 
 
-def filling(glass: Glass, sensor: Section) -> tuple[GlassOutline, ...]:
+def filling(glass: Glass, sensor: Section, shape: Surface) -> tuple[GlassOutline, ...]:
     """Return the outline of what fills the space between lens and sensor, none for air."""
     if glass.image_index <= GLASS_INDEX:
         return ()
-    wall = sensor.placed(np.zeros(2), np.array([-glass.half_height, glass.half_height]))
+    wall = sensor.placed(*profile(shape, 0.0, glass.half_height))
     return (element_outline(glass.last, wall, glass.image_index, (len(glass.outlines) + 1,) * 2),)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, indices, message_if_misaligned, seen_from, with_sensor
+from p2sf.lens.lens import Lens, Surface, indices, message_if_misaligned, seen_from, with_sensor
 from p2sf.lens.misalignment import straighten
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -20,12 +20,15 @@ from p2sf.raytrace.surface import AT_RIM, Status
 from p2sf.raytrace.trace import trace
 from p2sf.tolerance.errors_of_build import source_of_build
 from p2sf_explorer.compute.glass_outlines import (
+    PLANE,
     UPRIGHT,
     Glass,
     GlassOutline,
+    Profile,
     Section,
     filling,
     glass_of,
+    profile,
     sections,
     still,
     vertices,
@@ -50,7 +53,7 @@ class Drawing:
     """The glass, which only another lens changes, and stop and sensor; mm.
 
     ``dark``: from which to which y the mask in the stop covers it, vanes left out. ``stop`` and ``sensor``: how these
-    stand in the drawing, ``surfaces``: how every surface does.
+    stand in the drawing, ``surfaces``: how every surface does; ``sensor_surface``: the shape of the sensor.
     ``outlines``: of the elements, and of a medium that fills the space up to the sensor, as in the eye. ``left`` and
     ``right``: the ends of glass, mirrors and the way to the sensor.
     """
@@ -67,6 +70,11 @@ class Drawing:
     stop: Section = UPRIGHT
     sensor: Section = UPRIGHT
     surfaces: tuple[Section, ...] = ()
+    sensor_surface: Surface = PLANE
+
+    def sensor_line(self, half: float) -> Profile:
+        """Return z and y, mm, of the sensor from −half to half: two points of a plane, more of a curved one."""
+        return self.sensor.placed(*profile(self.sensor_surface, 0.0, half))
 
 
 @dataclass(frozen=True)
@@ -207,7 +215,7 @@ def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
     z = [place.z for place in places]
     return Drawing(
         glass=glass,
-        outlines=glass.outlines + filling(glass, places[-1]),
+        outlines=glass.outlines + filling(glass, places[-1], lens.sensor_surface),
         stop_z=z[int(stop_surface) - 1],
         stop_rim=stop_rim,
         sensor_z=z[-1],
@@ -218,6 +226,7 @@ def drawing(lens: Lens, stop_surface: float, stop_rim: float) -> Drawing:
         stop=places[int(stop_surface) - 1],
         sensor=places[-1],
         surfaces=places[:-1],
+        sensor_surface=lens.sensor_surface,
     )
 
 

@@ -52,8 +52,11 @@ def path(
             return *places, False
         cz, cy = turned
         vertex += surface.thickness
-    places[0].append(vertex)
-    places[1].append(y + (vertex - z) * cy / cz)
+    met = meet(lens.sensor_surface, z - vertex, y, cz, cy)
+    if met is None:
+        return *places, False
+    places[0].append(met[0] + vertex)
+    places[1].append(met[1])
     return *places, True
 
 

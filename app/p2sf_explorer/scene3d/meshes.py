@@ -17,6 +17,7 @@ CUT = (np.pi, 2.5 * np.pi)  # the sweep that remains, from −x over −y and +x
 STEPS = 48  # of the sweep
 IRIS_STEPS = 270  # of the sweep along an iris's edge: one a degree
 RINGS = 12  # of a surface, from axis to rim
+PLATE_POINTS = 25  # along a side of a curved sensor
 
 SHELL, SHELL_INDEX = 0.04, 2.0  # of its rim: the thickness of a mirror; its look, that of a dense glass
 
@@ -62,12 +63,10 @@ def filling(lens: Lens) -> tuple[Element, ...]:
     if index <= GLASS_INDEX:
         return ()
     rims = drawn_rims(still(lens))
-    return (_between(lens, len(rims) - 1, (lens.surfaces[-1], rims[-1]), (None, max(rims)), index),)
+    return (_between(lens, len(rims) - 1, (lens.surfaces[-1], rims[-1]), (lens.sensor_surface, max(rims)), index),)
 
 
-def _between(
-    lens: Lens, at: int, front: tuple[Surface, float], back: tuple[Surface | None, float], index: float
-) -> Element:
+def _between(lens: Lens, at: int, front: tuple[Surface, float], back: tuple[Surface, float], index: float) -> Element:
     """Return what lies behind surface ``at``, from 0: both of its sides with the rims they are drawn with."""
     thickness = lens.surfaces[at].thickness
     made = element((front[0], 0.0, front[1]), (back[0], thickness, back[1]))
@@ -87,8 +86,8 @@ def wedge(mesh: Mesh, front: Motion, back: Motion) -> Mesh:
     return Mesh(np.concatenate([points @ frame.rotation.T + frame.origin for points, frame in sides]), mesh.faces)
 
 
-Side = tuple[Surface | None, float, float]
-"""A surface (None for a plane), its vertex's z and its rim, mm."""
+Side = tuple[Surface, float, float]
+"""A surface, its vertex's z and its rim, mm."""
 
 
 def element(front: Side, back: Side) -> Mesh:
@@ -105,8 +104,6 @@ def element(front: Side, back: Side) -> Mesh:
 def _heights(side: Side, radii: np.ndarray) -> np.ndarray:
     """Return z at radii, (r,), or along the whole sweep, (steps + 1, r), of a side that is not of revolution."""
     surface, vertex, rim = side
-    if surface is None:
-        return np.full(radii.size, vertex)
     held = np.minimum(radii, rim)
     if not surface.uneven_parts:
         return vertex + sag(surface, held)
@@ -183,9 +180,26 @@ def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
     return Mesh(np.concatenate([mesh.points for mesh in meshes]), np.concatenate(faces))
 
 
-def plate(half: float, z: float, thick: float) -> Mesh:
-    """Return a square plate whose front lies at z: the sensor."""
-    return slab(half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]), z, thick)
+def plate(half: float, thick: float, surface: Surface) -> Mesh:
+    """Return a square plate whose front has the shape of a surface about the origin: the sensor."""
+    corners = half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    if surface.flat:
+        return slab(corners, 0.0, thick)
+    axis = np.linspace(-half, half, PLATE_POINTS)
+    x, y = np.meshgrid(axis, axis)
+    front = np.stack([x, y, sag(surface, y, x)], -1).reshape(-1, 3)
+    faces, behind = grid_faces(PLATE_POINTS, PLATE_POINTS), len(front)
+    rim = _rim_of_grid(PLATE_POINTS)
+    walls = np.concatenate([[(a, b, b + behind), (a, b + behind, a + behind)] for a, b in pairwise([*rim, rim[0]])])
+    points = np.concatenate([front, front + np.array([0.0, 0.0, thick])])
+    return Mesh(points, np.concatenate([faces, faces[:, ::-1] + behind, walls]))
+
+
+def _rim_of_grid(count: int) -> list[int]:
+    """Return the points along the rim of a square grid, counter-clockwise."""
+    numbers = np.arange(count * count).reshape(count, count)
+    sides = numbers[0, :-1], numbers[:-1, -1], numbers[-1, :0:-1], numbers[:0:-1, 0]
+    return [int(number) for side in sides for number in side]
 
 
 def slab(corners: np.ndarray, z: float, thick: float) -> Mesh:

@@ -82,7 +82,7 @@ def front(setup: ParaxialSetup, drawn: Drawing, last_z: float) -> Front:
     wave_mm = setup.source.wavelength_um / UM_PER_MM
     factor = _round_down(deepest / max(float(np.ptp(waves)) * wave_mm, 1e-9)) if deepest else 1.0  # 0: no ray passes
     along = (radius - factor * wave_mm * waves)[:, None]
-    image = np.array([0.0, float(rays.chief_y[0]), drawn.sensor_z])
+    image = np.array([0.0, 0.0, drawn.sensor_z])
     along *= setup.lens.directions[-1]  # cosines of light that runs to the left are those of its way back
     return Front(Mesh(image - along * np.stack([kx, ky, kz], -1), grid_faces(*FRONT_GRID)), waves, factor)
 
@@ -112,13 +112,11 @@ def _drawn_radius(setup: ParaxialSetup, drawn: Drawing, last_z: float, chief_kz:
     return min(longest, pupil) if isfinite(pupil) and pupil > 0 else longest
 
 
-def psf_surface(
-    psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float, image_y: float, forward: int
-) -> PsfSurface:
+def psf_surface(psf: Psf, brightness: np.ndarray, drawn: Drawing, sensor_half: float, forward: int) -> PsfSurface:
     """Return the PSF as a surface that rises from the sensor towards the lens about the chief ray's point.
 
-    ``brightness``: of the PSF's samples, 0 to 1, (y, x); ``image_y``: of the chief ray on the sensor, mm;
-    ``forward``: 1 where light meets the sensor from the left, else −1.
+    ``brightness``: of the PSF's samples, 0 to 1, (y, x); ``forward``: 1 where light meets the sensor from the left,
+    else −1.
     """
     count = brightness.shape[0]
     width = count * psf.pixel_um / UM_PER_MM
@@ -126,7 +124,7 @@ def psf_surface(
     weight = _resampling(count)
     values = np.clip(weight @ brightness @ weight.T, 0.0, 1.0)
     axis = (np.arange(SAMPLES) - SAMPLES // 2) * (width * factor / SAMPLES)
-    x, y = np.meshgrid(axis, axis + image_y)
+    x, y = np.meshgrid(axis, axis)
     z = drawn.sensor_z - forward * (HEIGHT * width * factor * values + 2e-3 * sensor_half)
     return PsfSurface(
         Mesh(np.stack([x, y, z], -1).reshape(-1, 3), grid_faces(SAMPLES, SAMPLES)), values.ravel(), factor

@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.lens.lens import seen_from
 from p2sf.lens.placement import Motion, Placement
-from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.pencil import pencil, tangent_axes
 from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.glass_outlines import last_end, still
 from p2sf_explorer.compute.layout import shown_lens
@@ -34,8 +34,8 @@ class Scene3D:
 def scene(live: Live) -> Scene3D:
     """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor.
 
-    Wavefront and PSF are made in the sensor's own axes, turned with the source's azimuth, and put where the sensor
-    stands.
+    Wavefront and PSF are made in the axes of the plane that touches the sensor at the chief ray's point, turned with
+    the source's azimuth, and put there.
     """
     setup, drawn, half = live.setup, live.layout.drawing, live.layout.sensor_half
     rim, thick = drawn.stop_rim, THICKNESS * drawn.half_height
@@ -44,14 +44,15 @@ def scene(live: Live) -> Scene3D:
     stands = Placement(tilt_z_deg=-azimuth).motion.then(seen_from(lens, azimuth).frames[-1])
     chief = pencil(lens, setup.source, np.zeros(1), np.zeros(1))
     across, up = float(np.squeeze(chief.chief_x)), float(np.squeeze(chief.chief_y))
-    stands = stands.then(Motion(np.eye(3), np.array([across, 0.0, 0.0])))
+    deep = float(lens.sensor_surface.sag(across, up))
+    stands = stands.then(Motion(tangent_axes(lens, across, up), np.array([across, up, deep])))
     wave = front(setup, flat, last_end(lens) - lens.sensor_mm)
-    psf = psf_surface(live.psf, brightness(live), flat, half, up, lens.directions[-1])
+    psf = psf_surface(live.psf, brightness(live), flat, half, lens.directions[-1])
     stop = masked_stop(lens.mask, rim, rim + 0.18 * drawn.half_height + 0.25 * rim, 0.0, thick)
     return Scene3D(
         glass=elements(still(shown)) + filling(shown),
         stop=place_mesh(stop, shown.frames[int(setup.stop.surface) - 1]),
-        sensor=place_mesh(plate(half, 0.0, thick), shown.frames[-1]),
+        sensor=place_mesh(plate(half, thick, shown.sensor_surface), shown.frames[-1]),
         rays=ray_bundle(setup, drawn, live.state.optics.clip),
         colour=visible_colour(live.state.optics.wavelength_nm),
         front=replace(wave, mesh=place_mesh(wave.mesh, stands)),

@@ -128,14 +128,14 @@ def _mask(arrays: Arrays, meta: Meta) -> PupilMask:
 
 
 def _pack_exact(database: ExactDatabase) -> tuple[Arrays, Meta]:
-    numbers = {"middle": database.middle, "half": database.half, "sensor_mm": database.sensor_mm}
+    numbers = {name: getattr(database, name) for name in ("middle", "half", "sensor_mm", "sensor_curvature")}
     return {"series": database.series}, numbers
 
 
 def _unpack_exact(space: Space, arrays: Arrays, meta: Meta, mask: PupilMask) -> ExactDatabase:
     series, numbers = _check_shape(arrays["series"], (None, NUMBERS)), meta["numbers"]
     made = series, numbers["middle"], numbers["half"], numbers["sensor_mm"], meta["errors_waves"]
-    return ExactDatabase(space, *made, mask=mask)
+    return ExactDatabase(space, *made, mask=mask, sensor_curvature=numbers.get("sensor_curvature", 0.0))
 
 
 def _pack_grid(database: GridDatabase) -> tuple[Arrays, Meta]:

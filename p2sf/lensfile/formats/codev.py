@@ -693,8 +693,8 @@ def _finish(reading: CodeVReading) -> None:
         )
     if reading.image is not None:
         raw.surfaces[-1].thickness += reading.image.thickness  # defocus
-        if reading.image.curvature:
-            reading.notes.add("caution", "the image surface is curved in the file; the sensor here is flat")
+        _shape(reading, reading.image)
+        raw.image = reading.image
     if raw.stop is None:
         raw.stop = 1
         reading.notes.add("read", "no stop (STO) is stated; surface 1 is the stop, which is what CODE V takes")

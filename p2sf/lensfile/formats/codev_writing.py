@@ -56,9 +56,11 @@ def lens_to_seq(lens: Lens) -> str:
     rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _rows(lens, number)]
     surfaces = [line for row in rows for line in _surface(lens, row, stop, private)]
     image = placement_of(reduce(Motion.then, (placement.motion for placement in lens.sensor_before), along_z(0.0)))
+    bent = [f"SI {digits(lens.sensor_radius if lens.sensor_surface.curvature else 0.0)} 0.0"]
+    bent += ["ASP", f"K {digits(lens.sensor_conic)}"] * bool(lens.sensor_conic)
     behind = f" {_glass(lens.object_medium, private)}" if lens.object_medium != AIR else ""
     head = [*_head(lens), f"SO 0.0 {digits(FAR)}{behind}"]
-    return "\n".join([*head, *surfaces, "SI 0.0 0.0", *_tilts("", image), *_catalogue(lens, private), "GO", ""])
+    return "\n".join([*head, *surfaces, *bent, *_tilts("", image), *_catalogue(lens, private), "GO", ""])
 
 
 def _head(lens: Lens) -> list[str]:

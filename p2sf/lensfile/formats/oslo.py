@@ -189,6 +189,7 @@ def _finish(reading: OsloReading) -> None:
     if not abs(raw.object_distance) < FAR:
         _angles(reading, raw)
     raw.surfaces[-1].thickness += image.thickness  # defocus
+    raw.image = image
     raw.sensor_stated = raw.surfaces[-1].number in reading.stated
     check_stop(raw, reading.source, image.line)
     if raw.stop is None:

@@ -86,6 +86,9 @@ def _raw_lens(model: dict[str, Any], source: LensText) -> RawLens:
     moved, (raw.sensor_before, _) = (
         _breaks(end, _inside(interfaces[end.number]).get("decenter"), source) for end in ends
     )
+    if profile := _profile(_inside(interfaces[-1]), model):
+        raw.image = RawSurface(len(interfaces) - 1, 1)
+        _shape(raw.image, profile, source)
     if any(moved):
         raise source.error("the object is tilted or decentred, which is not read; move the lens instead", 1)
     stop = sequence.get("stop_surface")
@@ -106,8 +109,7 @@ def _surface(
     else:
         if values.get("phase_element"):
             surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source)
-        profile = values.get("profile") or model.get("profile_dict", {}).get(str(values.get("profile_id")))
-        _shape(surface, profile, source)
+        _shape(surface, _profile(values, model), source)
     reflects = values.get("interact_mode") == "reflect"
     surface.glass = RawGlass(medium=MIRROR, line=1) if reflects else _glass(gap["medium"])
     rim = values.get("max_aperture") or inf
@@ -160,6 +162,11 @@ def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: Lens
     wavelength = float(values["ref_wl"]) / (NM_PER_UM * UM_PER_MM * unit_mm)
     terms = tuple(2 * pi / wavelength * float(c) for c in values["coefficients"])
     return Diffraction(terms, 1.0, float(values.get("order", 1)))
+
+
+def _profile(values: dict[str, Any], model: dict[str, Any]) -> Any:
+    """Return the profile of an interface, its own or that which it names."""
+    return values.get("profile") or model.get("profile_dict", {}).get(str(values.get("profile_id")))
 
 
 def _shape(surface: RawSurface, profile: Any, source: LensText) -> None:

@@ -656,10 +656,7 @@ def _finish(reading: ZemaxReading) -> None:
     raw.object_distance, raw.object_glass = first.thickness, first.glass
     if not abs(raw.object_distance) < FAR:
         raw.object_distance = inf
-    if image.curvature:
-        reading.notes.add(
-            "caution", "the image surface is curved in the file; the sensor here is flat", None, image.line
-        )
+    raw.image = image
     check_stop(raw, reading.source, image.line)
     if raw.aperture and raw.aperture[0] == "stop_semi_diameter":
         raw.aperture = None  # float by stop size: the stop's rim, which is what a lens without aperture gets

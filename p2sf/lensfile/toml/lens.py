@@ -9,6 +9,7 @@ wavelength_weights = [1, 2, 1]   # of their light; left out: all the same
 reference_nm = 587.5618          # where pupil and f-number hold; left out: the middle one
 aim = "stop"                     # rays fill the real stop; or "paraxial", the paraxial entrance pupil
 object_medium = "air"
+sensor_radius = -40.0            # of a curved sensor, also sensor_conic; left out: a plane
 absorption = true                # rays lose what the media of catalogues absorb; left out: false
 
 [aperture]                       # exactly one: stop_semi_diameter, entrance_pupil_diameter, f_number
@@ -79,7 +80,7 @@ from p2sf.lensfile.toml.columns import KINDS as RINGS
 from p2sf.lensfile.toml.columns import axis_text, columns_of, join_columns, read_columns
 from p2sf.lensfile.toml.mask import mask_lines, read_mask
 from p2sf.lensfile.toml.placement import apply_misalignments, placements_text, read_placements
-from p2sf.lensfile.toml.surface import OPENING, medium_text, read_surface, surface_lines
+from p2sf.lensfile.toml.surface import FINITE, OPENING, RADIUS, medium_text, read_surface, surface_lines
 from p2sf.lensfile.toml.table import Constraint, Table, find_line, list_text, shorten, text_of
 from p2sf.messages import Message
 from p2sf.paraxial.positions import matches_columns
@@ -135,6 +136,8 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
         _Line("aim", text_of(lens.aim), text_of(USUAL_AIM)),
         _Line("object_medium", medium_text(lens.object_medium), '"air"'),
         _Line("sensor_before", placements_text(lens.sensor_before), "[]"),
+        _Line("sensor_radius", digits(lens.sensor_radius), "inf"),
+        _Line("sensor_conic", digits(lens.sensor_conic), "0.0"),
         _Line("absorption", str(lens.absorption).lower(), "false"),
     )
 
@@ -161,7 +164,8 @@ MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (
     *(*TEXTS, "unit", "stop_surface", "fields_deg", "fields_x_deg", "wavelengths_nm", "wavelength_weights"),
-    *("reference_nm", "aim", "object_medium", "absorption", "aperture", "pupil", "surface"),
+    *("reference_nm", "aim", "object_medium", "absorption", "sensor_radius", "sensor_conic"),
+    *("aperture", "pupil", "surface"),
 )
 TILTED = ("sensor_before", "misaligned")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
@@ -199,7 +203,7 @@ def _plain(top: Table) -> Lens:
     surfaces = tuple(read_surface(table, scale, TOP) for table in _surface_tables(top))
     texts = {key: top.string(key) for key in TEXTS}
     texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
-    lens = with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top))
+    lens = _with_curved_sensor(top, with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top)), scale)
     lens = with_absorption(lens, top.flag("absorption"))
     lens = _with_placements(top, lens, scale)
     _check_wavelengths(top, lens)
@@ -298,6 +302,11 @@ def _lens(top: Table, surfaces: tuple[Surface, ...], aperture: Aperture, texts: 
         return with_aim(lens, cast("Aim", top.string("aim", USUAL_AIM)))
     except GeometryError as error:
         raise LensFileError(error.message, top.path) from None
+
+
+def _with_curved_sensor(top: Table, lens: Lens, scale: float) -> Lens:
+    radius, conic = top.number("sensor_radius", RADIUS, inf), top.number("sensor_conic", FINITE, 0.0)
+    return replace(lens, sensor_radius=scale * radius, sensor_conic=conic)
 
 
 def _with_placements(top: Table, lens: Lens, scale: float) -> Lens:

@@ -53,7 +53,8 @@ def test_three_quarters_of_a_ball_lens_have_their_volume_and_area():
 
 def test_a_ring_and_a_plate_have_their_volume():
     assert volume(ring(3.0, 5.0, 1.0, 0.5)) == pytest.approx(0.75 * SIDES * np.pi * 16 * 0.5)
-    assert volume(plate(4.0, 1.0, 0.5)) == pytest.approx(64 * 0.5)
+    assert volume(plate(4.0, 0.5, Surface())) == pytest.approx(64 * 0.5)
+    assert volume(plate(4.0, 0.5, sphere(-20.0))) == pytest.approx(64 * 0.5)  # its back is its front, moved
 
 
 def test_a_masked_stop_has_the_volume_of_its_parts():
@@ -67,10 +68,11 @@ def test_a_masked_stop_has_the_volume_of_its_parts():
 
 
 MASKS = PupilMask(blades=5, roundness=0.3), PupilMask(vanes=1, vane_width=0.02)
-SOLIDS = ring(3.0, 5.0, 1.0, 0.5), plate(4.0, 1.0, 0.5), *(masked_stop(mask, 3.0, 5.0, 1.0, 0.5) for mask in MASKS)
+IRISES = tuple(masked_stop(mask, 3.0, 5.0, 1.0, 0.5) for mask in MASKS)
+SOLIDS = ring(3.0, 5.0, 1.0, 0.5), plate(4.0, 0.5, Surface()), plate(4.0, 0.5, Surface(-20.0)), *IRISES
 
 
-@pytest.mark.parametrize("mesh", SOLIDS, ids=["ring", "plate", "iris", "spider"])
+@pytest.mark.parametrize("mesh", SOLIDS, ids=["ring", "plate", "curved plate", "iris", "spider"])
 def test_a_solid_is_closed_and_faces_outwards(mesh):
     """Every edge is shared by two triangles that run along it in opposite directions."""
     _, same = np.unique(mesh.points.round(9), axis=0, return_inverse=True)

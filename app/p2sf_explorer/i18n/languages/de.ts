@@ -1817,9 +1817,12 @@
 <message><source>the image lies at infinity, so the sensor sees no blur of finite size; move the object</source><translation>das Bild liegt im Unendlichen, der Sensor sieht also keine Unschärfe endlicher Größe; das Objekt verschieben</translation></message>
 <message><source>the image of this object lies at infinity (NA 0), so the sensor contains no PSF; move the object or refocus</source><translation>das Bild dieses Objekts liegt im Unendlichen (NA 0), auf dem Sensor gibt es also keine PSF; das Objekt verschieben oder neu fokussieren</translation></message>
 <message><source>the image surface</source><translation>die Bildfläche</translation></message>
-<message><source>the image surface is curved in the file; the sensor here is flat</source><translation>die Bildfläche ist in der Datei gekrümmt; der Sensor hier ist eben</translation></message>
+<message><source>the image surface has more terms than a radius and a conic constant; these two are read, the rest is not</source><translation>die Bildfläche hat mehr Terme als Radius und Kegelschnittkonstante; diese beiden werden gelesen, der Rest nicht</translation></message>
 <message><source>the last thickness as the distance to the sensor</source><translation>die letzte Dicke als Abstand zum Sensor</translation></message>
 <message><source>the layout</source><translation>der Aufbau</translation></message>
+<message><source>the sensor is curved, which a file that ends in {ending} cannot express; save as TOML</source><translation>der Sensor ist gekrümmt, was eine Datei auf {ending} nicht ausdrücken kann; als TOML speichern</translation></message>
+<message><source>the sensor's conic constant is {conic}; give a finite number</source><translation>die Kegelschnittkonstante des Sensors ist {conic}; eine endliche Zahl angeben</translation></message>
+<message><source>the sensor's radius is {radius} mm; write inf for a plane</source><translation>der Radius des Sensors ist {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>the lens</source><translation>das Objektiv</translation></message>
 <message><source>the lens as built is the designed lens with its departures; measure relative to the lens</source><translation>das gebaute Objektiv ist das entworfene mit seinen Abweichungen: neben dem Objektiv messen</translation></message>
 <message><source>the lens has a zoom ring and a focus ring, but a Zemax file has one list of configurations; save as TOML</source><translation>das Objektiv hat einen Zoomring und einen Fokusring, eine Zemax-Datei eine Liste von Konfigurationen; als TOML speichern</translation></message>

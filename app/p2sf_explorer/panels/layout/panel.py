@@ -235,7 +235,11 @@ class LayoutChart(Chart):
             self._bar(painter, 3, d.stop, side * d.stop_rim, side * (d.stop_rim + wedge))
         for low, high in d.dark:
             self._bar(painter, 3, d.stop, low, high)
-        self._bar(painter, 2, d.sensor, -half, half)
+        if d.sensor_surface.flat:
+            self._bar(painter, 2, d.sensor, -half, half)
+            return
+        painter.setPen(QPen(QColor(self.theme.text), 2 * self.theme.scale, c=Qt.PenCapStyle.FlatCap))
+        painter.drawPolyline(polygon(*self.to_pixels(*d.sensor_line(half))))
 
     def _paint_ends(self, painter: QPainter) -> None:
         """Paint a bar where a rim stops a ray."""
