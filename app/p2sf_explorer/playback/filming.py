@@ -102,7 +102,8 @@ class Filming(QObject):
         if not self._shown:
             self._shown = True
             self._show(moment.state)
-        if not self._shown or self._busy_panels():
+            return  # until the next tick, before which the panels are laid out for what they say now
+        if self._busy_panels():
             return
         picture = picture_of(self._subject, said(moment.caption) if moment.caption else "")
         self._size = self._size or picture.size()

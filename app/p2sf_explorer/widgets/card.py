@@ -215,6 +215,7 @@ class Card(QFrame):
         else:
             self.head.removeWidget(self.readout)
             self.lines.insertWidget(self.lines.indexOf(self.head) + 1, self.readout)
+        self.head.setStretchFactor(self.title, 0 if beside_title else 1)
         side = Qt.AlignmentFlag.AlignRight if beside_title else Qt.AlignmentFlag.AlignLeft
         self.readout.setAlignment(side | Qt.AlignmentFlag.AlignVCenter)
 

@@ -17,8 +17,9 @@ def settled(panel, qtbot) -> None:
 
 
 def at_rest(window, qtbot) -> None:
-    """Wait until nothing that the window shows is still being computed."""
+    """Wait until nothing that the window shows is still being computed, and all of it is laid out."""
     qtbot.waitUntil(lambda: not window.is_busy())
+    QApplication.processEvents()
 
 
 def start_again(window, state) -> None:
