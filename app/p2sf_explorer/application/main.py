@@ -13,7 +13,7 @@ from p2sf.version import version_text
 from p2sf_explorer.application.display import display_problem
 from p2sf_explorer.application.registration import as_path, register, unregister
 from p2sf_explorer.compute.lens_files import is_file
-from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.compute.setup import default_state, first_state
 from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.scene3d import opengl_probe
 from p2sf_explorer.state.link import is_link, state_of_link
@@ -21,9 +21,9 @@ from p2sf_explorer.state.state import State
 
 
 def starting_state(argv: list[str]) -> State:
-    """Return the state to open: a saved one, one from a link, a lens by name or path, or the default."""
+    """Return the state to open: a saved one, one from a link, a lens by name or path, or that of a first start."""
     if not argv:
-        return State()
+        return first_state()
     if is_link(argv[0]):
         return state_of_link(argv[0])
     place = as_path(argv[0])

@@ -1,7 +1,10 @@
 """After a crash the next start begins anew, since what was on screen may be what ended it, and offers that back."""
 
-from PySide6.QtWidgets import QBoxLayout, QWidget
+from collections.abc import Callable
 
+from PySide6.QtWidgets import QWidget
+
+from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.files.session import Session, forget_rescued, last_session, rescue_session, rescued_session
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import PERSONAL
@@ -25,11 +28,11 @@ def session_to_open(asked: State | None, crashed: bool) -> Session:
     if asked is not None or not (crashed and rescued):
         return (asked, {}) if asked is not None else last_session()
     kept, geometry = rescued
-    return change(State(), **{name: entry(kept, name) for name in PERSONAL}), geometry
+    return change(first_state(), **{name: entry(kept, name) for name in PERSONAL}), geometry
 
 
-def offer_rescued(store: Store, offers: QBoxLayout, window: QWidget) -> Offer | None:
-    """Offer the window of a run that crashed in a line under the top bar, at each start until that is decided."""
+def offer_rescued(store: Store, put: Callable[[QWidget], None], window: QWidget) -> Offer | None:
+    """Offer the window of a run that crashed, at each start until that is decided; ``put`` gives the line its place."""
     found = rescued_session()
     if found is None:
         return None
@@ -37,6 +40,6 @@ def offer_rescued(store: Store, offers: QBoxLayout, window: QWidget) -> Offer | 
     offer.accept.clicked.connect(lambda: store.replace(found[0]))
     for button in (offer.accept, offer.dismiss):
         button.clicked.connect(forget_rescued)
-    offers.insertWidget(1, offer)
+    put(offer)
     offer.show()
     return offer

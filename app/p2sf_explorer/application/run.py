@@ -27,7 +27,7 @@ def run_application(asked: State | None) -> int:
         window = MainWindow(state)
         window.fit_screen()
         keepers[:] = [SessionKeeper(window, window.store, lambda: window.floating.open, geometry)]
-        offer_rescued(window.store, window.column, window)
+        offer_rescued(window.store, window.edge.add, window)
         window.teaching.offer_once()
         return window
 

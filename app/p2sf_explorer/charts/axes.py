@@ -41,7 +41,7 @@ def area_of(chart: "Chart", labels: tuple[str, str]) -> QRectF:
 
 def paint_axes(painter: QPainter, chart: "Chart", labels: tuple[str, str]) -> None:
     """Paint two axes, their ticks and labels."""
-    area, theme, small = chart.area, chart.theme, chart.theme.tick
+    area, theme, small = area_of(chart, labels), chart.axes_theme, chart.theme.tick
     painter.setPen(QPen(QColor(theme.line), theme.scale))
     painter.drawLine(area.bottomLeft(), area.bottomRight())
     for value, text in bottom_ticks(chart):
@@ -55,7 +55,7 @@ def paint_axes(painter: QPainter, chart: "Chart", labels: tuple[str, str]) -> No
     row, lock = QRectF(area.left(), area.bottom() + theme.px(18), area.width(), theme.px(16)), theme.px(LOCK_PX)
     write(painter, row, fitting(labels[0], area.width() - 2 * lock, theme.label), 0, theme.label)
     if chart.left_axis:
-        _paint_left(painter, chart, labels[1])
+        _paint_left(painter, chart, labels[1], area.bottom())
 
 
 def left_ticks(chart: "Chart") -> Ticks:
@@ -77,12 +77,15 @@ def _room_for(length: float, chart: "Chart", side: str) -> float:
     return min(MOST_TICKS, length / chart.theme.px(TICK_EVERY_PX[side]))
 
 
-def _paint_left(painter: QPainter, chart: "Chart", label: str) -> None:
-    area, theme, small = chart.area, chart.theme, chart.theme.tick
+def _paint_left(painter: QPainter, chart: "Chart", label: str, bottom: float) -> None:
+    area, theme, small = area_of(chart, ("", label)), chart.axes_theme, chart.theme.tick
+    area.setBottom(bottom)
     painter.setPen(QPen(QColor(theme.line), theme.scale))
     painter.drawLine(area.bottomLeft(), area.topLeft())
     for value, text in left_ticks(chart):
         y = float(chart.to_pixels(0.0, value)[1])
+        if not area.top() - 1 <= y <= area.bottom() + 1:
+            continue
         _tick(painter, theme, QPointF(area.left(), y), QPointF(area.left() + theme.px(4), y))
         room = QRectF(area.left() - theme.px(60), y - theme.px(8), theme.px(55), theme.px(16))
         write(painter, room, text, 1, small)

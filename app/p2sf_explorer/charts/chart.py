@@ -20,7 +20,7 @@ from p2sf_explorer.charts.crosshair import paint_box, paint_crosshair, paint_mar
 from p2sf_explorer.charts.hand import Hand
 from p2sf_explorer.charts.painting import MARKS, paint_line_marks, pen, polylines
 from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
-from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.charts.theme import DARK, LIGHT, Tokens
 from p2sf_explorer.charts.view import AxisView, Span, pan, width, zoom
 from p2sf_explorer.i18n.tr import tr
 
@@ -28,6 +28,7 @@ THICK = (0.5, 0.9)  # px between the thin lines of a thick one
 Grid = tuple[str, np.ndarray, np.ndarray, np.ndarray]
 """Head, x, y and (y, x) values of a map, as it is copied."""
 FINEST = 1e-6  # of an axis: finer digits of a curve's value are not read
+VEIL = 170  # opacity of the dark bands behind axes over a picture: its brightest yellow leaves text at 7:1
 TICK_PX = 4  # within the area
 NEAR_PX = 9.0  # of a pinned marker, within which another press of its key or a click takes it away
 
@@ -91,12 +92,17 @@ class Chart(QWidget):
 
     The wheel zooms, a drag pans, a double-click goes home, a click pins a marker (`charts/hand.py`); where a chart
     `takes` a drag or ``takes_arrows`` for something else, Shift or the middle button pan. ``viewed``: the range has
-    changed by hand.
+    changed by hand,
+    or since two plots share it; ``zoomed``: with the ranges moved to by hand; ``pointed``: the crosshair is at another
+    place of the data, None for none.
     """
 
     accessible_role = QAccessible.Role.Chart
     viewed = Signal()
+    zoomed = Signal(object)
+    pointed = Signal(object)
     takes_arrows = False
+    bleeds = False  # whether the picture runs under the axes
     smooth = False  # whether the image's pixels are samples of a smooth picture, and not squares
     over = "bottom"  # the axis that the curves are functions of
     grids: tuple[Grid, ...] = ()  # copied in place of the curves
@@ -131,6 +137,7 @@ class Chart(QWidget):
         self._scale: tuple[float, float, float, float] | None = None
         self._area: tuple[tuple[int, int], QRectF] | None = None  # by the size that it is of
         self._background: QPixmap | None = None
+        self._over: QPixmap | None = None  # the axes, where they stand over the picture
         self._image: tuple[np.ndarray, tuple[float, float, float, float]] | None = None
         self.hand = Hand(self)
         self._name_for_readers()
@@ -171,6 +178,20 @@ class Chart(QWidget):
         """Show a square about ``middle`` whole, to ``half`` on either side."""
         x, y = middle
         self.set_range((x - half, x + half), (y - half, y + half))
+
+    def share(self, x: Span | None, y: Span | None) -> None:
+        """Show these ranges in place of the automatic ones, None for those."""
+        self._see(replace(self.x_axis, shared=x), replace(self.y_axis, shared=y))
+
+    def zoom_to(self, spans: tuple[Span | None, Span | None]) -> None:
+        """Show these ranges as if moved there by hand, None for the whole plot."""
+        x, y = spans
+        self._see(replace(self.x_axis, moved=x), replace(self.y_axis, moved=y))
+
+    def point_at(self, place: tuple[float, float] | None) -> None:
+        """Put the crosshair at a place of the data, or take it away; nobody is told."""
+        self.hand.at = QPointF(*(float(v) for v in self.to_pixels(*place))) if place else None
+        self.update()
 
     @property
     def moved(self) -> bool:
@@ -222,6 +243,7 @@ class Chart(QWidget):
             self.x_axis, self.y_axis = x, y
             self.forget_background()
             self.viewed.emit()
+            self.zoomed.emit((x.moved, y.moved))
 
     def pin(self, point: QPointF) -> bool:
         """Pin a marker at a pixel, or take away the one that is there; return whether one was pinned."""
@@ -280,6 +302,18 @@ class Chart(QWidget):
         at = self.hand.at
         return self.read(*self.from_pixels(at)) if at and self.area.contains(at) else None
 
+    def bleed(self, on: bool) -> None:
+        """Have the picture run under the axes, to the edges of the chart, or within them."""
+        if on != self.bleeds:
+            self.bleeds = on
+            self.forget_background()
+            self.viewed.emit()
+
+    @property
+    def axes_theme(self) -> Tokens:
+        """Return the colours of the axes: over a picture those that stand out from its dark ground."""
+        return replace(DARK, scale=self.theme.scale, muted=DARK.text) if self.bleeds else self.theme
+
     def show_pixels(
         self, pixels: np.ndarray, rect: tuple[float, float, float, float], samples: Samples | None = None
     ) -> None:
@@ -294,7 +328,7 @@ class Chart(QWidget):
 
     def forget_background(self) -> None:
         """Have the background painted again."""
-        self._background = self._scale = self._area = None
+        self._background = self._over = self._scale = self._area = None
         self.update()
 
     @property
@@ -302,7 +336,8 @@ class Chart(QWidget):
         """Return the rectangle of the data, in pixels."""
         size = self.width(), self.height()
         if self._area is None or self._area[0] != size:  # asked for a dozen times in a frame
-            self._area = size, area_of(self, self._labels) if self.framed else QRectF(self.rect())
+            framed = self.framed and not self.bleeds
+            self._area = size, area_of(self, self._labels) if framed else QRectF(self.rect())
         return QRectF(self._area[1])
 
     def ranges(self) -> tuple[Span, Span]:
@@ -352,7 +387,7 @@ class Chart(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Paint everything again in the new size."""
-        self._background = self._scale = None
+        self._background = self._over = self._scale = None
         super().resizeEvent(event)
 
     def focusInEvent(self, event: QFocusEvent) -> None:
@@ -380,8 +415,23 @@ class Chart(QWidget):
             curve.paint(painter, self)
         self.paint_over(painter)
         painter.setClipping(False)
+        if self.bleeds:
+            self._paint_axes_over(painter)
         self._paint_readings(painter)
         self._paint_buttons(painter)
+
+    def _paint_axes_over(self, painter: QPainter) -> None:
+        """Paint the axes on dark bands over the picture, kept as a pixmap."""
+        if self._over is None or self._over.size() != self.size() * self.devicePixelRatioF():
+            self._over = blank_pixmap(self, "#00000000")
+            frame, veil = area_of(self, self._labels), QColor(0, 0, 0, VEIL)
+            on_it = QPainter(self._over)
+            on_it.setRenderHint(QPainter.RenderHint.Antialiasing)
+            on_it.fillRect(QRectF(0, 0, frame.left(), self.height()), veil)
+            on_it.fillRect(QRectF(frame.left(), frame.bottom(), self.width(), self.height()), veil)
+            paint_axes(on_it, self, self._labels)
+            on_it.end()
+        painter.drawPixmap(0, 0, self._over)
 
     def _paint_ground(self, painter: QPainter, image: QRectF) -> None:
         """Paint axes and ground, each pixel once: copying the background takes longer than filling with a colour.
@@ -390,7 +440,7 @@ class Chart(QWidget):
         """
         area, whole = self.area.toRect(), self.rect()
         covered = (image & self.area).toRect().adjusted(2, 2, -2, -2) if image.isValid() else QRect()
-        edge = self.theme.px(TICK_PX) + 1 if self.framed else 0
+        edge = self.theme.px(TICK_PX) + 1 if self.framed and not self.bleeds else 0
         plain, colour = covered, self.theme.card
         if image.isValid() and self.ground is not None and not image.contains(self.area):
             plain, colour = area, QColor.fromRgb(self.ground).name()
@@ -454,7 +504,7 @@ class Chart(QWidget):
         background = blank_pixmap(self, self.theme.card)
         painter = QPainter(background)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if self.framed:
+        if self.framed and not self.bleeds:
             paint_axes(painter, self, self._labels)
         self.paint_background(painter)
         painter.end()

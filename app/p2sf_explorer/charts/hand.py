@@ -138,6 +138,7 @@ class Hand(QObject):
         """Put the crosshair at a pixel, or take it away."""
         if at != self.at:
             self.at = at
+            self._chart.pointed.emit(self._chart.from_pixels(at) if at else None)
             self._chart.update()
 
     def on_key(self, event: QKeyEvent) -> bool:

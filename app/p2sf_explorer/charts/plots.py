@@ -66,6 +66,8 @@ class ColourBar(QWidget):
         self._wide = self.WIDTH
         self._scale: ColourScale | None = None
         self._lock: ScaleLock | None = None
+        self.shared: ScaleLock | None = None  # the ends of two plots side by side
+        self.own_ends: ScaleLock | None = None  # of the picture alone
         self._automatic: Span = (0.0, 1.0)
 
     def sizeHint(self) -> QSize:
@@ -91,7 +93,9 @@ class ColourBar(QWidget):
 
     def settled(self, scale: ColourScale) -> tuple[ColourScale, float]:
         """Show the scale for a picture and return it, locked or in coarse steps, with the factor of the values."""
-        found = self._lock.apply_to(scale) if self._lock else None
+        self.own_ends = ScaleLock.of(scale)
+        kept = self._lock or self.shared
+        found = kept.apply_to(scale) if kept else None
         if found is None:
             self._lock = None
             if scale.steady:
@@ -99,7 +103,8 @@ class ColourBar(QWidget):
                 scale = replace(scale, low=self._automatic[0], high=self._automatic[1])
             found = scale, 1.0
         self._scale = found[0]
-        unit = "locked peak" if found[0].relative and self.locked else found[0].unit
+        of_whom = "locked peak" if self.locked else "higher peak"
+        unit = of_whom if found[0].relative and kept else found[0].unit
         self.show_scale(found[0].name, unit, found[0].labels())
         return found
 
@@ -232,6 +237,12 @@ class HeatMap(QWidget):
         self.chart.ground = int(self._table[127 if used.signed else 0]) if scale.grounded else None
         self.chart.show_pixels(self._table[self.indices], rect)
         self.means(values * factor if factor != 1 else values, scale.quantity)
+
+    def share_colours(self, ends: ScaleLock | None) -> None:
+        """Show colours between these ends, None for those of the picture."""
+        if ends != self.bar.shared:
+            self.bar.shared = ends
+            self._again()
 
     def _again(self) -> None:
         if self._shown:

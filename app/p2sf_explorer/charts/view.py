@@ -14,16 +14,20 @@ DEEPEST, WIDEST = 1e-4, 20.0  # of the range without zoom, that zooming leads to
 
 @dataclass(frozen=True)
 class AxisView:
-    """One axis: the ``automatic`` range, the one it is ``locked`` to, and the one it was ``moved`` to by hand."""
+    """One axis: the ``automatic`` range, the one it is ``locked`` to, and the one it was ``moved`` to by hand.
+
+    ``shared`` is the range of two plots side by side, in place of the automatic one.
+    """
 
     automatic: Span = (0.0, 1.0)
     locked: Span | None = None
     moved: Span | None = None
+    shared: Span | None = None
 
     @property
     def home(self) -> Span:
         """Return the range without zoom and pan."""
-        return self.locked or self.automatic
+        return self.locked or self.shared or self.automatic
 
     @property
     def shown(self) -> Span:
@@ -41,7 +45,7 @@ class AxisView:
 
     def with_lock(self, on: bool) -> "AxisView":
         """Return the axis locked to the range on screen, or automatic again where no hand has moved it."""
-        return AxisView(self.automatic, self.shown, None) if on else replace(self, locked=None)
+        return replace(self, locked=self.shown, moved=None) if on else replace(self, locked=None)
 
     def moved_to(self, span: Span) -> "AxisView":
         """Return the axis at another range, as far as zooming leads."""

@@ -2,8 +2,8 @@
 
 from html import escape
 
-from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QButtonGroup, QFrame, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtGui import QAction, QFontMetrics, QResizeEvent
+from PySide6.QtWidgets import QButtonGroup, QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, QVBoxLayout, QWidget
 
 from p2sf.messages import Message
 from p2sf_explorer.compare.contrasts import LINK_WORDS, contrasts
@@ -11,15 +11,17 @@ from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CHOICES, LINKABLE
 from p2sf_explorer.state.pinning import link_toggled, pin, swap, unpin
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
 SIDES = (
     ("a", "A", "Show A, which the controls move"),
     ("b", "B", "Show B, as it was pinned"),
+    ("both", "A | B", "Show A and B side by side on one scale; zoom and crosshair go together"),
     ("difference", "A − B", "Show A − B; a panel in which a difference means nothing shows A and says why"),
 )
+AIR_PX = 60  # beside the buttons and the differences: words in bold are wider
 SWAP_TIP = "Exchange A and B: the controls then move the other one"
 LINK_TIP = "What moves A and B together"
 SAME = "A and B are the same: move a control, or choose another lens or method"
@@ -31,9 +33,9 @@ class CompareBar(QFrame):
     def __init__(self, window: QWidget, store: Store):
         super().__init__(window)
         self.setObjectName("bar")
-        self._store = store
+        self._store, self._plain = store, ""
         self.words = QLabel(self)
-        self.words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.words.setWordWrap(True)
         self.sides = {key: self._button(text, tip) for key, text, tip in SIDES}
         self.swap, self.link = self._button("Swap", SWAP_TIP), self._button("Link", LINK_TIP)
         self.unpin = self._button("Unpin", "Take B away (Ctrl+B)")
@@ -49,16 +51,20 @@ class CompareBar(QFrame):
         return button
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 4, 10, 4)
+        self._column = column = QVBoxLayout(self)
+        column.setContentsMargins(10, 4, 10, 4)
+        column.setSpacing(2)
+        self._row = row = QHBoxLayout()
         row.setSpacing(6)
+        column.addLayout(row)
         group = QButtonGroup(self)
         for button in self.sides.values():
             button.setCheckable(True)
             group.addButton(button)
             row.addWidget(button)
         row.addSpacing(8)
-        row.addWidget(self.words, 1)
+        row.addStretch(1)
+        column.addWidget(self.words)
         for button in (self.link, self.swap, self.unpin):
             row.addWidget(button)
 
@@ -80,11 +86,30 @@ class CompareBar(QFrame):
         self.link.setMenu(menu)
         self.link.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Divide the width anew."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Have the differences between the buttons, or below them where they do not fit."""
+        needed = QFontMetrics(self.words.font()).horizontalAdvance(self._plain) + self._row.minimumSize().width()
+        beside, at = needed < self.width() - AIR_PX, self._row.indexOf(self.words)
+        if beside == (at >= 0):
+            return
+        if beside:
+            self._column.removeWidget(self.words)
+            self._row.insertWidget(len(SIDES) + 1, self.words)
+        else:
+            self._row.removeWidget(self.words)
+            self._column.addWidget(self.words)
+
     def commands(self) -> tuple[Command, ...]:
         """Return what can be done by name or key."""
         return (
             Command("Pin what is on screen as B, or take B away", self.turn, ("Ctrl+B",), "Compare"),
-            Command("Show A, B, A − B in turn", self.next_side, ("Ctrl+Shift+B",), "Compare"),
+            Command("Show A, B, A − B, A | B in turn", self.next_side, ("Ctrl+Shift+B",), "Compare"),
+            Command("A and B side by side, or A alone", self.turn_both, ("Ctrl+Alt+B",), "Compare"),
             Command("Exchange A and B", self.exchange, (), "Compare"),
         )
 
@@ -99,11 +124,17 @@ class CompareBar(QFrame):
             self._store.replace(swap(self._store.state))
 
     def next_side(self) -> None:
-        """Show the next of A, B, A − B; pins B first."""
+        """Show the next of A, B, A − B, A | B; pins B first."""
         if not self._store.state.compare.pinned:
             self.turn()
         sides = CHOICES["shown"]
         self._store.update(shown=sides[(sides.index(self._store.state.compare.shown) + 1) % len(sides)])
+
+    def turn_both(self) -> None:
+        """Show A and B side by side, or A alone again; pins B first."""
+        state = self._store.state
+        shown = "a" if state.compare.shown == "both" else "both"
+        self._store.replace(change(state if state.compare.pinned else pin(state), shown=shown))
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
@@ -120,7 +151,11 @@ class CompareBar(QFrame):
         ]
         words = " &nbsp;·&nbsp; ".join(parts) or tr(SAME)
         if self.words.text() != words:
+            self._plain = "  ·  ".join(
+                f"{tr(name)}  A {a.text(WINDOW)}  |  B {b.text(WINDOW)}" for name, a, b in contrasts(state)
+            ) or tr(SAME)
             self.words.setText(words)
+            self._fit()
             self.words.setToolTip("<br>".join(parts))
 
 

@@ -17,7 +17,7 @@ from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
 from p2sf_explorer.compute.setup import prescription
-from p2sf_explorer.state.panels import REGISTRY
+from p2sf_explorer.state.panels import PANELS, REGISTRY
 from p2sf_explorer.state.pinning import side_b
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import TERMS
@@ -40,11 +40,15 @@ class Difference:
 
 @dataclass(frozen=True)
 class Answers:
-    """A's answer, B's, and the one that is on screen; B is None while nothing is pinned."""
+    """A's answer, B's, and the one that is on screen; B is None while nothing is pinned.
+
+    ``beside`` is B's answer with the view of the stage, where that stands beside A's.
+    """
 
     a: Live
     b: Live | None
     seen: Live
+    beside: Live | None = None
 
     @property
     def pending(self) -> PsfRequest | None:
@@ -81,7 +85,7 @@ def answers(
     b = _b(other, conditions, prescription(other))
     if larger(window_of(b), window_of(a)):
         a = compute.live(state, quality, {}, a.method if state.optics.automatic else "", window_of(b), cache)
-    return Answers(a, b, choose_side(state, a, b, views, begun))
+    return Answers(a, b, choose_side(state, a, b, views, begun), second_side(state, a, b, views, begun))
 
 
 @dataclass(frozen=True)
@@ -122,12 +126,21 @@ def choose_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFuncti
     chosen = b if state.compare.shown == "b" else a
     chosen = compute.with_views(replace(chosen, sides=(a.state, b.state)), views, begun)
     if state.compare.shown != "difference":
-        return replace(chosen, side=state.compare.shown.upper())
+        return replace(chosen, side="B" if state.compare.shown == "b" else "A")
     found = {name: subtract(name, chosen.views[name], compute.try_view(view, b)) for name, view in views.items()}
     why = {entry.key: entry.minus for entry in REGISTRY if isinstance(entry.minus, Message)}
     why |= {name: message for name, (_, message) in found.items() if message}
     minus = replace(difference(a, b), why=why)
     return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=minus)
+
+
+def second_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live | None:
+    """Return B's answer with the view of the stage, where that stands beside A's; None where A stands alone."""
+    stage = state.display.stage
+    if state.compare.shown != "both" or stage not in PANELS or not PANELS[stage].has_two_sides:
+        return None
+    view = {stage: views[stage]} if stage in views else {}
+    return compute.with_views(replace(b, side="B", sides=(a.state, b.state)), view, begun)
 
 
 def difference(a: Live, b: Live) -> Difference:

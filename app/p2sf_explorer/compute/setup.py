@@ -338,6 +338,14 @@ def default_state(name: str, lens_text: str | None = None) -> State:
     return _defaults(new_state(lens=name, lens_text=lens_text), prescription(new_state(lens=name, lens_text=lens_text)))
 
 
+FIRST_LENS = "cooke_triplet"  # in focus; at 14° astigmatism and coma break a star up into a pattern that has names
+
+
+def first_state() -> State:
+    """Return what the window shows at its first start."""
+    return default_state(FIRST_LENS)
+
+
 @lru_cache(maxsize=32)
 def _defaults(state: State, lens: Lens) -> State:
     focused = focused_distance(lens)

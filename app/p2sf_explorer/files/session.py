@@ -6,7 +6,7 @@ from pathlib import Path
 
 from p2sf.errors import P2SFError
 from p2sf.files.writing import write_beside
-from p2sf_explorer.compute.setup import prescription
+from p2sf_explorer.compute.setup import first_state, prescription
 from p2sf_explorer.files import recent
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
@@ -37,8 +37,8 @@ def keep_session(state: State, geometry: dict[str, str]) -> bool:
 
 
 def last_session() -> Session:
-    """Return the state and the window's geometry as kept last; the default ones where these cannot be opened."""
-    return _session(session_path()) or (State(), {})
+    """Return the state and the window's geometry as kept last; those of a first start where these cannot be opened."""
+    return _session(session_path()) or (first_state(), {})
 
 
 def rescue_session() -> None:

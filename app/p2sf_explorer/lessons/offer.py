@@ -1,4 +1,4 @@
-"""A line under the top bar that offers something once, with a button to take it and one to leave it."""
+"""A line that offers something once, with a button to take it and one to leave it."""
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QToolButton, QWidget

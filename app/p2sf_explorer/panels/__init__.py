@@ -61,9 +61,9 @@ class FilmedPanel(Panel, Protocol):
     """The button that asks for the film."""
 
 
-def build(entry: PanelEntry, store: Store) -> Panel:
-    """Return a new panel of a registry entry, whose store does not put values of B into A."""
-    own = PanelStore(store)
+def build(entry: PanelEntry, store: Store, side: str = "") -> Panel:
+    """Return a new panel of a registry entry, whose store puts no values of B into A; ``side`` "b" shows only B."""
+    own = PanelStore(store, side)
     made: Panel = resolve(f"panels.{entry.panel}")(own)
     own.setParent(made.widget)
     return made

@@ -69,6 +69,7 @@ class PsfPanel:
     def show(self, live: Live) -> None:
         """Paint the PSF about its light, and have it summed again where it is too coarse or does not fill the view."""
         self._live = live
+        self.map.chart.bleed(live.state.display.full_bleed)
         self._frame_light(live)
         self.show_badge(live, None)
         self._refine(live)

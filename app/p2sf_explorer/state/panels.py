@@ -19,7 +19,7 @@ class PanelEntry:
     module:function of its view in the explorer, if it has one. ``minus``: what A − B means for it, a module:function
     of two views, or why it has none; empty where `compare.comparison.difference` holds it. ``by_hand``: whether it
     follows waves added by hand, remains as it was, or shows data in which nobody expects them. ``aligned``: what it
-    leaves out of a lens that is not symmetric.
+    leaves out of a lens that is not symmetric. ``beside``: A and B stand side by side although nothing subtracts them.
     """
 
     group: str
@@ -31,6 +31,12 @@ class PanelEntry:
     minus: str | Message = ""
     by_hand: str = FOLLOWS
     aligned: Message | None = None
+    beside: bool = False
+
+    @property
+    def has_two_sides(self) -> bool:
+        """Return whether A and B can stand side by side; a panel that is asked for that then shows A alone."""
+        return self.beside or not isinstance(self.minus, Message)
 
 
 REGISTRY = (
@@ -82,6 +88,7 @@ REGISTRY = (
         "pixels:BesidePanel",
         "compute.views.pixels:beside",
         minus=Message("This is A: here it is compared with a perfect lens."),
+        beside=True,
     ),
     PanelEntry(
         "PSF",
@@ -91,6 +98,7 @@ REGISTRY = (
         "colour:ColourPanel",
         "compute.views.colour:question",
         minus=Message("This is A: one colour minus another is not a colour."),
+        beside=True,
     ),
     PanelEntry(
         "Rays",
@@ -100,6 +108,7 @@ REGISTRY = (
         "spot:SpotPanel",
         "compute.views.rays:spots",
         minus=Message("This is A: a spot diagram has positions, not amounts, to subtract; the fans show A − B."),
+        beside=True,
         by_hand=REMAINS,
     ),
     PanelEntry(
@@ -190,6 +199,7 @@ REGISTRY = (
         "layout.panel:LayoutPanel",
         "compute.views.rays:lens_drawn",
         minus=Message("This is A: two drawings of lenses have no difference to draw."),
+        beside=True,
         by_hand=OF_THE_LENS,
     ),
     PanelEntry(

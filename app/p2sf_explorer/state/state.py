@@ -232,7 +232,8 @@ class Display:
     ``pixel_um`` is the pixel of a sensor, ``blur_um`` the diameter of blur that still counts as sharp, ``spectrum`` the
     light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
     ``colours`` are those of the heat maps.
-    ``show_pupil_shape``: whether the controls of the pupil mask are unfolded.
+    ``show_pupil_shape``: whether the controls of the pupil mask are unfolded; ``full_bleed``: whether the PSF runs
+    under its own axes, to the edges of its panel.
     ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
     what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off". ``exaggerated``: the factor
     by which the drawings enlarge the tilts and decentres of ``errors``; ``show_field_x``: the field along x has a
@@ -254,6 +255,7 @@ class Display:
     show_rail: bool = True
     show_controls: bool = True
     show_pupil_shape: bool = False
+    full_bleed: bool = False
     tab: str = "profiles"
     windows: tuple[str, ...] = ()
     scale_percent: float | None = None

@@ -17,15 +17,15 @@ class PanelStore(QObject):
 
     A panel takes its values from the picture under the pointer, so a place, a surface or a coefficient of B would be
     put into A. The entries that say how A and B are displayed change as ever. What a panel hears of other panels ends
-    with this object.
+    with this object. A panel whose ``side`` is "b" shows B whatever is on screen.
     """
 
     selected = Signal(object)
     pointed = Signal(int)
 
-    def __init__(self, store: Store) -> None:
+    def __init__(self, store: Store, side: str = "") -> None:
         super().__init__()
-        self._store = store
+        self._store, self._side = store, side
         store.selected.connect(self.selected)
         store.pointed.connect(self.pointed)
 
@@ -49,7 +49,7 @@ class PanelStore(QObject):
 
     def refused_for_b(self) -> bool:
         """Return whether B is on screen; if so, say why nothing is changed."""
-        if self._store.state.compare.shown == "b":
+        if "b" in (self._store.state.compare.shown, self._side):
             self._store.refused.emit(OTHER_SIDE)
             return True
         return False

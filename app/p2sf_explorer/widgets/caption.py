@@ -1,5 +1,7 @@
 """The caption above the stage: one line that a hall can read, with the value that moves in another colour."""
 
+from math import ceil
+
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QColor, QContextMenuEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
@@ -12,8 +14,9 @@ from p2sf_explorer.state.state import CAPTION
 
 APART = "  ·  "
 TYPE, LINE = 13, 1.7  # pixels of type at scale 1, and the height of the line in heights of type
-HALL = 0.026  # of the screen's height: the least size of type while presenting, capitals are some 0.85 of it
+HALL, READ = 0.026, 0.022  # of the screen's height: the size of type while presenting, and the least one
 SMALLEST = 9
+SHORTEST = 4  # heights of type that are left of the name of the lens
 NAMES = {
     "lens": "Lens",
     "field": "Field",
@@ -35,7 +38,7 @@ class Caption(QWidget):
         self.setObjectName("caption")
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setToolTip(tr("What the stage shows; right-click to choose the parts of this line"))
-        self._theme, self._size = LIGHT, TYPE
+        self._theme, self._size, self._least = LIGHT, TYPE, SMALLEST
         self._parts: Parts = {}
         self._rest: Parts = {}
         self._names: tuple[str, ...] = CAPTION
@@ -68,27 +71,35 @@ class Caption(QWidget):
     def restyle(self, theme: Tokens, screen_height: int = 0) -> None:
         """Take the colours and the scale of a theme; ``screen_height`` of the screen that a hall looks at."""
         self._theme, self._size = theme, max(theme.px(TYPE), round(HALL * screen_height))
+        self._least = max(SMALLEST, ceil(READ * screen_height))
         self.setFixedHeight(self.sizeHint().height())
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the parts in the middle of the line, in smaller type where they do not fit."""
-        painter, size = QPainter(self), self._size
+        """Paint the parts in the middle of the line."""
+        painter, (parts, size) = QPainter(self), self.fitted()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        room = self.width() - 2 * self._theme.px(4)
-        while size > SMALLEST and self._width(size) > room:
-            size -= 1
-        left = max(0.0, (self.width() - self._width(size)) / 2)
-        for number, (name, words) in enumerate(self._parts.items()):
+        left = max(0.0, (self.width() - _width(parts, size)) / 2)
+        for number, (name, words) in enumerate(parts.items()):
             if number:
                 left += self._write(painter, left, APART, "muted", size)
-            moved = self._rest.get(name, words) != words
-            words = elide(words, max(0.0, self.width() - left), size)
+            moved = self._rest.get(name, self._parts[name]) != self._parts[name]
             left += self._write(painter, left, words, "accent" if moved else "text", size)
 
-    def _width(self, size: int) -> float:
-        between = (len(self._parts) - 1) * width_of(APART, size)
-        return between + sum(width_of(words, size) for words in self._parts.values())
+    def fitted(self) -> tuple[Parts, int]:
+        """Return the parts as they are written and the size of their type.
+
+        Where they do not fit, type is smaller, then the lens's name is cut, then parts are left out from the end.
+        """
+        parts, size, room = dict(self._parts), self._size, self.width() - 2 * self._theme.px(4)
+        while size > self._least and _width(parts, size) > room:
+            size -= 1
+        if "lens" in parts and (over := _width(parts, size) - room) > 0:
+            kept = max(width_of(parts["lens"], size) - over, SHORTEST * size)
+            parts["lens"] = elide(parts["lens"], kept, size)
+        while len(parts) > 1 and _width(parts, size) > room:
+            parts.popitem()
+        return parts, size
 
     def _write(self, painter: QPainter, left: float, words: str, token: str, size: int) -> float:
         wide = width_of(words, size)
@@ -113,3 +124,8 @@ class Caption(QWidget):
     def _turn(self, name: str, on: bool) -> None:
         wanted = {*self._names, name} if on else {*self._names} - {name}
         self.chosen.emit(tuple(part for part in CAPTION if part in wanted))
+
+
+def _width(parts: Parts, size: int) -> float:
+    """Return the width of the line in pixels."""
+    return (len(parts) - 1) * width_of(APART, size) + sum(width_of(words, size) for words in parts.values())

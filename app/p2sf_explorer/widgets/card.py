@@ -168,6 +168,14 @@ class Card(QFrame):
         self._place = place
         self.to_stage.setVisible(place != "stage")
 
+    def stand_beside(self) -> None:
+        """Be a second panel of a kind: it stays where it is."""
+        for button in (self.to_stage, self.apart):
+            kept = button.sizePolicy()
+            kept.setRetainSizeWhenHidden(button is self.apart)  # so that the titles are level
+            button.setSizePolicy(kept)
+            button.hide()
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Move the tools to a line of their own where they do not fit beside the title, and back where they do."""
         super().resizeEvent(event)

@@ -183,7 +183,7 @@ class Controls(QWidget):
         self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=with_sign(image, 3)))
         for quantity in RING_QUANTITIES:
             self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
-        apart = live.state.compare.shown != "a"  # B or A − B is on screen, and this column stays A's
+        apart = live.state.compare.shown != "a"  # B is on screen too, and this column stays A's
         dominant = said(live.dominant)
         self.sentence.setText(unbroken(f"A: {dominant}" if apart else dominant))
         self.detail.setText(unbroken(live.why.text(WINDOW)))

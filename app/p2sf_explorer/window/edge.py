@@ -14,19 +14,26 @@ class StageEdge(QWidget):
     def __init__(self, stage: QWidget, bars: tuple[QWidget, ...], parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("edge")
-        self._stage, self._bars, self._scale = stage, bars, 1.0
+        self._stage, self._scale = stage, 1.0
+        self._bars: list[QWidget] = []
         self._column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(SPACE // 2)
         for bar in bars:
-            column.addWidget(bar)
-            bar.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-            shadow = QGraphicsDropShadowEffect(bar)
-            shadow.setBlurRadius(14)
-            shadow.setOffset(0, 2)
-            bar.setGraphicsEffect(shadow)
-            bar.installEventFilter(self)
+            self.add(bar)
         stage.installEventFilter(self)
+
+    def add(self, bar: QWidget) -> None:
+        """Have another bar, above those that are there."""
+        self._bars.append(bar)
+        self._column.insertWidget(0, bar)
+        bar.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        shadow = QGraphicsDropShadowEffect(bar)
+        shadow.setBlurRadius(14)
+        shadow.setOffset(0, 2)
+        bar.setGraphicsEffect(shadow)
+        bar.installEventFilter(self)
+        bar.destroyed.connect(lambda: self._bars.remove(bar))
 
     def rescale(self, scale: float) -> None:
         """Take a scale of type."""

@@ -76,7 +76,9 @@ class FloatingPanels(QObject):
             return
         self._at[key] = place
         layout = place.layout()
-        if layout is None:
+        if isinstance(place, PanelPlace):
+            place.put(card)
+        elif layout is None:
             card.setParent(place)
         else:
             layout.addWidget(card)

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QDragEnterEvent, QDragLeaveEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QFrame, QLabel, QScrollArea, QSplitter, QVBoxLayout, QWidget
 
 from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import tr
@@ -10,6 +10,7 @@ from p2sf_explorer.state.state import Display
 from p2sf_explorer.widgets.card import PANEL_MIME
 
 SETTLE_MS = 250  # after the last move of a handle, before its place goes into the state
+UPRIGHT = 1.2  # height over width from which two cards stand one above the other
 WHOLE = 10_000  # of the sizes of a splitter's parts, which are whole numbers
 
 
@@ -34,6 +35,20 @@ class PanelPlace(QFrame):
         self.note.setWordWrap(True)  # so that it fits a narrow place
         self.note.hide()
         column.addWidget(self.note)
+        self.cards = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self.cards.setSpacing(SPACE)
+        column.addLayout(self.cards, 1)
+
+    def put(self, card: QWidget) -> None:
+        """Take a card, beside the one that is there."""
+        self.cards.addWidget(card, 1)
+        card.show()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Have two cards beside each other, or one above the other where there is much more height than width."""
+        super().resizeEvent(event)
+        upright = self.height() > UPRIGHT * self.width()
+        self.cards.setDirection(QBoxLayout.Direction.TopToBottom if upright else QBoxLayout.Direction.LeftToRight)
 
     def put_above(self, widget: QWidget) -> None:
         """Have a widget above the panel."""

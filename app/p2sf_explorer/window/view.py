@@ -34,6 +34,9 @@ class View(QObject):
             Command("Type that suits the screen", self.reset, ("Ctrl+0",), "View"),
             Command("Show or hide the controls", lambda: self._turn("show_controls"), ("F8",), "View"),
             Command("Fold or unfold the pupil shape", lambda: self._turn("show_pupil_shape"), ("Shift+F8",), "View"),
+            Command(
+                "Picture to the edges, or within its axes", lambda: self._turn("full_bleed"), ("Shift+F10",), "View"
+            ),
             Command("Show or hide what stands beside the stage", lambda: self._turn("show_rail"), ("F9",), "View"),
             Command("Rail at the right or at the bottom", self._turn_rail, ("Shift+F9",), "View"),
             Command("To the next part of the window", lambda: self.go(1), ("F6",), "View"),

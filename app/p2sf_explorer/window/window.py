@@ -59,6 +59,7 @@ from p2sf_explorer.window.floating_panels import FloatingPanels, Home
 from p2sf_explorer.window.memory_trim import MemoryTrim
 from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
 from p2sf_explorer.window.presentation import LARGER, LARGER_LESSON, Presentation
+from p2sf_explorer.window.second_side import SecondSide
 from p2sf_explorer.window.stage import PanelRoom, ShareSplitter
 from p2sf_explorer.window.tabs import Tabs
 from p2sf_explorer.window.view import View, next_stop
@@ -108,6 +109,7 @@ class MainWindow(QMainWindow):
         self.room = PanelRoom(self.tabs, self)
         self.caption = Caption(self.room.stage)
         self.room.stage.put_above(self.caption)
+        self.second = SecondSide(self.store, self.room.stage)
         self.floating = FloatingPanels(self, self.store, {entry.key: entry.title for entry in REGISTRY})
         self.compare = CompareBar(self, self.store)
         filming = Filming(self.store, self.refresh, self.is_busy, self._pause_accuracy, self)
@@ -188,7 +190,7 @@ class MainWindow(QMainWindow):
         self.column.addWidget(self.top)
         self.column.addLayout(middle, 1)
         self.column.addWidget(self.status)
-        self.edge = StageEdge(self.room.stage, (self.banner, self.compare, self.play), body)
+        self.edge = StageEdge(self.room.stage, (self.play, self.compare, self.banner), body)
         self.setCentralWidget(body)
         self.resize(*FIRST_SIZE)
 
@@ -220,10 +222,21 @@ class MainWindow(QMainWindow):
         self.caption.show_parts(caption(live), state.display.caption, live.quality == "preview")
         for key in self._visible():
             paint(self.panels[key], key, live)
+        self._show_second(self._answers.beside)
         self.status.show_live(live, self.frame_ms)
         self.deferred.watch(state, self._answers.pending)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._on_painted(begun))
+
+    def _show_second(self, beside: Live | None) -> None:
+        """Show B beside A on the stage, or A alone there."""
+        key = self.display.stage
+        there = beside is not None and key not in self.display.windows
+        second = self.second.follow(key, self.panels[key] if there else None)
+        if second and beside:
+            self.second.restyle(self._styled[key])
+            paint(second, key, beside)
+            self.second.share_scales()
 
     def _show_none(self, state: State, why: P2SFError) -> None:
         """Say why there is no answer, and cover every panel; the lens is drawn where it can be."""
@@ -235,6 +248,7 @@ class MainWindow(QMainWindow):
         self.measuring.watch(None)
         self.controls.show_none()
         self.status.show_none(why)
+        self.second.stop()
         for panel in self.panels.values():
             panel.widget.show_state(state)
             panel.widget.show_overlay(said(NO_ANSWER))
@@ -315,7 +329,7 @@ class MainWindow(QMainWindow):
 
     def is_busy(self) -> bool:
         """Return whether anything is still computed in the background."""
-        panels = self.panels.values()
+        panels = *self.panels.values(), *filter(None, (self.second.panel,))
         workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
         own = self.measuring.worker, self.deferred.worker
         preparing = any(isinstance(panel, PreparingPanel) and panel.busy for panel in panels)
@@ -508,6 +522,7 @@ class MainWindow(QMainWindow):
         self.deferred.stop()
         self.memory_trim.stop()
         self.floating.stop()
+        self.second.stop()
         for panel in self.panels.values():
             if isinstance(panel, BackgroundPanel):
                 panel.stop()

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QApplication
 from p2sf_explorer.application.crash_dialog import KEPT, NOT_KEPT, UnexpectedErrors
 from p2sf_explorer.application.crash_report import OWN_LENS, report, without_paths
 from p2sf_explorer.application.recovery import offer_rescued, session_to_open
+from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.files.session import forget_rescued, keep_session, last_session, rescued_session, session_path
 from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
 from p2sf_explorer.state.state import State, new_state
@@ -184,12 +185,12 @@ def test_after_a_crash_the_window_begins_anew_and_offers_the_last_one(window, qt
     before = new_state(lens="tessar", field_deg=3.0, method="seidel", theme="dark")
     keep_session(before, {"window": "AA=="})
     state, geometry = session_to_open(None, crashed=True)
-    assert state.optics == State().optics and state.display.theme == "dark" and geometry == {"window": "AA=="}
+    assert state.optics == first_state().optics and state.display.theme == "dark" and geometry == {"window": "AA=="}
     keep_session(window.store.state, {})  # what is done before the offer is taken does not write over it
-    offer = offer_rescued(window.store, window.column, window)
+    offer = offer_rescued(window.store, window.edge.add, window)
     offer.accept.click()
     assert window.store.state == before and not offer.isVisible()
-    assert rescued_session() is None and offer_rescued(window.store, window.column, window) is None
+    assert rescued_session() is None and offer_rescued(window.store, window.edge.add, window) is None
     window.store.undo()
     assert window.store.state != before
     offer.deleteLater()
@@ -199,7 +200,7 @@ def test_an_offer_that_nobody_answered_comes_again(window):
     keep_session(new_state(lens="tessar"), {})
     session_to_open(None, crashed=True)
     assert session_to_open(None, crashed=False) == last_session()
-    offer = offer_rescued(window.store, window.column, window)
+    offer = offer_rescued(window.store, window.edge.add, window)
     offer.dismiss.click()
     assert rescued_session() is None
     offer.deleteLater()

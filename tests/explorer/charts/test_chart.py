@@ -7,11 +7,13 @@ from PySide6.QtGui import QColor, QImage
 
 from p2sf_explorer.charts.axes import bottom_ticks, left_ticks
 from p2sf_explorer.charts.chart import Chart, strips
+from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.painting import polylines, set_text
-from p2sf_explorer.charts.plots import EMPTY, as_indices
+from p2sf_explorer.charts.plots import EMPTY, HeatMap, as_indices
 from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.panels.layout.marks import free_room
 from p2sf_explorer.state.scales import ticks
+from tests.explorer.accessibility.test_looks import contrast
 
 
 @pytest.fixture
@@ -144,3 +146,20 @@ def test_a_polygon_of_no_points_is_empty():
     from p2sf_explorer.charts.painting import polygon
 
     assert polygon(np.array([]), np.array([])).isEmpty()
+
+
+def test_a_picture_runs_to_the_edges_under_its_axes(qapp):
+    """Axes over it stand on dark bands, of which text keeps 7:1 even from the brightest yellow (WCAG 2.1)."""
+    shown = HeatMap("x, µm", "y, µm")
+    shown.resize(400, 300)
+    shown.show_map(np.ones((8, 8)), (-4.0, -4.0, 8.0, 8.0), ColourScale("inferno", 0.0, 1.0, grounded=True))
+    shown.chart.set_view((0.0, 0.0), 4.0)
+    shown.grab()  # lays it out
+    within = shown.chart.area
+    shown.chart.bleed(True)
+    assert shown.chart.area == shown.chart.rect().toRectF() and within.width() < shown.chart.area.width()
+    picture = shown.chart.grab().toImage()
+    veiled = picture.pixelColor(3, 3).name()
+    assert contrast(shown.chart.axes_theme.text, veiled) >= 7
+    shown.chart.bleed(False)
+    assert shown.chart.area == within

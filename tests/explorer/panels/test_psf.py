@@ -7,7 +7,7 @@ import pytest
 
 from p2sf_explorer.compute.finer import fade
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.compute.setup import default_state, load, shipped_names
 from p2sf_explorer.panels.psf import badge_words, tip_words, top_value, unit_of
 from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.window.bars import shorten
@@ -30,17 +30,21 @@ def test_the_picture_is_smooth_and_fills_the_view(window, qtbot):
         assert panel.map.values.shape == (64, 64), "what is read are samples"
 
 
-@pytest.mark.parametrize("state", [{"f_number": 8.0}, {"field_deg": 14.0}, {"depth_mm": 9000.0}, {"field_deg": 9.0}])
-def test_the_light_fills_the_stage(window, qtbot, state):
-    """The circle of 90 % of the light, at least 3 Airy radii, by a sum of its own over the samples of the picture."""
-    window.store.update(method="fitted", **state)
+def circle_over_stage(window) -> float:
+    """Return the diameter of the circle of 90 % of the light over the stage's shorter side, by a sum of its own."""
     live, chart = window.live, window.panels["psf"].map.chart
     x, y, light = live.psf.x_um, live.psf.y_um, live.psf.values
     away = np.hypot(x - (light * x).sum() / light.sum(), (y - (light * y[:, None]).sum() / light.sum())[:, None])
     order = np.argsort(away.ravel())
     radius = away.ravel()[order][np.searchsorted(np.cumsum(light.ravel()[order]), 0.9 * light.sum())]
-    shorter = min(end - start for start, end in chart.ranges())
-    assert 0.62 <= 2 * max(radius, 1.5 * live.airy_radius_um) / shorter <= 0.95
+    return 2 * max(radius, 1.5 * live.airy_radius_um) / min(end - start for start, end in chart.ranges())
+
+
+@pytest.mark.parametrize("state", [{"f_number": 8.0}, {"field_deg": 14.0}, {"depth_mm": 9000.0}, {"field_deg": 9.0}])
+def test_the_light_fills_the_stage(window, qtbot, state):
+    """The circle of 90 % of the light, at least 3 Airy radii across."""
+    window.store.update(method="fitted", **state)
+    assert 0.62 <= circle_over_stage(window) <= 0.95
 
 
 def test_the_frame_moves_in_calm_steps(window):
@@ -106,3 +110,15 @@ def test_warnings_lose_their_remedies_only_as_far_as_there_is_no_room():
         "⚠ Too wide; stop down.   ⚠ One ray is lost.   ⚠ Too steep …",
         "⚠ Too wide …   ⚠ One ray is lost.   ⚠ Too steep …",
     )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", shipped_names())
+def test_the_light_of_every_lens_fills_the_stage_at_every_field(window, qtbot, name):
+    """Of near objects up to the field that opens, since the file's field is that of another distance."""
+    opens = default_state(name)
+    largest = max(map(abs, load(name).fields_deg)) if np.isinf(opens.optics.depth_mm) else opens.optics.field_deg
+    for share in (0.0, 0.7, 1.0):
+        window.store.replace(change(opens, field_deg=share * largest, method="auto"))
+        qtbot.waitUntil(lambda: not window.deferred.worker.busy)
+        assert 0.6 <= circle_over_stage(window) <= 0.95, share

@@ -11,10 +11,11 @@ from PySide6.QtGui import QCloseEvent, QGuiApplication
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.application.main import starting_state
+from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.files.session import last_session, session_path
 from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.state.link import PREFIX, link, state_of_link
-from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.state.state import new_state
 from tests.explorer.state.test_state import STATES
 
 
@@ -105,5 +106,5 @@ DEEP = GONE.replace('"gone"', "[" * 980 + "]" * 980)
 def test_a_torn_or_stale_session_costs_only_the_memory(window, text):
     session_path().parent.mkdir(parents=True, exist_ok=True)
     session_path().write_text(text)
-    assert last_session() == (State(), {})
+    assert last_session() == (first_state(), {})
     session_path().unlink()

@@ -34,6 +34,7 @@
 <message><source>4 µm pixels</source><translation>4-µm-Pixel</translation></message>
 <message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
 <message><source>?</source><translation>?</translation></message>
+<message><source>A and B side by side, or A alone</source><translation>A und B nebeneinander oder A allein</translation></message>
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
 <message><source>A back focus longer than the focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
@@ -286,7 +287,11 @@
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand. Die Strehl-Zahl ist |Mittel von exp(2πiW)|² der Phase W im Fokus, ohne Konstante und Verkippung.</translation></message>
+<message><source>Picture to the edges, or within its axes</source><translation>Bild bis zum Rand oder innerhalb seiner Achsen</translation></message>
+<message><source>Show A and B side by side on one scale; zoom and crosshair go together</source><translation>A und B nebeneinander in einem Maßstab zeigen; Zoom und Fadenkreuz gehen gemeinsam</translation></message>
+<message><source>Show A, B, A − B, A | B in turn</source><translation>A, B, A − B, A | B der Reihe nach zeigen</translation></message>
 <message><source>What-if: coefficients altered by hand; of the lens itself remain: {panels}.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; die des Objektivs selbst bleiben: {panels}.</translation></message>
+<message><source>higher peak</source><translation>höhere Spitze</translation></message>
 <message><source>internal transmittance</source><translation>Reintransmissionsgrad</translation></message>
 <message><source>internal transmittance {share:g} of {thickness:g} mm at {wavelength:g} µm; give a share from 0 to 1, a positive thickness and a positive wavelength</source><translation>Reintransmissionsgrad {share:g} von {thickness:g} mm bei {wavelength:g} µm; einen Anteil von 0 bis 1, eine positive Dicke und eine positive Wellenlänge angeben</translation></message>
 <message><source>its transmission</source><translation>ihre Durchlässigkeit</translation></message>
@@ -631,7 +636,6 @@
 <message><source>Shortcuts and mouse (Shift+F1 or ?)</source><translation>Tastenkürzel und Maus (Umschalt+F1 oder ?)</translation></message>
 <message><source>Shorter than its focal length: a positive group in front, a negative one behind</source><translation>Kürzer als seine Brennweite: vorn eine sammelnde Gruppe, dahinter eine zerstreuende</translation></message>
 <message><source>Show A − B; a panel in which a difference means nothing shows A and says why</source><translation>A − B zeigen; eine Ansicht, in der eine Differenz nichts bedeutet, zeigt A und sagt, warum</translation></message>
-<message><source>Show A, B, A − B in turn</source><translation>A, B, A − B der Reihe nach zeigen</translation></message>
 <message><source>Show A, which the controls move</source><translation>A zeigen, das die Regler bewegen</translation></message>
 <message><source>Show B, as it was pinned</source><translation>B zeigen, wie es gemerkt wurde</translation></message>
 <message><source>Show a slider for the field along x even if the lens is symmetric</source><translation>Ein Regler für das Feld entlang x auch dort, wo das Objektiv symmetrisch ist</translation></message>
