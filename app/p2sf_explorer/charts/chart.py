@@ -102,6 +102,7 @@ class Chart(QWidget):
     zoomed = Signal(object)
     pointed = Signal(object)
     takes_arrows = False
+    kept_clear: tuple[float, float, float] | None = None  # middle and half side of a square that boxes do not cover
     bleeds = False  # whether the picture runs under the axes
     smooth = False  # whether the image's pixels are samples of a smooth picture, and not squares
     over = "bottom"  # the axis that the curves are functions of
@@ -464,7 +465,7 @@ class Chart(QWidget):
         """Paint the pinned markers that are on screen, and the crosshair."""
         if not self.pins and not self.hand.at:
             return
-        boxes: list[QRectF] = []
+        boxes = [self._square(*self.kept_clear)] if self.kept_clear else []
         for number, (_, read) in enumerate(self.pinned(), 1):
             reading = replace(read, head=f"{number}  {read.head}")
             if self.area.contains(self._pixel(reading.place)):
@@ -494,6 +495,10 @@ class Chart(QWidget):
             painter.setPen(QPen(QColor(self.theme.accent), self.theme.scale))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
+
+    def _square(self, x: float, y: float, half: float) -> QRectF:
+        """Return the pixels of a square of the data."""
+        return self._image_rect((x - half, y - half, 2 * half, 2 * half))
 
     def _image_rect(self, rect: tuple[float, float, float, float]) -> QRectF:
         x, y, width, height = rect

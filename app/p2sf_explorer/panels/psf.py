@@ -33,6 +33,7 @@ NOTHING_FINER = Message("")
 METHOD_WORDS = {"geometric": "geometric: ray density, no diffraction"}
 SHORT_WORDS = {"geometric": "ray density"}
 QUALITIES = ("preview", "settled")
+WITHIN = 0.5**0.5  # of a circle's radius: half the side of the square in it
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
 Y_LABELS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  # by the sign of the image height
@@ -133,7 +134,9 @@ class PsfPanel:
 
     def _frame_light(self, live: Live) -> None:
         """Show the light large, with the Airy circle and the arrow."""
-        frame = frame_of(light_circle(live.psf.values, live.psf.pixel_um, live.airy_radius_um))
+        light = light_circle(live.psf.values, live.psf.pixel_um, live.airy_radius_um)
+        frame = frame_of(light)
+        self.map.chart.kept_clear = light.x_um, light.y_um, light.radius_um * WITHIN
         side = int(np.sign(live.setup.coefficients.image_height))
         self.map.chart.set_view((frame.x_um, frame.y_um), frame.half_um)
         if live.airy_radius_um != self._airy:

@@ -215,7 +215,7 @@ class StatusLine(QWidget):
         sentences = [said(warning) for warning in live.warnings]
         text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
-            self.warning.set_text(text, short=shorten(sentences))
+            self.warning.set_text(text, "warning", shorten(sentences))
             self.warning.setToolTip("\n".join(sentences))
         figures = facts(live, frame_ms)
         self._facts = " · ".join(figures), " · ".join(figures[:2])
@@ -224,14 +224,14 @@ class StatusLine(QWidget):
     def show_none(self, why: Message | P2SFError) -> None:
         """Show why there is no answer, for longer than the banner does, and no figures."""
         words = said(why)
-        self.warning.set_text(f"⚠ {words}")
+        self.warning.set_text(f"⚠ {words}", "warning")
         self.warning.setToolTip(words)
         self._facts = UNKNOWN, UNKNOWN
         self._fit()
 
     def say(self, message: Message | P2SFError) -> None:
-        """Show a message until the next answer."""
-        self.warning.set_text(said(message))
+        """Show a message until the next answer; only what went wrong is in the colour of warnings."""
+        self.warning.set_text(said(message), "warning" if isinstance(message, P2SFError) else "text")
         self._fit()
 
     def restyle(self, theme: Tokens) -> None:

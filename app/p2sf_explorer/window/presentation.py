@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QApplication, QMainWindow, QVBoxLayout, QWidget
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.command import Command
 
-LARGER, LARGER_LESSON = 2.0, 1.5  # type on the stage and beside it, against that of the window
+LARGER, LARGER_BESIDE = 2.0, 1.5  # type on the stage and beside it, against that of the window
 HALO_PX = 96
 GLOW = Qt.GlobalColor.yellow
 ARROW = (0, 0), (0, 17), (4, 13), (7, 20), (10, 19), (7, 12), (12, 12)  # a pointer's outline, in pixels from its tip

@@ -58,7 +58,7 @@ from p2sf_explorer.window.edge import StageEdge
 from p2sf_explorer.window.floating_panels import FloatingPanels, Home
 from p2sf_explorer.window.memory_trim import MemoryTrim
 from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
-from p2sf_explorer.window.presentation import LARGER, LARGER_LESSON, Presentation
+from p2sf_explorer.window.presentation import LARGER, LARGER_BESIDE, Presentation
 from p2sf_explorer.window.second_side import SecondSide
 from p2sf_explorer.window.stage import PanelRoom, ShareSplitter
 from p2sf_explorer.window.tabs import Tabs
@@ -489,10 +489,10 @@ class MainWindow(QMainWindow):
             self.panels[key].widget.rescale(theme.scale)
 
     def _style_left(self) -> None:
-        """Give the column at the left the present theme: larger while a lesson in it is presented."""
-        theme, larger = self._theme, self.presentation.on and self.teaching.active
+        """Give the column at the left the present theme: larger while presenting."""
+        theme, larger = self._theme, self.presentation.on
         if larger:
-            theme = replace(theme, scale=LARGER_LESSON * theme.scale)
+            theme = replace(theme, scale=LARGER_BESIDE * theme.scale)
         if self._styled.get("left") == theme:
             return
         self._styled["left"] = theme
