@@ -13,6 +13,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.properties import PROPERTIES, words_of
 from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile import conjugates
+from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import CATALOGUE_AIR, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
@@ -22,6 +23,7 @@ from p2sf.messages import Message
 HIGHEST_ORDER = 40
 SAME_DEG_C, SAME_ATM = 5.0, 0.05  # which change the index of a glass relative to air by less than 3e-5
 MOST_SURFACES = 1000
+SAME_FOCUS = 1e-4  # relative: glasses of another catalogue, and digits that files leave out
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
 NO_STOP = Message("no stop named")
 RECTANGLE, CIRCLE = Message("a rectangle"), Message("a circle")
@@ -49,6 +51,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     media = _media(raw, sources, notes, source)
     lens = _with_line(lambda: _bare_lens(raw, media), raw, source, None)
     lens = _with_line(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
+    lens = _with_line(lambda: _at_solved_focus(lens, raw, notes), raw, source, None)
     lens = _with_line(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
     lens = _with_line(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
     if not raw.sensor_stated:
@@ -269,6 +272,31 @@ def _even(terms: dict[int, float]) -> tuple[float, ...]:
     """Return A4, A6, … up to the last that is not 0."""
     top = max((power for power, value in terms.items() if value and power % 2 == 0), default=2)
     return tuple(terms.get(power, 0.0) for power in range(4, top + 1, 2))
+
+
+def _at_solved_focus(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with thicknesses that solves put at the paraxial focus, where the file states none.
+
+    The value that the writing program stored stays, with a note where the solve gives another; so does that of a
+    misaligned lens or of one without a focus.
+    """
+    for number, stated in enumerate(raw.surfaces, 1):
+        if stated.beyond_focus is None or lens.misaligned:
+            continue
+        focus = conjugates.focus_behind(lens, number, raw.object_distance * raw.unit_mm)
+        found, old = focus + stated.beyond_focus * raw.unit_mm, lens.surfaces[number - 1].thickness
+        if not abs(found) < FAR or (old and abs(found - old) <= SAME_FOCUS * abs(found)):
+            continue
+        if old:
+            told = (
+                "a solve puts the paraxial focus {found:.7g} mm behind it; the file's thickness, {old:.7g} mm, is kept"
+            )
+            notes.add("read", told, stated.number, stated.line, found=found, old=old)
+            continue
+        notes.add("read", "its thickness, up to the paraxial focus, is {found:.9g} mm", stated.number, found=found)
+        moved = replace(lens.surfaces[number - 1], thickness=found)
+        lens = replace(lens, surfaces=(*lens.surfaces[: number - 1], moved, *lens.surfaces[number:]))
+    return lens
 
 
 def _with_aperture(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:

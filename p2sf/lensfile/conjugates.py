@@ -54,6 +54,20 @@ def trace(lens: Lens, stop: int, wavelength_um: float) -> Paraxial:
     return Paraxial(rows[stop - 1][:2], rows[-1], index[0], index[-1])
 
 
+def focus_behind(lens: Lens, number: int, object_mm: float) -> float:
+    """Return the distance from surface ``number`` to the paraxial image behind it, mm; infinite for parallel rays.
+
+    The object stands ``object_mm`` before the first surface.
+    """
+    index = _indices(lens, lens.reference_wavelength_um)
+    a, b, c, d = _running_matrices(lens, index, lens.reference_wavelength_um)[number - 1]
+    if object_mm == 0:
+        height, angle = b, d
+    else:
+        height, angle = a + b * index[0] / object_mm, c + d * index[0] / object_mm
+    return -index[number] * height / angle if angle else inf
+
+
 def _indices(lens: Lens, wavelength_um: float) -> list[float]:
     known = {medium: float(medium.index(wavelength_um)) for medium in dict.fromkeys(lens.media)}
     return [direction * known[medium] for medium, direction in zip(lens.media, lens.directions, strict=True)]

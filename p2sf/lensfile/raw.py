@@ -53,7 +53,8 @@ HOLE = "rays within a radius of {radius:g} are lost, a hole or an obscuration, w
 class RawSurface:
     """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it.
 
-    ``aspheric`` maps a power of r to its coefficient; ``shape`` is added to it.
+    ``aspheric`` maps a power of r to its coefficient; ``shape`` is added to it. ``beyond_focus``: how far beyond the
+    paraxial focus the next surface stands, where a solve says so; the thickness follows.
     """
 
     number: int
@@ -73,6 +74,7 @@ class RawSurface:
     after: tuple[Placement, ...] = ()
     ideal_focal_length: float = inf
     rim: Rim | None = None
+    beyond_focus: float | None = None
 
     @property
     def name(self) -> Message:

@@ -172,6 +172,66 @@ def test_zemax_thicknesses_that_keep_a_sum_follow_in_every_configuration(solve, 
         assert lens_at(lens, zoom=name).sensor_mm == pytest.approx(total - others, rel=1e-14)
 
 
+def solved(below: int, *lines: str, without: str = "THIC   5") -> Lens:
+    """Return the zoom with lines below a surface, and without an operand."""
+    text = "\n".join(line for line in zemax().splitlines() if not line.startswith(without))
+    more = "\n".join(f"  {line}" for line in lines)
+    return imported("zoom.zmx", text.replace(f"SURF {below + 1}\n", f"{more}\nSURF {below + 1}\n")).lens
+
+
+def columns_of(lens: Lens) -> list[Lens]:
+    return [lens_at(lens, zoom=name) for name in lens.positions.axes[0].columns]
+
+
+def test_a_marginal_ray_solve_of_zemax_puts_the_image_at_the_paraxial_focus_of_every_configuration():
+    for column in columns_of(solved(5, "MAZH 0 0")):
+        (a, _), (c, _) = abcd(column, 0.5875618)
+        assert column.sensor_mm == pytest.approx(-a / c, rel=1e-13)
+
+
+def test_thickness_pickups_of_zemax_follow_in_every_configuration():
+    for column in columns_of(solved(5, "PZUP 2 -0.5 100 0")):
+        assert column.sensor_mm == pytest.approx(100 - 0.5 * column.surfaces[1].thickness, rel=1e-15)
+
+
+def test_curvature_pickups_of_zemax_follow_in_every_configuration():
+    more = "".join(f'CRVT 2 {k} {value} 0 0 0 1 1 1 0 0 "" 0\n' for k, value in enumerate((0.03, 0.031, 0.032), 1))
+    text = zemax().replace("SURF 6\n", "  CURV 0.5 4 2 -0.4\nSURF 6\n")
+    for column in columns_of(imported("zoom.zmx", text + more).lens):
+        assert column.surfaces[4].curvature == pytest.approx(-0.4 * column.surfaces[1].curvature, rel=1e-15)
+
+
+def test_edge_solves_of_zemax_keep_the_edge_in_every_configuration():
+    for column in columns_of(solved(5, "EDGE 90 4")):
+        last = column.surfaces[-1]
+        assert last.thickness - last.sag(0.0, 4.0) == pytest.approx(90, rel=1e-14)
+
+
+def test_parameters_of_zemax_differ_between_configurations_and_are_picked_up():
+    """The tilt of a coordinate break in front of the last lens, and another that turns back by the same angle."""
+    text = zemax().replace("SURF 6\n", "SURF 8\n").replace("SURF 5\n", "SURF 6\n")
+    into = "SURF 5\n  TYPE COORDBRK\n  PARM 3 0\n  DISZ 0\nSURF 6\n"
+    back = "SURF 7\n  TYPE COORDBRK\n  PARM 3 0\n  PPAR 3 5 -1 0 0\n  DISZ 0\nSURF 8\n"
+    text = text.replace("SURF 6\n", into).replace("SURF 8\n", back)
+    text += "".join(f'PAR3 5 {k} {0.5 * k} 0 0 0 1 1 1 0 0 "" 0\n' for k in (1, 2, 3))
+    for number, column in enumerate(columns_of(imported("zoom.zmx", text).lens), 1):
+        (into,), (back,) = column.surfaces[4].before, column.surfaces[6].before
+        assert (into.tilt_x_deg, back.tilt_x_deg) == (0.5 * number, -0.5 * number)
+
+
+@pytest.mark.parametrize(("defocus", "stated"), [(0.0, ""), (0.25, ""), (0.25, "90")])
+def test_the_paraxial_image_of_code_v_is_found_where_no_thickness_is_stated(defocus, stated):
+    text = (
+        f"RDM;LEN\nDIM M\nEPD 8\nWL 550\nSO 0 200\nS 40 4 1.5:60\nSTO\nS -60 {stated or 0}\nPIM\nSI 0 {defocus}\nGO\n"
+    )
+    found = imported("pim.seq", text)
+    (a, b), (c, d) = abcd(found.lens, 0.55)
+    focus = -(a + b / 200) / (c + d / 200)
+    assert found.lens.sensor_mm == pytest.approx((float(stated) if stated else focus) + defocus, rel=1e-13)
+    (note,) = (note for note in found.report.notes if "focus" in note.message.template and note.surface == 2)
+    assert note.message.values["found"] == pytest.approx(focus + defocus, rel=1e-13)
+
+
 def test_code_v_zoom_positions_are_the_columns_of_a_zoom():
     text = code_v()
     lens = imported("zoom.seq", text).lens

@@ -333,4 +333,4 @@ def test_a_wavelength_without_data_is_left_out_and_said():
 def test_the_report_lists_what_was_read_and_left_out():
     report = read_file(FOLDER / DOUBLET).report
     assert (report.format, report.encoding) == ("Zemax", "utf-8")
-    assert "3 surfaces, stop on surface 1" in report.text and "solves" in report.text
+    assert "3 surfaces, stop on surface 1" in report.text and "a solve puts" in report.text

@@ -47,7 +47,7 @@ REFUSED = {
 
 HARMLESS = (
     (Message("control codes of the optimiser"), "CCY THC KC AC BC CC DC EC FC GC HC GLC CUM THM CCX DEL CCF"),
-    (Message("solves and pickups, whose stored values are read"), "PIM PIK SOL UMY CUS RED"),
+    (Message("solves and pickups, whose stored values are read"), "PIK SOL UMY HMY CUS RED"),
     (Message("weights of fields"), "WTF WTA"),
     (
         Message("titles, sessions and computing settings"),
@@ -163,6 +163,7 @@ class CodeVReading:
     returns: dict[int, str] = field(default_factory=dict)  # DAR, REV or BEN by the surface's id
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
+    at_focus: bool = False
     in_private: bool = False
     position: str = ""  # the name of the zoom position
     pupil: dict[str, float] = field(default_factory=dict)  # PUX, PUY, PUI
@@ -345,6 +346,11 @@ def _stop(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> 
     reading.raw.stop = surface.number
 
 
+def _paraxial_image(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read PIM: the image stands at the paraxial focus of the last surface, its thickness beyond that."""
+    reading.at_focus = True
+
+
 def _label(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     surface.label = " ".join(command.words)[:60]
 
@@ -473,6 +479,7 @@ ON_SURFACE = {
     **dict.fromkeys(TILT_NAMES, _tilt),
     **dict.fromkeys(("DAR", "REV", "BEN"), _returns),
     "STO": _stop,
+    "PIM": _paraxial_image,
     "SLB": _label,
     "GLA": read_glass,
     "RMD": read_glass,  # the mode of refraction: REFL or REFR
@@ -691,8 +698,11 @@ def _finish(reading: CodeVReading) -> None:
         raise reading.source.error(
             ("the file contains no surface (S) between object and image"), len(reading.source.lines)
         )
+    if reading.at_focus:
+        raw.surfaces[-1].beyond_focus = reading.image.thickness if reading.image else 0.0
     if reading.image is not None:
-        raw.surfaces[-1].thickness += reading.image.thickness  # defocus
+        last = raw.surfaces[-1]
+        last.thickness += reading.image.thickness if last.thickness or not reading.at_focus else 0.0  # defocus
         _shape(reading, reading.image)
         raw.image = reading.image
     if raw.stop is None:

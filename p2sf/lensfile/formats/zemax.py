@@ -22,6 +22,7 @@ from p2sf.lens.tilts import coordinate_break
 from p2sf.lensfile.assemble import check_stop
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
+from p2sf.lensfile.formats.zemax_solves import SOLVES, Solve, SolvedSurfaces, apply_solves
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import HOLE, RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
@@ -70,8 +71,8 @@ HARMLESS = (
         "VERS WAVN GSTD NSCD ROPD POPS PUPD CONF HYPR RCMF GLRS YDAT AUTH NOTE",
     ),
     (
-        Message("variables, pickups and solves, whose stored values are read"),
-        "VCON VDSZ VPAR PPAR PKUP PZUP MAZH EDGE TCOM VCUR SOLV",
+        Message("variables and solves, whose stored values are read"),
+        "VCON VDSZ VPAR PKUP VCUR SOLV",
     ),
     (Message("weights of fields"), "FWGN FWGT"),
 )
@@ -138,7 +139,7 @@ class ZemaxReading:
     wavelength_count: int | None = None
     configurations: int = 1
     operands: list["Operand"] = field(default_factory=list)
-    solves: list["Operand"] = field(default_factory=list)
+    solves: list[Solve] = field(default_factory=list)
     line: int = 0
 
     @property
@@ -327,6 +328,8 @@ def _type(reading: ZemaxReading, words: list[str]) -> None:
 
 def _curvature(reading: ZemaxReading, words: list[str]) -> None:
     reading.surface.curvature = reading.number(words, 1, Message("curvature"))
+    if len(words) > 2:
+        _add_solve(reading, words)
 
 
 def _thickness(reading: ZemaxReading, words: list[str]) -> None:
@@ -487,6 +490,7 @@ def _configuration(reading: ZemaxReading, number: int) -> Configuration:
         notes=reading.notes if number == 1 else Notebook(),
         raw=deepcopy(reading.raw),
         surfaces=deepcopy(reading.surfaces),
+        parameters=deepcopy(reading.parameters),
         x_fields=list(reading.x_fields),
         y_fields=list(reading.y_fields),
     )
@@ -495,32 +499,14 @@ def _configuration(reading: ZemaxReading, number: int) -> Configuration:
         if operand.name in OPERANDS:
             own.line = operand.line
             OPERANDS[operand.name](own, operand)
-    _solve(own, {operand.number for operand in mine if operand.name == "THIC"})
+    stated = {operand.number for operand in mine if operand.name == "THIC"}
+    count = reading.configurations if mine else 1
+    lists = SolvedSurfaces(own.surfaces, own.parameters, stated, count, own.source, own.notes)
+    apply_solves(reading.solves, lists)
     own.line = reading.line
     _finish(own)
     title = next((operand.word for operand in mine if operand.name == "LTTL"), "")
     return Configuration(own.raw, title)
-
-
-def _solve(reading: ZemaxReading, stated: set[int]) -> None:
-    """Set the thicknesses that keep a sum: a file has them for the configuration that was shown when it was saved.
-
-    TCOM n s keeps the sum with the thickness of surface n, TOLE n s that of all from n on.
-    """
-    if reading.configurations == 1:
-        return
-    for solve in (each for each in reading.solves if each.number not in stated):
-        words = solve.word.split()
-        if solve.name in SUMS and len(words) > 1:
-            first = whole(words[0], Message("surface"), reading.source, solve.line)
-            if 0 < first < solve.number:
-                last = first + 1 if solve.name == "TCOM" else solve.number
-                others = sum(surface.thickness for surface in reading.surfaces[first:last])
-                total = number(words[1], Message("sum of thicknesses"), reading.source, solve.line)
-                reading.surfaces[solve.number].thickness = total - others
-                continue
-        words_said = "its thickness follows from others ({keyword}), and is here the same in all configurations"
-        reading.notes.add("caution", words_said, solve.number, solve.line, keyword=solve.name)
 
 
 def _note_unread(reading: ZemaxReading) -> None:
@@ -559,6 +545,16 @@ def _surface_of(reading: ZemaxReading, operand: Operand) -> RawSurface:
             number=operand.number,
         )
     return reading.surfaces[operand.number]
+
+
+def _in_parameters(place: int) -> Callable[[ZemaxReading, Operand], None]:
+    """Return what sets one parameter of a surface in one configuration."""
+
+    def apply(reading: ZemaxReading, operand: Operand) -> None:
+        value = number(operand.word, Message("parameter"), reading.source, operand.line)
+        reading.parameters.setdefault(_surface_of(reading, operand).number, {})[place] = value
+
+    return apply
 
 
 def _other_glass(reading: ZemaxReading, operand: Operand) -> None:
@@ -600,10 +596,9 @@ def _other_primary(reading: ZemaxReading, operand: Operand) -> None:
     reading.raw.primary = whole(operand.word, Message("primary wavelength"), reading.source, operand.line) - 1
 
 
-SUMS = ("TCOM", "TOLE")  # solves for a thickness that keep a sum
-SOLVES = ("PZUP", "MAZH", "EDGE")  # other solves for a thickness
 OPERANDS: dict[str, Callable[[ZemaxReading, Operand], None]] = {
     "THIC": _on_surface("thickness", Message("thickness")),
+    **{f"PAR{place}": _in_parameters(place) for place in range(1, 9)},
     "CRVT": _on_surface("curvature", Message("curvature")),
     "CONN": _on_surface("conic", Message("conic constant")),
     "SDIA": _on_surface("semi_diameter", Message("semi-diameter")),
@@ -617,9 +612,13 @@ OPERANDS: dict[str, Callable[[ZemaxReading, Operand], None]] = {
 }
 UNREAD_OPERANDS = (
     "PRAM MCOM IGNR IGNM CROR COTN EDVA FLTP FLWT FVAN FVCX FVCY FVDX FVDY HOLD MABB MDPG MIND NPAR NPOS NPRO PRES "
-    "PAR1 PAR2 PAR3 PAR4 PAR5 PAR6 PAR7 PAR8 PXAR PYAR PZAR PUCN PUPR SATP SDRW SWCN TELE TEMP TSP1 TSP2 TSP3 UDAF "
+    "PXAR PYAR PZAR PUCN PUPR SATP SDRW SWCN TELE TEMP TSP1 TSP2 TSP3 UDAF "
     "WLWT CADX CADY CATX CATY CATZ CBDX CBDY CBTX CBTY CBTZ CPCN"
 ).split()
+
+
+def _add_solve(reading: ZemaxReading, words: list[str]) -> None:
+    reading.solves.append(Solve(words[0].upper(), reading.surface.number, tuple(words[1:]), reading.line))
 
 
 def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
@@ -628,9 +627,8 @@ def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
         begin_surface(reading, words)
     elif reading.surfaces and keyword in ON_SURFACE:
         ON_SURFACE[keyword](reading, words)
-    elif reading.surfaces and reading.configurations == 1 and keyword in (*SUMS, *SOLVES):
-        reading.solves.append(Operand(keyword, reading.surface.number, 0, " ".join(words[1:]), reading.line))
-        note(reading.notes, reading.raw, words, reading.surface.number, reading.line)
+    elif reading.surfaces and reading.configurations == 1 and keyword in SOLVES:
+        _add_solve(reading, words)
     elif keyword in IN_SYSTEM:
         IN_SYSTEM[keyword](reading, words)
     elif reading.configurations > 1 and keyword in (*OPERANDS, *UNREAD_OPERANDS, "LTTL"):

@@ -1329,7 +1329,6 @@
 <message><source>its obscuration is left out, so the picture shows the full aperture</source><translation>ihre Abschattung ist weggelassen, das Bild zeigt also die volle Öffnung</translation></message>
 <message><source>its rim ({keyword}) is not round; the round semi-diameter is used instead</source><translation>ihr Rand ({keyword}) ist nicht rund; der runde Halbmesser tritt an seine Stelle</translation></message>
 <message><source>its shape</source><translation>ihre Form</translation></message>
-<message><source>its thickness follows from others ({keyword}), and is here the same in all configurations</source><translation>ihre Dicke folgt aus anderen ({keyword}) und ist hier in allen Konfigurationen dieselbe</translation></message>
 <message><source>its tilt or decentre</source><translation>ihre Kippung oder Dezentrierung</translation></message>
 <message><source>keep best focus</source><translation>besten Fokus halten</translation></message>
 <message><source>keep paraxial focus</source><translation>paraxialen Fokus halten</translation></message>
@@ -1660,7 +1659,6 @@
 <message><source>substituted</source><translation>ersetzt</translation></message>
 <message><source>sum</source><translation>Summe</translation></message>
 <message><source>sum = 1</source><translation>Summe = 1</translation></message>
-<message><source>sum of thicknesses</source><translation>Summe der Dicken</translation></message>
 <message><source>sum {sum} λ</source><translation>Summe {sum} λ</translation></message>
 <message><source>summing the reference: {part} %</source><translation>die Referenz wird summiert: {part} %</translation></message>
 <message><source>surface</source><translation>Fläche</translation></message>
@@ -2022,7 +2020,6 @@
 <message><source>vane angle</source><translation>Strebenwinkel</translation></message>
 <message><source>vane width</source><translation>Strebenbreite</translation></message>
 <message><source>vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field</source><translation>die Streben treffen sich außerhalb des freien Teils der Pupille; {parameter} ausschalten oder das Feld verkleinern</translation></message>
-<message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>vd is {value}; give an Abbe number between 10 and 120</source><translation>vd ist {value}; eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
 <message><source>vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; the pupil is full at every field</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, und außer der Blende gibt keine Fläche einen Rand an; die Pupille ist bei jedem Feld voll</translation></message>
 <message><source>vignetting factors (up to {value:g}) are not needed: the rims of the surfaces cut the pencil themselves</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht nötig: Die Ränder der Flächen beschneiden das Bündel selbst</translation></message>
@@ -2457,5 +2454,11 @@
 <message><source>number of fields</source><translation>Zahl der Felder</translation></message>
 <message><source>RMS wavefront</source><translation>RMS der Wellenfront</translation></message>
 <message><source>Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur.</source><translation>Effektivwert der Wellenfront über die Pupille, ohne Konstante und Verkippung, die nicht unscharf machen.</translation></message>
+<message><source>a solve puts the paraxial focus {found:.7g} mm behind it; the file's thickness, {old:.7g} mm, is kept</source><translation>nach einer Lösevorschrift liegt der paraxiale Brennpunkt {found:.7g} mm dahinter; die Dicke der Datei, {old:.7g} mm, bleibt</translation></message>
+<message><source>its thickness or curvature follows from others ({keyword}), and is here the same in all configurations</source><translation>ihre Dicke oder Krümmung folgt aus anderen ({keyword}) und ist hier in allen Konfigurationen dieselbe</translation></message>
+<message><source>its thickness, up to the paraxial focus, is {found:.9g} mm</source><translation>ihre Dicke, bis zum paraxialen Brennpunkt, ist {found:.9g} mm</translation></message>
+<message><source>number of a solve</source><translation>Zahl einer Lösevorschrift</translation></message>
+<message><source>variables and solves, whose stored values are read</source><translation>Variable und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
+<message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 </context>
 </TS>
