@@ -16,6 +16,7 @@ APART = "  ·  "
 TYPE, LINE = 13, 1.7  # pixels of type at scale 1, and the height of the line in heights of type
 HALL, READ = 0.026, 0.022  # of the screen's height: the size of type while presenting, and the least one
 SMALLEST = 9
+LEFT_OUT = "strehl", "rms", "depth", "wavelength"
 SHORTEST = 4  # heights of type that are left of the name of the lens
 NAMES = {
     "lens": "Lens",
@@ -89,7 +90,7 @@ class Caption(QWidget):
     def fitted(self) -> tuple[Parts, int]:
         """Return the parts as they are written and the size of their type.
 
-        Where they do not fit, type is smaller, then the lens's name is cut, then parts are left out from the end.
+        Where they do not fit, type is smaller, then the lens's name is cut, then `LEFT_OUT` goes, the first first.
         """
         parts, size, room = dict(self._parts), self._size, self.width() - 2 * self._theme.px(4)
         while size > self._least and _width(parts, size) > room:
@@ -97,8 +98,9 @@ class Caption(QWidget):
         if "lens" in parts and (over := _width(parts, size) - room) > 0:
             kept = max(width_of(parts["lens"], size) - over, SHORTEST * size)
             parts["lens"] = elide(parts["lens"], kept, size)
-        while len(parts) > 1 and _width(parts, size) > room:
-            parts.popitem()
+        for name in LEFT_OUT:
+            if _width(parts, size) > room:
+                parts.pop(name, None)
         return parts, size
 
     def _write(self, painter: QPainter, left: float, words: str, token: str, size: int) -> float:

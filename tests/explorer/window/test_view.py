@@ -21,7 +21,7 @@ from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import change
 from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
-from p2sf_explorer.window.presentation import LARGER
+from p2sf_explorer.window.presentation import LARGER, LARGER_BESIDE
 from p2sf_explorer.window.view import PERCENTS, next_stop, stops
 from p2sf_explorer.window.window import MainWindow
 from tests.explorer.conftest import FIRST
@@ -163,7 +163,7 @@ def test_presenting_shows_the_stage_alone_with_larger_type_and_ends_as_it_was(la
     assert window.controls.rows["field_deg"].isVisible() and not window.controls.figures.isVisible()
     QApplication.processEvents()
     rows = [row.geometry() for row in window.controls.rows.values() if row.isVisible()]
-    assert rows[-1].bottom() < 520, "the sliders stay together at the top"
+    assert rows[-1].bottom() < 520 * LARGER_BESIDE, "the sliders stay together at the top"
     assert QApplication.overrideCursor().pixmap().width() > 64
     window.store.update(field_deg=5.0)
     assert window.live.state.optics.field_deg == 5.0
