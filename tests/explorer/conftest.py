@@ -57,10 +57,10 @@ def known_answers():
             known[asked] = work_out(analyst, asked, *others)
         return known[asked]
 
-    def first_live(state, quality="settled", views=None, kept_method="", least=compute.ALONE, cache=None):
+    def first_live(state, quality="settled", views=None, kept_method="", least=compute.ALONE, cache=None, before=None):
         """Answer for the state to which every test's window is brought back first, as it was answered before."""
         if state != FIRST or (quality, kept_method, least) != ("settled", "", compute.ALONE):
-            return live(state, quality, views, kept_method, least, cache)
+            return live(state, quality, views, kept_method, least, cache, before)
         key = tuple((views or {}).items())
         if key not in known:
             known[key] = live(state, views=views, cache=cache)

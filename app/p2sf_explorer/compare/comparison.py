@@ -71,7 +71,9 @@ def answers(
     """
     moving = quality == "preview"
     if not state.compare.pinned:
-        a = compute.live(state, quality, views, kept_method(last.a if last and moving else None, state), cache=cache)
+        former = last if moving else None
+        kept, before = kept_method(former.a if former else None, state), former.seen.views if former else None
+        a = compute.live(state, quality, views, kept, cache=cache, before=before)
         return Answers(a, None, a)
     begun, other = perf_counter(), side_b(state)
     a = compute.live(state, quality, {}, kept_method(last.a if last and moving else None, state), cache=cache)

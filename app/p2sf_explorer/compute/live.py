@@ -27,8 +27,8 @@ class Live:
     ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` of each part of the work; ``quality``
     is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for,
     ``request`` the one that made it, with up to ``finest`` samples a side, and ``refused`` says why the chosen method
-    has none here. With a B pinned, ``side`` names what is on screen, ``sides`` are the states of A and B, and
-    ``difference`` is what A − B shows in place of this answer.
+    has none here. ``before``: the views of the frame before, while a slider moves. With a B pinned, ``side`` names what
+    is on screen, ``sides`` are the states of A and B, and ``difference`` is what A − B shows in place of this answer.
     """
 
     state: State
@@ -44,6 +44,7 @@ class Live:
     method: str
     milliseconds: Mapping[str, float]
     views: Mapping[str, Any] = field(default_factory=dict)
+    before: Mapping[str, Any] = field(default_factory=dict)
     side: str = ""
     sides: tuple[State, ...] = ()
     pending: PsfRequest | None = None
@@ -71,11 +72,13 @@ def live(
     kept_method: str = "",
     least: Least = ALONE,
     cache: SumCache | None = None,
+    before: Mapping[str, Any] | None = None,
 ) -> Live:
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
     ``kept_method`` names the method that ``auto`` keeps while a slider moves; the PSF's window has at least
     the samples and the width in µm of ``least``.
+    ``before``: the views of the frame before, for those that follow in turns.
     With ``cache``, a sum of waves too slow for a frame is taken from there or left pending; without, waited for.
     """
     begun = perf_counter()
@@ -101,6 +104,7 @@ def live(
         request=picture.request,
         finest=picture.finest,
         refused=picture.refused,
+        before=before or {},
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )
     return with_views(answer, views or {}, begun)

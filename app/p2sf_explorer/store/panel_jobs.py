@@ -85,7 +85,7 @@ class Asking(QObject):
         return self._answer(question, stopped, tell)
 
     def _on_progress(self, question: object, share: float) -> None:
-        if question in self._so_far and self.asked is not None:
+        if question in self._so_far and question == self.asked:  # of an earlier one only what is whole
             self._show(question, self._so_far[question])
 
     def _on_finished(self, question: object, answer: object) -> None:

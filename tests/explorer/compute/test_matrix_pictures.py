@@ -11,10 +11,10 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf_explorer.compute.framing import light_circle
-from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.matrix import pictures
 from p2sf_explorer.compute.matrix.pictures import HELD, matrix, previews, settle
-from p2sf_explorer.compute.matrix.points import matrix_request
+from p2sf_explorer.compute.matrix.points import matrix_request, nearest
 from p2sf_explorer.compute.matrix.tiles import figures, peaks, scales, worst
 from p2sf_explorer.compute.sampled import in_window
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
@@ -205,3 +205,36 @@ def test_rows_of_a_group_are_not_mixed():
         for name in ("dx", "dy", "kx", "path", "launch", "light", "chief_y", "wavelength_um"):
             assert getattr(place.traced, name) == pytest.approx(getattr(alone, name), rel=1e-6, abs=1e-9), name
         assert place.traced.index == pytest.approx(alone.index)
+
+
+def moved(before: Live, f_number: float) -> Live:
+    """Return the answer of the next frame of a drag."""
+    state = change(before.state, f_number=f_number)
+    return live(state, "preview", {"matrix": matrix}, before.method, before=before.views)
+
+
+def test_of_many_pictures_the_one_in_hand_is_renewed_in_each_frame_and_the_others_in_turn():
+    """A frame renews two of fifteen; after fifteen frames each has been renewed, and is what it is by itself."""
+    seen = live(new_state(matrix_rows=5, method="fitted", f_number=4.0, field_deg=0.0), "preview", {"matrix": matrix})
+    row, column, _ = nearest(seen.views["matrix"].request, seen.state)
+    renewed = set()
+    for number in range(15):
+        later = moved(seen, 4.1 + 0.1 * number)
+        old, new = (np.array(each.views["matrix"].tiles, dtype=object) for each in (seen, later))
+        changed = {tuple(at) for at in np.argwhere(old != new).tolist()}
+        assert (row, column) in changed and len(changed) <= 2
+        assert len(later.views["matrix"].waiting) >= 13
+        renewed |= changed
+        seen = later
+    assert len(renewed) == 15
+    alone, here = (
+        tiles[row][column].content for tiles in (previews(seen.views["matrix"].request), seen.views["matrix"].tiles)
+    )
+    assert here.circle.radius_um == pytest.approx(alone.circle.radius_um, rel=0.03), "in a window of other samples"
+
+
+def test_a_few_pictures_are_all_renewed_in_each_frame():
+    seen = live(new_state(method="fitted", f_number=4.0), "preview", {"matrix": matrix})
+    later = moved(seen, 4.5)
+    old, new = (np.array(each.views["matrix"].tiles, dtype=object) for each in (seen, later))
+    assert (old != new).all() and not later.views["matrix"].waiting

@@ -27,7 +27,7 @@ from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import psf_request
 from p2sf_explorer.compute.framing import light_circle
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request
+from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request, nearest
 from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused_tile
 from p2sf_explorer.compute.measured import MeasureRequest
 from p2sf_explorer.compute.method import (
@@ -62,6 +62,8 @@ MOST_LIGHT = 0.97  # share of all light from which on a window's counts as all
 HELD = 0.8  # share of the window's light within the radius that is quoted
 BY_RAYS, BY_COEFFICIENTS = "exact rays", "six coefficients"
 IN_A_FRAME = ("psf", "pupil", "spot", "ray_fan", "opd_fan")  # what has a preview
+IN_FRAME = 9  # PSFs that are all renewed in each frame; of more,
+TURNS = 1  # beside that of the present point
 AT_ONCE = ("spot", "ray_fan", "opd_fan")  # and what settles within the frame too
 
 
@@ -69,12 +71,16 @@ AT_ONCE = ("spot", "ray_fan", "opd_fan")  # and what settles within the frame to
 class Matrix:
     """What a matrix shows: the ``request``, and the pictures that fit a frame, None where they do not.
 
-    ``settled``: nothing better follows.
+    ``settled``: nothing better follows. ``turn``: the next picture to be renewed, where ``waiting`` ones are of an
+    earlier setting; ``widths_um`` of the window of each.
     """
 
     request: MatrixRequest
     tiles: Tiles | None
     settled: bool
+    turn: int = 0
+    waiting: frozenset[int] = frozenset()
+    widths_um: tuple[float, ...] = ()
 
 
 Traced = Rays | Spot | Fan
@@ -111,6 +117,10 @@ def matrix(live: Live) -> Matrix:
     request = matrix_request(live)
     at_once = request.what in AT_ONCE and not (request.what == "spot" and live.state.optics.clip)
     quality = live.quality if at_once else "preview"
+    before = live.before.get("matrix")
+    if live.quality == "preview" and isinstance(before, Matrix) and in_turns(request, before):
+        row, column, _ = nearest(request, live.state, live.side)
+        return renewed(request, before, row * len(request.columns) + column)
     tiles = previews(request, quality) if request.what in IN_A_FRAME else None
     return Matrix(request, tiles, quality == "settled")
 
@@ -124,6 +134,34 @@ def previews(request: MatrixRequest, quality: str = "preview") -> Tiles:
         return _rows(request, [_try_tile(_moving_psf, place, task, width) for place, task, width in each])
     places = _trace_points(_places(request), request.what, quality)
     return _rows(request, [_try_tile(MAKERS[request.what], place, quality) for place in places])
+
+
+def in_turns(request: MatrixRequest, before: Matrix) -> bool:
+    """Return whether the PSFs are too many for a frame, and there are those of the frame before to go on from."""
+    alike = before.tiles is not None and before.request.what == request.what
+    same = (len(before.request.rows), len(before.request.columns)) == (len(request.rows), len(request.columns))
+    many = len(request.rows) * len(request.columns) > IN_FRAME
+    return request.what == "psf" and many and alike and same and request != before.request
+
+
+def renewed(request: MatrixRequest, before: Matrix, here: int) -> Matrix:
+    """Return the PSFs of a frame: that of the present point and the next in turn are new, the others of before.
+
+    A person who drags sees the picture in hand follow at once, and all others within some frames.
+    """
+    wide, old = len(request.columns), [tile for row in before.tiles or () for tile in row]
+    numbers = list(dict.fromkeys((here, *((before.turn + k) % len(old) for k in range(TURNS)))))
+    states = [request.states[number // wide][number % wide] for number in numbers]
+    places = _trace_points([_place(state) for state in states], "psf", "preview")
+    tasks = [_task(place, _quick_method(place)) if isinstance(place, MatrixPoint) else None for place in places]
+    widths = list(before.widths_um) if len(before.widths_um) == len(old) else [0.0] * len(old)
+    for number, width in zip(numbers, _widths(tasks, False), strict=True):
+        widths[number] = width
+    for number, place, task in zip(numbers, places, tasks, strict=True):
+        old[number] = _try_tile(_moving_psf, place, task, max(widths) if request.shared else widths[number])
+    waiting = frozenset(range(len(old))) - set(numbers)
+    turn = (before.turn + TURNS) % len(old)
+    return Matrix(request, _rows(request, old), False, turn, waiting, tuple(widths))
 
 
 def settle(request: MatrixRequest, stopped: Callable[[], bool], tell: Callable[[float, Tiles], None]) -> Tiles:

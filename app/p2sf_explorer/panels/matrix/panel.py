@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QCheckBox
 
 from p2sf_explorer.charts.theme import LIGHT, Tokens
@@ -69,6 +70,7 @@ ACROSS = (
 )
 NAMES = {"field_deg": "Fields", "wavelength_nm": "Colours", "depth_mm": "Depths", "sensor_shift_um": "Shifts"}
 COUNTS = (2, 3, 4, 5)
+HELD_MS = 60  # for which a slider is held still before all pictures follow
 READERS = {quantity.key: quantity.read for quantity in QUANTITIES}
 KINDS: dict[str, type[TileChart]] = {
     "psf": LightChart,
@@ -107,6 +109,9 @@ class MatrixPanel:
         self.shown: tuple[MatrixRequest, Tiles] | None = None
         self.settled: tuple[MatrixRequest, Tiles] | None = None
         self._live: Live | None = None
+        self._held = QTimer(self.widget, singleShot=True, interval=HELD_MS)
+        self._held.timeout.connect(self._on_held)
+        self._filled: dict[TileChart, tuple[object, ...]] = {}
         self._theme = LIGHT
         self._connect()
 
@@ -133,8 +138,10 @@ class MatrixPanel:
         view: Matrix = live.views["matrix"]
         self._show_choices(live, view.request)
         self.grid.build(KINDS[view.request.what], (len(view.request.rows), len(view.request.columns)))
+        self._filled = {chart: shown for chart, shown in self._filled.items() if chart in self.grid.charts}
         if view.settled or (view.tiles and live.quality == "preview"):
             self.asking.forget()
+            self._held.start() if view.waiting else self._held.stop()
         else:
             self.asking.ask(view.request)
         if self.settled and self.settled[0] == view.request:
@@ -143,6 +150,12 @@ class MatrixPanel:
             self._paint(view.request, view.tiles)
         elif self.shown and self.shown[0].what == view.request.what:
             self._paint(*self.shown)
+
+    def _on_held(self) -> None:
+        """Renew the pictures of an earlier setting where a slider is held still."""
+        view = self._live.views.get("matrix") if self._live else None
+        if isinstance(view, Matrix) and view.waiting:
+            self.asking.ask(view.request)
 
     def _show_choices(self, live: Live, request: MatrixRequest) -> None:
         view = live.state.matrix
@@ -198,7 +211,12 @@ class MatrixPanel:
         return legend({name: token for name, (token, _) in LOOKS.items() if name in named}, self._theme)
 
     def _fill(self, chart: TileChart, what: str, tile: MatrixTile, size: float, peak: float) -> None:
-        content = tile.content
+        """Show a picture, unless it is the one that is there."""
+        content, state = tile.content, self._live.state if self._live else None
+        shown = content, what, size, peak, state and (state.display.psf_scale, state.optics.aim), self._theme
+        if self._filled.get(chart) == shown:
+            return
+        self._filled[chart] = shown
         aim = self._live.setup.lens.aim if self._live else "stop"
         if isinstance(chart, LightChart) and isinstance(content, Light):
             chart.show_airy(content.airy_um)
