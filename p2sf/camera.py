@@ -49,7 +49,7 @@ from p2sf.paraxial.pupils import (
     paraxial_rays,
     rim_radii,
 )
-from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask import CLEAR, MaskSettings, PupilMask
 
 if TYPE_CHECKING:
     from p2sf import Plan, Psf, Stored, Sweep, ToleranceStudy
@@ -64,8 +64,8 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True, kw_only=True)
-class Settings:
-    """The settings of a camera; None means the value of the lens file.
+class LensSettings:
+    """The settings of a lens; None means the value of the lens file.
 
     Attributes
     ----------
@@ -87,35 +87,6 @@ class Settings:
         Whether exact rays fill the real stop or the paraxial entrance pupil; "real" is the former name of "stop".
     absorption : bool, optional
         Account for absorption in those media whose catalogue (AGF) states their internal transmittance.
-    obscuration : float, optional
-        Radius of a dark disc in the stop, as a share of the rim's, 0 to 0.99.
-    obscuration_x : float, optional
-        Centre of the dark disc in x, as a share of the rim's radius; the whole disc must lie within the rim.
-    obscuration_y : float, optional
-        Centre of the dark disc in y.
-    vanes : int, optional
-        Number of vanes that run from the middle of the stop to its rim.
-    vane_width : float, optional
-        Width of a vane, as a share of the stop's diameter.
-    vane_angle_deg : float, optional
-        Direction of the first vane, degrees from +y towards +x.
-    blades : int, optional
-        Number of blades of the iris; 0 for a round one.
-    roundness : float, optional
-        Curvature of the blades' edges, as a share of the rim's: 0 straight, 1 a circle.
-    blade_angle_deg : float, optional
-        Direction of the iris's first corner, degrees from +y towards +x.
-    apodisation : float, optional
-        Radius where the amplitude has fallen to 1/e, as a share of the rim's; inf for none.
-    apodisation_power : int, optional
-        2 for a Gaussian, a larger even number for a super-Gaussian.
-    cubic_um : float, optional
-        α of the path α(ξ³ + η³) that a cubic phase plate adds, µm.
-
-    Raises
-    ------
-    RequestError
-        For an impossible value, and for a focus stated twice.
     """
 
     zoom: float | str | None = None
@@ -126,18 +97,27 @@ class Settings:
     stop: StopChoice = "file"
     aim: AimChoice | None = None
     absorption: bool | None = None
-    obscuration: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings(MaskSettings, LensSettings):
+    """The settings of a camera: of its lens, and of the mask in its stop; None means the value of the lens file.
+
+    Attributes
+    ----------
+    obscuration_x : float, optional
+        Centre of the dark disc in x, as a share of the rim's radius; the whole disc must lie within the rim.
+    obscuration_y : float, optional
+        Centre of the dark disc in y.
+
+    Raises
+    ------
+    RequestError
+        For an impossible value, and for a focus stated twice.
+    """
+
     obscuration_x: float | None = None
     obscuration_y: float | None = None
-    vanes: int | None = None
-    vane_width: float | None = None
-    vane_angle_deg: float | None = None
-    blades: int | None = None
-    roundness: float | None = None
-    blade_angle_deg: float | None = None
-    apodisation: float | None = None
-    apodisation_power: int | None = None
-    cubic_um: float | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -211,9 +191,10 @@ class Camera(Settings):
         Distance between the sensor's pixels, µm, and so between the samples of PSFs; a pixel wider than λ/(4 NA)
         holds the light that falls on it.
     zoom, focus_position, focus_mm, sensor_shift_um, f_number, stop, aim, absorption
-        How the lens is set, see `p2sf.camera.Settings`.
+        How the lens is set, see `p2sf.camera.LensSettings`.
     obscuration, obscuration_x, obscuration_y, vanes, vane_width, vane_angle_deg, blades, roundness, blade_angle_deg
-        What stands in its stop, and ``apodisation``, ``apodisation_power``, ``cubic_um``; see there too.
+        The mask in its stop, see `p2sf.pupil.mask.MaskSettings`, also for ``apodisation``, ``apodisation_power`` and
+        ``cubic_um``.
 
     Raises
     ------

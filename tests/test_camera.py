@@ -12,13 +12,23 @@ import pytest
 
 import p2sf
 import p2sf_explorer
-from p2sf.camera import AS_IN_FILE, Camera, PointSource, Request, Settings, explicit_values, set_up, set_up_source
+from p2sf.camera import (
+    AS_IN_FILE,
+    Camera,
+    LensSettings,
+    PointSource,
+    Request,
+    Settings,
+    explicit_values,
+    set_up,
+    set_up_source,
+)
 from p2sf.cli import main
 from p2sf.errors import RequestError
 from p2sf.lens.lens import with_absorption, with_aim, with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask import MaskSettings, PupilMask
 from p2sf.scene.files import KEYS
 from p2sf.scene.scene import Scene
 from p2sf_explorer.compute.quantities import QUANTITIES
@@ -47,6 +57,7 @@ SAMPLES = {
 }
 WITHOUT_SLIDER = {each.name for each in MASK_PARAMETERS if not each.typed}
 NOT_IN_WINDOW = {"absorption", *WITHOUT_SLIDER}  # absorption is a command that edits the lens
+PARTS = PointSource, LensSettings, MaskSettings, Settings  # of a request
 NOT_IN_MASK = {"zernike_um", "phase_map", "amplitude_map", "turn_deg"}  # of files and Python only
 NOT_IN_SCENE = {name for name in SAMPLES if name not in ("zoom", "focus_position", "focus_mm", "f_number", "aim")}
 KEYWORDS = {name: SAMPLES[name] for name in ("focus_mm", "sensor_shift_um", "f_number", "stop", "aim")}
@@ -78,12 +89,13 @@ def same(one, other) -> bool:
 
 
 def test_the_table_and_the_objects_have_the_same_numbers():
-    assert names(Settings) == [each.name for each in (*CAMERA_PARAMETERS, *MASK_PARAMETERS)] == list(SAMPLES)
-    assert names(Camera) == [*SAMPLES, "lens", "pixel_um"]
+    declared = [each.name for each in (*CAMERA_PARAMETERS, *MASK_PARAMETERS)]
+    assert sorted(names(Settings)) == sorted(declared) == sorted(SAMPLES)
+    assert names(Camera) == [*names(Settings), "lens", "pixel_um"]
     assert names(PointSource) == [each.name for each in SOURCE_PARAMETERS]
     assert names(Request) == names(PointSource) + names(Settings)
     assert {each.name for each in MASK_PARAMETERS} == set(names(PupilMask)) - NOT_IN_MASK
-    described = re.findall(r"^    (\w+)(?: :.*)?$", f"{PointSource.__doc__}\n{Settings.__doc__}", re.MULTILINE)
+    described = re.findall(r"^    (\w+)(?: :.*)?$", "\n".join(p.__doc__ for p in PARTS), re.MULTILINE)
     assert set(names(Request)) <= set(described)
     of_mask = re.findall(r"^    (\w+(?:, \w+)*) : .*$", PupilMask.__doc__, re.MULTILINE)
     assert set(", ".join(of_mask).split(", ")) == set(names(PupilMask))

@@ -90,6 +90,46 @@ class PupilMap:
         return values
 
 
+@dataclass(frozen=True, kw_only=True)
+class MaskSettings:
+    """The numbers of the mask that a camera and the window may set; None means the value of the lens file.
+
+    Attributes
+    ----------
+    obscuration : float, optional
+        Radius of a dark disc in the stop, as a share of the rim's, 0 to 0.99.
+    vanes : int, optional
+        Number of vanes that run from the middle of the stop to its rim.
+    vane_width : float, optional
+        Width of a vane, as a share of the stop's diameter.
+    vane_angle_deg : float, optional
+        Direction of the first vane, degrees from +y towards +x.
+    blades : int, optional
+        Number of blades of the iris; 0 for a round one.
+    roundness : float, optional
+        Curvature of the blades' edges, as a share of the rim's: 0 straight, 1 a circle.
+    blade_angle_deg : float, optional
+        Direction of the iris's first corner, degrees from +y towards +x.
+    apodisation : float, optional
+        Radius where the amplitude has fallen to 1/e, as a share of the rim's; inf for none.
+    apodisation_power : int, optional
+        2 for a Gaussian, a larger even number for a super-Gaussian.
+    cubic_um : float, optional
+        α of the path α(ξ³ + η³) that a cubic phase plate adds, µm.
+    """
+
+    obscuration: float | None = None
+    vanes: int | None = None
+    vane_width: float | None = None
+    vane_angle_deg: float | None = None
+    blades: int | None = None
+    roundness: float | None = None
+    blade_angle_deg: float | None = None
+    apodisation: float | None = None
+    apodisation_power: int | None = None
+    cubic_um: float | None = None
+
+
 @dataclass(frozen=True)
 class PupilMask:
     """The pupil mask in the stop: all parts apply together, and the default is the clear disc.

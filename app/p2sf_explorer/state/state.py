@@ -16,7 +16,7 @@ from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Alternatives, Message
 from p2sf.parameters import FARTHER
 from p2sf.psf.methods import AUTO
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.mask import MaskSettings, PupilMask
 from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.tolerance.criteria import Criterion
 from p2sf.tolerance.errors_of_build import UNITS, Grade
@@ -111,15 +111,15 @@ def _quote(value: object) -> object:
 
 
 @dataclass(frozen=True)
-class Optics:
+class Optics(MaskSettings):
     """The lens, its settings, the source, and the method; together with `WhatIf` they determine the picture.
 
     ``lens_text`` is the TOML text of a lens edited in the window, None while the lens is as ``lens`` names it.
-    ``focus_mm``, ``f_number`` and the pupil mask, ``obscuration`` to ``cubic_um`` as in `PupilMask`, are None for the
-    value of the lens file. ``aim`` is that of `p2sf.lens.lens.Lens`. ``zoom`` and ``focus_position`` are positions on
-    the rings of a lens that has them, None for the first column of its file; with ``focus_mm`` the focus ring follows.
-    ``field_deg`` is the field along y and ``field_x_deg`` that along x. ``errors`` are manufacturing errors
-    (`p2sf_explorer.state.build_errors`), in addition to those of its file or an edit.
+    ``focus_mm``, ``f_number`` and the numbers of the mask are None for the value of the lens file. ``aim`` is that of
+    `p2sf.lens.lens.Lens`. ``zoom`` and ``focus_position`` are positions on the rings of a lens that has them, None for
+    the first column of its file; with ``focus_mm`` the focus ring follows. ``field_deg`` is the field along y and
+    ``field_x_deg`` that along x. ``errors`` are manufacturing errors (`p2sf_explorer.state.build_errors`), in addition
+    to those of its file or an edit.
     """
 
     lens: str = "double_gauss_28"
@@ -138,16 +138,6 @@ class Optics:
     clip: bool = False
     method: str = AUTO
     tolerance: float = 0.99
-    obscuration: float | None = None
-    vanes: int | None = None
-    vane_width: float | None = None
-    vane_angle_deg: float | None = None
-    blades: int | None = None
-    roundness: float | None = None
-    blade_angle_deg: float | None = None
-    apodisation: float | None = None
-    apodisation_power: int | None = None
-    cubic_um: float | None = None
     errors: BuildErrors = ()
 
     def __post_init__(self) -> None:
