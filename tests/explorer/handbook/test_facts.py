@@ -7,8 +7,10 @@ import pytest
 
 from p2sf.database.exact import LENGTHS, NUMBERS
 from p2sf.lens.lens import with_aim
+from p2sf.lens.shape_types import SHAPES
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml.surface import ENTRIES
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import residual_for
 from p2sf.raytrace.fit import LEVELS, RESIDUAL_WAVES
@@ -65,3 +67,9 @@ def test_how_far_the_pupil_is_squeezed_off_axis():
     scale = float(rays.index) / (2 * near * slope)
     squeezed = (scale * (rays.kx[0] - rays.kx[1]), scale * (rays.ky[2] - rays.ky[3]))
     assert squeezed == pytest.approx((across, along), abs=6e-4)  # three digits are printed
+
+
+def test_the_page_of_lens_files_names_every_key_of_a_surface_and_every_shape():
+    text = page("lens_files")
+    missing = [name for name in (*(entry.key for entry in ENTRIES), *SHAPES) if name not in text]
+    assert not missing
