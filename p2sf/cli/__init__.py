@@ -20,6 +20,7 @@ COMMANDS = {
     "info": ("first_order:info", "First-order data of a lens: focal and principal points, stop, pupils, image."),
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
+    "report": ("reports:report", "What an engineer reads first of a lens; all of it as PDF, HTML or JSON."),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
     "tolerance": (
         "tolerances:tolerance",

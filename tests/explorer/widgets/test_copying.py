@@ -3,20 +3,14 @@
 import csv
 import io
 import re
-import zlib
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 
-from p2sf.errors import P2SFError
-from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.pinning import pin
-from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.widgets.copying import copy_menu, data_of, table
-from p2sf_explorer.window.commands.report import SHARES, fields, write_report
-from tests.long.crash import small_disk
 from tests.support.windows.windows import settled
 
 
@@ -133,47 +127,3 @@ def test_the_picture_on_the_clipboard_is_the_panel(window, qtbot):
     first.trigger()
     assert QGuiApplication.clipboard().pixmap().size() == widget.grab().size()
     menu.deleteLater()
-
-
-@pytest.mark.parametrize("language", ["en", "de"])
-def test_the_report_is_one_page_of_a4_with_drawing_numbers_and_pictures(qapp, tmp_path, language):
-    state = new_state(method="seidel", f_number=8.0)
-    set_language(language)
-    try:
-        write_report(state, str(tmp_path / "page.pdf"))
-    finally:
-        set_language("en")
-    document = (tmp_path / "page.pdf").read_bytes()
-    assert document.startswith(b"%PDF-")
-    assert len(re.findall(rb"/Type\s*/Page\b", document)) == 1
-    width, height = (float(v) for v in re.search(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)", document).groups())
-    assert (width, height) == pytest.approx((595.3, 841.9), abs=1.0)  # A4 in points, ISO 216
-    assert len(re.findall(rb"/Subtype\s*/Image", document)) >= len(SHARES)
-    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", document, re.DOTALL)
-    drawn = b"".join(inflated(stream) for stream in streams)
-    assert drawn.count(b" l\n") > 200, "outlines and rays are lines"
-
-
-def inflated(stream: bytes) -> bytes:
-    try:
-        return zlib.decompress(stream)
-    except zlib.error:
-        return b""
-
-
-def test_the_report_shows_the_field_from_the_axis_to_the_lens_files_widest():
-    shown = [state.optics.field_deg for state in fields(State())]
-    assert shown == pytest.approx([0.0, 4.9, 9.8, 14.0])
-
-
-def test_a_report_that_cannot_be_written_is_a_sentence(qapp, tmp_path):
-    with pytest.raises(P2SFError, match="cannot be written"):
-        write_report(new_state(method="seidel", f_number=8.0), str(tmp_path / "no" / "page.pdf"))
-
-
-def test_a_report_on_a_full_disk_is_a_sentence_and_the_old_one_stays(qapp, tmp_path):
-    old = tmp_path / "page.pdf"
-    old.write_bytes(b"old")
-    with small_disk(2000), pytest.raises(P2SFError, match="cannot be written"):
-        write_report(new_state(method="seidel", f_number=8.0), str(old))
-    assert (list(tmp_path.iterdir()), old.read_bytes()) == ([old], b"old")

@@ -202,7 +202,6 @@
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>EFL {focal} mm, {speed} · {column}</source><translation>EFL {focal} mm, {speed} · {column}</translation></message>
 <message><source>Each PSF is the light of one point on the pixels of a sensor, with the chief ray on the middle pixel. The file also has the place of each chief ray on the sensor and the share of light captured. Coefficients altered by hand are ignored. Put semicolons between the values of a list; first : last : count is a range, evenly spaced, in 1/distance for depths.</source><translation>Jede PSF ist, was die Pixel eines Sensors vom Licht eines Punktes bekommen, der Hauptstrahl auf dem mittleren Pixel. Dazu kommen der Ort ihres Hauptstrahls auf dem Sensor und das aufgefangene Licht. Von Hand geänderte Koeffizienten bleiben außen vor. Zwischen den Werten einer Liste stehen Semikolons; erster : letzter : Anzahl ist eine Reihe gleichmäßiger Schritte, bei Abständen in 1/Abstand.</translation></message>
-<message><source>Each PSF relative to its own peak, {scale}; W11 moves the image and is left out.</source><translation>Jede PSF auf ihre eigene Spitze bezogen, {scale}; W11 verschiebt das Bild und ist weggelassen.</translation></message>
 <message><source>Effective focal length f′ = −1/C of the system matrix.</source><translation>Brennweite f′ = −1/C der Systemmatrix.</translation></message>
 <message><source>EnP</source><translation>EnP</translation></message>
 <message><source>End the lesson and restore everything as it was before (F3)</source><translation>Die Lektion beenden und alles zurückstellen, wie es vorher war (F3)</translation></message>
@@ -442,7 +441,6 @@
 <message><source>PSF</source><translation>PSF</translation></message>
 <message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
 <message><source>PSF grid</source><translation>PSF-Gitter</translation></message>
-<message><source>PSF over the field</source><translation>PSF über das Feld</translation></message>
 <message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
 <message><source>PSF, % of the peak</source><translation>PSF, % der Spitze</translation></message>
 <message><source>PSF, peak = 1</source><translation>PSF, Spitze = 1</translation></message>
@@ -565,9 +563,7 @@
 <message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
 <message><source>Remove this surface; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Report</source><translation>Bericht</translation></message>
-<message><source>Report (*.pdf)</source><translation>Bericht (*.pdf)</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
-<message><source>Report: one page as PDF…</source><translation>Bericht: eine Seite als PDF …</translation></message>
 <message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Reset all</source><translation>Alles zurücksetzen</translation></message>
 <message><source>Reset all errors of the lens</source><translation>Jede Zahl des Objektivs wieder richtig stellen</translation></message>
@@ -1354,7 +1350,6 @@
 <message><source>line every {step} λ</source><translation>Linie alle {step} λ</translation></message>
 <message><source>line {line}: {message}</source><translation>Zeile {line}: {message}</translation></message>
 <message><source>linear</source><translation>linear</translation></message>
-<message><source>linear brightness</source><translation>lineare Helligkeit</translation></message>
 <message><source>linear {error} λ, on {depths} depths × {fields} fields × {waves} wavelengths</source><translation>linear {error} λ, auf {depths} Abständen × {fields} Feldern × {waves} Wellenlängen</translation></message>
 <message><source>lines F d C</source><translation>Linien F d C</translation></message>
 <message><source>listed nd</source><translation>verzeichnetes nd</translation></message>
@@ -1636,7 +1631,6 @@
 <message><source>split</source><translation>geteilt</translation></message>
 <message><source>split of the photo</source><translation>Teilung des Fotos</translation></message>
 <message><source>square root</source><translation>Wurzel</translation></message>
-<message><source>square root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
 <message><source>step of the lesson</source><translation>Schritt der Lektion</translation></message>
 <message><source>step {k} of {n}</source><translation>Schritt {k} von {n}</translation></message>
 <message><source>stop</source><translation>Blende</translation></message>
@@ -2129,7 +2123,6 @@
 <message><source>{depth:.4g} mm</source><translation>{depth:.4g} mm</translation></message>
 <message><source>{depth:g} mm</source><translation>{depth:g} mm</translation></message>
 <message><source>PSFs: {count} = depths {depths} × fields {fields} × wavelengths {wavelengths}</source><translation>PSFs: {count} = Abstände {depths} × Felder {fields} × Wellenlängen {wavelengths}</translation></message>
-<message><source>{depth}, field {field}°, {wavelength} nm</source><translation>{depth}, Feld {field}°, {wavelength} nm</translation></message>
 <message><source>{done} of {all} settled</source><translation>{done} von {all} fertig</translation></message>
 <message><source>{error:.2g} relative, does not keep {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} nicht ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
 <message><source>{error:.2g} relative, keeps {tolerance:g}; the full grid takes {times:.0f} times as long</source><translation>{error:.2g} relativ, hält {tolerance:g} ein; das volle Gitter dauert {times:.0f}-mal so lang</translation></message>
@@ -2460,5 +2453,27 @@
 <message><source>number of a solve</source><translation>Zahl einer Lösevorschrift</translation></message>
 <message><source>variables and solves, whose stored values are read</source><translation>Variable und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>variables, pickups and solves, whose stored values are read</source><translation>Variable, Übernahme- und Lösevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
+<message><source>MTF through focus: tangential solid, sagittal dashed</source><translation>MTF durch den Fokus: tangential durchgezogen, sagittal gestrichelt</translation></message>
+<message><source>MTF: tangential solid, sagittal dashed</source><translation>MTF: tangential durchgezogen, sagittal gestrichelt</translation></message>
+<message><source>Opens in P2SF Explorer: copy this link, then paste it into the window</source><translation>Öffnet sich im P2SF Explorer: diesen Link kopieren und ins Fenster einfügen</translation></message>
+<message><source>PSF, {wide:.3g} µm wide, square root of brightness, each relative to its own peak</source><translation>PSF, {wide:.3g} µm breit, Wurzel der Helligkeit, jede auf ihre eigene Spitze bezogen</translation></message>
+<message><source>Prescription</source><translation>Konstruktionsdaten</translation></message>
+<message><source>Report as PDF (*.pdf);;Report as HTML (*.html);;Report as JSON (*.json)</source><translation>Bericht als PDF (*.pdf);;Bericht als HTML (*.html);;Bericht als JSON (*.json)</translation></message>
+<message><source>Report as PDF, HTML or JSON…</source><translation>Bericht als PDF, HTML oder JSON …</translation></message>
+<message><source>Spot diagrams</source><translation>Punktdiagramme</translation></message>
+<message><source>Spot diagrams, ±{side:.3g} µm</source><translation>Punktdiagramme, ±{side:.3g} µm</translation></message>
+<message><source>Writing the report</source><translation>Der Bericht wird geschrieben</translation></message>
+<message><source>aspheric terms</source><translation>asphärische Terme</translation></message>
+<message><source>conic</source><translation>Kegelschnitt</translation></message>
+<message><source>focus, mm behind the sensor</source><translation>Fokus, mm hinter dem Sensor</translation></message>
+<message><source>glass data</source><translation>Glasdaten</translation></message>
+<message><source>medium</source><translation>Medium</translation></message>
+<message><source>radius, mm</source><translation>Radius, mm</translation></message>
+<message><source>semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
+<message><source>the HTML report has the link, which is too long here</source><translation>der Link ist hier zu lang und steht im HTML-Bericht</translation></message>
+<message><source>the report was stopped</source><translation>der Bericht wurde abgebrochen</translation></message>
+<message><source>thickness, mm</source><translation>Dicke, mm</translation></message>
+<message><source>{depth}, field {field}, {wavelength:.1f} nm, {speed}</source><translation>{depth}, Feld {field}, {wavelength:.1f} nm, {speed}</translation></message>
+<message><source>{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}</source><translation>{parameter} ist {path}, die Endung "{ending}" ist unbekannt; wählen aus {endings}</translation></message>
 </context>
 </TS>

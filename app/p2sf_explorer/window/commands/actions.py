@@ -42,11 +42,13 @@ from p2sf_explorer.window.controls import Controls
 from p2sf_explorer.window.quantity_rows import PupilShape
 
 if TYPE_CHECKING:
+    from p2sf_explorer.window.commands.report import ReportWriter
     from p2sf_explorer.window.commands.set_dialog import SetDialog
 
 COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
 HANDBOOK = "Handbook: the page of what has the focus"
 NO_MASK = "Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase"
+REPORT_FILES = "Report as PDF (*.pdf);;Report as HTML (*.html);;Report as JSON (*.json)"
 STATE_FILES = "Explorer states (*.json)"
 SNAPSHOT_FILES = (
     "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv);;"
@@ -106,6 +108,7 @@ class Actions(QObject):
         self.palette: Palette | None = None
         self.handbook: Handbook | None = None
         self.set_dialog: SetDialog | None = None
+        self.report_writer: ReportWriter | None = None
         for command in self._first():
             self.add(command)
         top.lens_chosen.connect(self.open_lens)
@@ -114,7 +117,7 @@ class Actions(QObject):
         top.help_asked.connect(self.help)
         top.set_snapshot_menu(self._menu())
         self._list_recent()
-        listed = ("Find a command…", "Report: one page as PDF…", HANDBOOK, "Shortcuts")
+        listed = ("Find a command…", "Report as PDF, HTML or JSON…", HANDBOOK, "Shortcuts")
         fill(top.more.menu(), store, tuple(c for c in self.commands if c.title in listed))
 
     def _first(self) -> tuple[Command, ...]:
@@ -134,7 +137,7 @@ class Actions(QObject):
             Command("Pupil as the lens file has it", lambda: store.update(**dict.fromkeys(MASK)), (), "Lens"),
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
-            Command("Report: one page as PDF…", self.ask_report, ("Ctrl+P",), "Files"),
+            Command("Report as PDF, HTML or JSON…", self.ask_report, ("Ctrl+P",), "Files"),
             Command("Pop out", self._panels.detach, ("Ctrl+D",), "Panel"),
             Command("Find a command…", self.find, ("Ctrl+K",)),
             Command(HANDBOOK, self.open_handbook, ("F1",)),
@@ -234,8 +237,9 @@ class Actions(QObject):
 
     def stop(self) -> None:
         """End background work with the window."""
-        if self.set_dialog:
-            self.set_dialog.stop()
+        for working in (self.set_dialog, self.report_writer):
+            if working:
+                working.stop()
 
     def help(self) -> None:
         """Show shortcuts and what they do."""
@@ -281,18 +285,17 @@ class Actions(QObject):
     def ask_report(self) -> None:
         """Ask for a name and write the report."""
         first = f"{Path(self._store.state.optics.lens).stem}.pdf"
-        path, _ = QFileDialog.getSaveFileName(self._window, tr("Save the report"), first, tr("Report (*.pdf)"))
+        path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save the report"), first, tr(REPORT_FILES))
         if path:
-            self.write_report(path if Path(path).suffix else f"{path}.pdf")
+            named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
+            self.write_report(named)
 
-    def write_report(self, path: str) -> bool:
-        """Write one page about the lens at this source as PDF."""
-        from p2sf_explorer.window.commands.report import write_report
+    def write_report(self, path: str) -> None:
+        """Write the report on the lens as it is set in the background, by the ending of the name."""
+        from p2sf_explorer.window.commands.report import ReportWriter
 
-        went = self.attempt(lambda: write_report(self._store.state, path))
-        if went:
-            self._store.said.emit(Message("Saved {name}", name=Path(path).name))
-        return went
+        self.report_writer = self.report_writer or ReportWriter(self._store, self._window)
+        self.report_writer.write(self._store.state, path)
 
     def _menu(self) -> QMenu:
         menu = QMenu(self._window)
