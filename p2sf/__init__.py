@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         SamplingError,
     )
     from p2sf.export.psf_cube import open_database
+    from p2sf.glass.media import Medium, medium
     from p2sf.image.picture import form_image, sharpen_image
     from p2sf.io.psf_files import read_psf, write_psf
     from p2sf.io.psf_plot import draw_psf
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     from p2sf.paraxial.positions import lens_at
     from p2sf.paraxial.seidel import Coefficients
     from p2sf.psf.from_opd import psf_of_opd
+    from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
     from p2sf.pupil.mask import PupilMap, PupilMask
     from p2sf.raytrace.zernike_fit import ZernikeFit
@@ -61,6 +63,7 @@ __all__ = [
     "Aperture",
     "Camera",
     "Channel",
+    "Choice",
     "Coefficients",
     "DatabaseError",
     "Energy",
@@ -70,6 +73,7 @@ __all__ = [
     "Lens",
     "LensFileError",
     "LineSpread",
+    "Medium",
     "Mtf",
     "NamedArrays",
     "P2SFError",
@@ -106,6 +110,7 @@ __all__ = [
     "line_spread",
     "line_spread_of_psf",
     "load_lens",
+    "medium",
     "mtf",
     "mtf_of_psf",
     "open_database",
@@ -126,6 +131,7 @@ _ELSEWHERE = {
     "Aperture": "p2sf.lens.lens",
     "Camera": "p2sf.camera",
     "Channel": "p2sf.scene.scene",
+    "Choice": "p2sf.psf.methods",
     "Coefficients": "p2sf.paraxial.seidel",
     "DatabaseError": "p2sf.errors",
     "Energy": "p2sf.metrics.measures",
@@ -135,6 +141,7 @@ _ELSEWHERE = {
     "Lens": "p2sf.lens.lens",
     "LensFileError": "p2sf.errors",
     "LineSpread": "p2sf.metrics.measures",
+    "Medium": "p2sf.glass.media",
     "Mtf": "p2sf.metrics.measures",
     "NamedArrays": "p2sf.named_arrays",
     "P2SFError": "p2sf.errors",
@@ -166,6 +173,7 @@ _ELSEWHERE = {
     "form_image": "p2sf.image.picture",
     "lens_at": "p2sf.paraxial.positions",
     "line_spread_of_psf": "p2sf.metrics.samples",
+    "medium": "p2sf.glass.media",
     "mtf_of_psf": "p2sf.metrics.samples",
     "open_database": "p2sf.export.psf_cube",
     "plan": "p2sf.scene.planning.plan",
@@ -181,12 +189,15 @@ _ELSEWHERE = {
 }
 
 
-def __getattr__(name: str) -> Any:
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(_ELSEWHERE.get(name, "p2sf.api")), name)
-    globals()[name] = value
-    return value
+if not TYPE_CHECKING:  # for a checker every name is one of those above, and any other is an error
+
+    def __getattr__(name: str) -> Any:
+        if name not in __all__:
+            own = import_module(__name__)  # from whose names Python suggests one
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=own)
+        value = getattr(import_module(_ELSEWHERE.get(name, "p2sf.api")), name)
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_arguments
+from p2sf.arguments import check_arguments, former_names
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, set_up_source, with_camera
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -64,6 +64,7 @@ def load_lens(name_or_path: Path) -> Lens:
     return find_lens(name_or_path)
 
 
+@former_names(tolerance="min_r2")
 @check_arguments
 @with_camera
 def render(
@@ -74,7 +75,7 @@ def render(
     pixels: int = 64,
     pixel_um: float | None = None,
     quality: Literal["settled", "preview"] = "settled",
-    tolerance: float = 0.99,
+    min_r2: float = 0.99,
     clip: bool = False,
     integrated: bool | None = None,
     camera: Camera = AS_IN_FILE,
@@ -94,14 +95,14 @@ def render(
     source : Source
         The point source; by default at infinity, on the axis.
     method : {"auto", "seidel", "fitted", "traced", "huygens", "gaussian"}
-        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``tolerance``.
+        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``.
     pixels : int
         Samples along each side.
     pixel_um : float, optional
         Distance between samples, µm; by default one that shows the whole PSF.
     quality : {"settled", "preview"}
         Converged (relative L2 error of the sum at most 1e-4), or fast.
-    tolerance : float
+    min_r2 : float
         Smallest R² against the exact reference that "auto" accepts.
     clip : bool
         Stop rays at every clear semi-diameter, not only at the aperture stop.
@@ -145,9 +146,9 @@ def render(
 
     setup = set_up_source(lens, source, camera)
     with using_threads(threads):
-        options = PsfOptions(quality, tolerance, clip)
+        options = PsfOptions(quality, min_r2, clip)
         psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
-    return warn_of_window(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 5)
+    return warn_of_window(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 6)
 
 
 @check_arguments
@@ -237,12 +238,13 @@ def zernike(
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
+@former_names(tolerance="min_r2")
 @check_arguments
 @with_camera
 def choose_method(
     lens: Lens,
     source: Source = ON_AXIS,
-    tolerance: float = 0.99,
+    min_r2: float = 0.99,
     *,
     clip: bool = False,
     camera: Camera = AS_IN_FILE,
@@ -252,9 +254,9 @@ def choose_method(
     stop: StopChoice = "file",
     aim: AimChoice | None = None,
 ) -> "Choice":
-    """Choose the cheapest method whose predicted R² is at least ``tolerance``, without computing the reference.
+    """Choose the cheapest method whose predicted R² is at least ``min_r2``, without computing the reference.
 
-    Parameters are as for `render`; ``tolerance`` is below 1, and R² that in a window that shows the whole PSF. Raises
+    Parameters are as for `render`; ``min_r2`` is below 1, and R² that in a window that shows the whole PSF. Raises
     RequestError, GeometryError (also if the chief ray does not reach the sensor) and GlassError as it does.
 
     Returns
@@ -265,13 +267,13 @@ def choose_method(
     Examples
     --------
     >>> import p2sf
-    >>> p2sf.choose_method(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=14), tolerance=0.99).method
+    >>> p2sf.choose_method(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=14), min_r2=0.99).method
     'fitted'
     """
     from p2sf.psf.methods import choose
 
     setup = set_up_source(lens, source, camera)
-    return choose(setup.lens, source, tolerance, clip)
+    return choose(setup.lens, source, min_r2, clip)
 
 
 @check_arguments

@@ -1,6 +1,7 @@
 """Conversion and checks of arguments: quantities with a unit, masked arrays, lists for tuples, non-numbers."""
 
 import os
+import warnings
 from collections.abc import Callable
 from dataclasses import fields
 from functools import lru_cache, wraps
@@ -16,7 +17,11 @@ from p2sf.errors import RequestError
 from p2sf.messages import Alternatives
 
 UNITS = (("_per_mm", "1/mm"), ("_mm", "mm"), ("_um", "um"), ("_nm", "nm"), ("_deg", "deg"))
-"""Endings of parameters, the longer ones first, and their units as astropy writes them; any other is a plain number."""
+"""Endings of parameters, the longer ones first, and their units as astropy and pint write them."""
+LENGTHS = frozenset(
+    "radius thickness semi_diameter inner_radius ideal_focal_length decentre_x decentre_y decentre_z pivot".split()
+)
+"""Lengths of a lens, mm, whose names have no unit; whatever else has none is a plain number."""
 NUMBERS = (float, int, Real)  # looking up the first two is ten times as fast
 CLASSES = {float: NUMBERS, int: NUMBERS, bool: (bool, np.bool_), None: NoneType}
 """Types accepted for an annotation; whether a count is an integer is checked where it is used."""
@@ -25,6 +30,7 @@ WANTED = {
     **dict.fromkeys(("float", "int", "Real"), "a number"),
     **dict.fromkeys(("bool", "bool_"), "True or False"),
     "str": "a text",
+    "Aperture": "a p2sf.Aperture or an f-number",
     "PathLike": "a path",
     "Lens": "what p2sf.load_lens returns",
     "Plan": "what p2sf.plan returns",
@@ -46,6 +52,40 @@ def check_arguments(function: Function) -> Function:
         return function(*given, *args[len(kinds) :], **named)
 
     return cast("Function", call)
+
+
+def former_names(positional: tuple[str, ...] = (), **names: str) -> Callable[[Function], Function]:
+    """Return a decorator for a function whose parameters had other names; those work with a DeprecationWarning.
+
+    ``names``: the new name by the former one. ``positional``: names, in their former order, of parameters behind the
+    first that are given by name now. RequestError for a value given by both names.
+    """
+
+    def decorate(function: Function) -> Function:
+        @wraps(function)
+        def call(*args: Any, **kwargs: Any) -> Any:
+            for old, new in names.items():
+                if old in kwargs:
+                    _warn_of_name(f"{old} is {new} now")
+                    _add(kwargs, new, kwargs.pop(old))
+            for name, value in zip(positional, args[1:], strict=False):
+                _warn_of_name(f"give {name} by its name")
+                _add(kwargs, name, value)
+            return function(*(args[:1] if positional else args), **kwargs)
+
+        return cast("Function", call)
+
+    return decorate
+
+
+def _warn_of_name(words: str) -> None:
+    warnings.warn(words, DeprecationWarning, stacklevel=3)
+
+
+def _add(given: dict[str, Any], name: str, value: Any) -> None:
+    if name in given:
+        raise RequestError("{parameter} is given twice; keep one of them", parameter=name)
+    given[name] = value
 
 
 def check_fields(instance: Any) -> None:
@@ -121,18 +161,18 @@ def _tuple_of(name: str, value: Any, annotation: Any) -> tuple[Any, ...]:
 
 
 def in_own_unit(name: str, value: Any) -> Any:
-    """Return an astropy quantity as a number in the unit of the parameter; values without a unit are unchanged.
+    """Return a quantity of astropy or pint as a number in the unit of the parameter; plain values are unchanged.
 
-    Lists and tuples of quantities are converted item by item. Raises RequestError for a quantity of another dimension,
-    such as a time for a length, and for one that cannot be converted.
+    Lists and tuples of quantities are converted item by item; an array of xarray has its unit in an attribute. Raises
+    RequestError for a quantity of another dimension, such as a time for a length, and for one that cannot be converted.
     """
     if isinstance(value, list | tuple) and any(_has_unit(part) for part in value):
         return type(value)(in_own_unit(name, part) for part in value)
     if not _has_unit(value):
         return value
-    unit = next((unit for ending, unit in UNITS if name.endswith(ending)), "")
+    unit = "mm" if name in LENGTHS else next((unit for ending, unit in UNITS if name.endswith(ending)), "")
     try:
-        found = value.to_value(unit)
+        found = _in_unit(value, unit)
     except (AttributeError, TypeError, ValueError):  # from another package, or neither length nor angle
         raise RequestError(
             "{parameter} is {value}; give a number without a unit, in {unit}",
@@ -141,6 +181,17 @@ def in_own_unit(name: str, value: Any) -> Any:
             unit=unit or "the unit that the documentation states",
         ) from None
     return found if np.ndim(found) else float(found)
+
+
+def _in_unit(value: Any, unit: str) -> Any:
+    """Return the number of a quantity in a unit; AttributeError, TypeError or ValueError where it has none."""
+    if hasattr(value, "to_value"):  # of astropy
+        return value.to_value(unit)
+    if isinstance(value.units, str):  # an array of xarray
+        if value.units != unit:
+            raise ValueError(value.units)
+        return np.asarray(value)
+    return value.to(unit or "dimensionless").magnitude
 
 
 def _has_unit(value: object) -> bool:

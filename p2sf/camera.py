@@ -4,6 +4,7 @@ The library, the command line, the window and files all come through `set_up` or
 numbers mean the same everywhere. `p2sf.parameters` declares every parameter once.
 """
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, lru_cache, wraps
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_fields, real_array
+from p2sf.arguments import check_fields, former_names, real_array
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import (
@@ -82,9 +83,11 @@ class LensSettings:
     f_number : float, optional
         Focal length over entrance-pupil diameter, instead of the file's aperture.
     stop : {"file", "auto"}
-        Use the stop of the file, or the rim that limits the cone of light at the depth of the source (auto).
+        Which surface is the stop: that of the file, or the rim that limits the cone of light at the depth of the source
+        (auto).
     aim : {"stop", "paraxial"}, optional
-        Whether exact rays fill the real stop or the paraxial entrance pupil; "real" is the former name of "stop".
+        What exact rays fill evenly, whichever surface the stop is: the real stop up to its rim, or the paraxial
+        entrance pupil. By default as the lens has it.
     absorption : bool, optional
         Account for absorption in those media whose catalogue (AGF) states their internal transmittance.
     """
@@ -274,7 +277,7 @@ class Camera(Settings):
     ) -> "Psf":
         """Return the PSF of one source, `p2sf.render` with this camera.
 
-        The source is that of `source`; ``how``: ``method``, ``pixels``, ``pixel_um``, ``quality``, ``tolerance``,
+        The source is that of `source`; ``how``: ``method``, ``pixels``, ``pixel_um``, ``quality``, ``min_r2``,
         ``clip``, ``integrated`` and ``threads`` as `p2sf.render` has them, whose errors it raises.
         """
         from p2sf import render
@@ -325,12 +328,13 @@ class Camera(Settings):
             wavelengths_nm = np.unique([min(lens.wavelengths_nm), max(lens.wavelengths_nm)])
         return build_database(lens, depths_mm, fields_deg, wavelengths_nm, method=method, camera=self, **how)
 
+    @former_names(tolerance="rtol")
     def photograph(
         self,
         image: ArrayLike,
         depth_mm: ArrayLike | None = None,
         *,
-        tolerance: float = 0.05,
+        rtol: float = 0.05,
         clip: bool = False,
         **how: Any,
     ) -> np.ndarray:
@@ -343,7 +347,7 @@ class Camera(Settings):
             of the lens's middle wavelength; row 0 is the top, and a pixel as wide as the sensor's.
         depth_mm : array_like, optional
             One depth, mm, or that of every pixel, (rows, columns); the distance in focus, or infinity, by default.
-        tolerance : float
+        rtol : float
             Relative L2 error of a pixel's kernel that is tolerable.
         clip : bool
             Stop rays at every clear semi-diameter.
@@ -363,7 +367,7 @@ class Camera(Settings):
         from p2sf import form_image
 
         values, depths = real_array("image", image), self._depths(depth_mm)
-        planned = self._plan(values, depths, tolerance, clip)
+        planned = self._plan(values, depths, rtol, clip)
         given = None if depths.size == 1 else depths
         formed: np.ndarray = form_image(planned, values.reshape(*values.shape[:2], -1), given, **how)
         return formed.reshape(values.shape)
@@ -374,7 +378,7 @@ class Camera(Settings):
         depth_mm: float | None = None,
         *,
         noise: float | None = None,
-        tolerance: float = 0.05,
+        rtol: float = 0.05,
         clip: bool = False,
         threads: int | None = None,
     ) -> np.ndarray:
@@ -388,7 +392,7 @@ class Camera(Settings):
             The depth that is made sharp, mm; the distance in focus, or infinity, by default.
         noise : float, optional
             Standard deviation of the photo's noise; estimated from its quiet parts by default.
-        tolerance, clip
+        rtol, clip
             As for `photograph`.
         threads : int, optional
             As for `p2sf.render`.
@@ -406,7 +410,7 @@ class Camera(Settings):
         from p2sf import sharpen_image
 
         values, depths = real_array("photo", photo), self._depths(depth_mm)
-        planned = self._plan(values, depths, tolerance, clip)
+        planned = self._plan(values, depths, rtol, clip)
         sharp: np.ndarray = sharpen_image(planned, values.reshape(*values.shape[:2], -1), noise=noise, threads=threads)
         return sharp.reshape(values.shape)
 
@@ -414,7 +418,7 @@ class Camera(Settings):
         """Return the depths of a picture, (1,) or of every pixel, by default the distance in focus."""
         return np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
 
-    def _plan(self, values: np.ndarray, depths: np.ndarray, tolerance: float, clip: bool) -> "Plan":
+    def _plan(self, values: np.ndarray, depths: np.ndarray, rtol: float, clip: bool) -> "Plan":
         """Return the plan of a picture of these pixels and depths; RequestError without ``pixel_um``."""
         from p2sf import Channel, Scene, Sensor, plan
 
@@ -426,7 +430,7 @@ class Camera(Settings):
         near, far = float(depths.min()), float(depths.max())
         seen = set_up_source(lens, Source(far, wavelength_um=middle), self.settings).lens
         sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
-        scene = Scene(sensor, near_mm=near, far_mm=far, tolerance=tolerance, clip=clip)
+        scene = Scene(sensor, near_mm=near, far_mm=far, rtol=rtol, clip=clip)
         if values.ndim == 2 or values.shape[2] == 1:
             scene = replace(scene, channels=(Channel("light", (middle * NM_PER_UM,), (1.0,)),))
         return plan(seen, scene)
@@ -687,6 +691,8 @@ def _with_f_number(lens: Lens, f_number: float | None) -> Lens:
 
 def with_chosen_aim(lens: Lens, aim: AimChoice | None) -> Lens:
     """Return the lens with this aim, or unchanged for None."""
+    if aim == "real":
+        warnings.warn('aim "real" is "stop" now', DeprecationWarning, stacklevel=2)
     return lens if aim is None else with_aim(lens, "stop" if aim == "real" else aim)
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 Dims = tuple[str, ...]
 NamedAxes = dict[str, tuple[Dims, np.ndarray]]
 """Values by name, with the names of their axes."""
+WAVES = frozenset("w40 w31 w22 w20 w11 wd waves rms_waves rms residual".split())
 SHOWN = 6  # values of a coordinate in a notebook
 
 
@@ -66,7 +67,7 @@ class NamedArrays(Mapping[str, np.ndarray]):
         """Return a dataset of xarray, with coordinates and units. Raises ExportError without xarray."""
         xarray_module = _imported("xarray")
         coords, arrays = (
-            {name: (dims, values, _attributes(name)) for name, (dims, values) in part.items()}
+            {name: (dims, values, unit_of(name)) for name, (dims, values) in part.items()}
             for part in (self.coords, self.arrays)
         )
         dataset: xarray.Dataset = xarray_module.Dataset(arrays, coords)
@@ -114,9 +115,9 @@ def _spread(dims: Dims, values: np.ndarray, sizes: Mapping[str, int]) -> np.ndar
     return found.reshape(prod(sizes.values()))
 
 
-def _attributes(name: str) -> dict[str, str]:
-    """Return the unit of a quantity by the ending of its name."""
-    unit = next((unit for ending, unit in UNITS if name.endswith(ending)), "")
+def unit_of(name: str) -> dict[str, str]:
+    """Return the unit of a quantity by the ending of its name, as the attribute that xarray and its like read."""
+    unit = "waves" if name in WAVES else next((unit for ending, unit in UNITS if name.endswith(ending)), "")
     return {"units": unit} if unit else {}
 
 

@@ -27,6 +27,8 @@ from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS
 from p2sf.threads import for_each, one_blas_thread
 
 if TYPE_CHECKING:
+    import xarray
+
     from p2sf.api import Method, PupilMethod
     from p2sf.metrics.measures import PupilPart
     from p2sf.psf.result import Psf
@@ -138,7 +140,7 @@ class Sweep:
     ) -> NamedArrays:
         """Return the PSFs, ``psf`` (…, y_um, x_um), each of unit sum, and ``energy``, the share of all light in each.
 
-        Parameters are those of `p2sf.render`, ``how`` being ``quality``, ``tolerance`` and ``clip``, whose errors it
+        Parameters are those of `p2sf.render`, ``how`` being ``quality``, ``min_r2`` and ``clip``, whose errors it
         raises. All have the pixels of the camera; without, those with which the widest of them is shown whole. A
         ``P2SFWarning`` says where a window holds too little.
         """
@@ -149,6 +151,10 @@ class Sweep:
         axis = centred_axis(pixels, pitch)
         made = self._named(found, {"psf": along("y_um", axis) | along("x_um", axis), "energy": NOTHING})
         return NamedArrays(made.arrays, made.coords | along("pixel_um", np.array(pitch)))
+
+    def to_xarray(self, method: "Method" = "auto", **how: Any) -> "xarray.Dataset":
+        """Return the PSFs of `psfs`, whose parameters these are, as a dataset of xarray; ExportError without it."""
+        return self.psfs(method, **how).to_xarray()
 
     def strehl(self, method: "Method" = "auto", *, pixels: int = 64, **how: Any) -> NamedArrays:
         """Return ``strehl``, ``peak_x_um`` and ``peak_y_um``, where the peak is, and ``energy`` of the PSFs.
@@ -223,9 +229,9 @@ class Sweep:
         names = {"name": (("term",), np.array([term.name for term in known]))}
         return NamedArrays(made.arrays, made.coords | names)
 
-    def choose_method(self, tolerance: float = 0.99, *, clip: bool = False) -> NamedArrays:
+    def choose_method(self, min_r2: float = 0.99, *, clip: bool = False) -> NamedArrays:
         """Return what `p2sf.choose_method` does: ``method``, its ``predicted_error`` (1 − R²) and its ``numbers``."""
-        found = self._over(partial(_choice_of, tolerance=tolerance, clip=clip))
+        found = self._over(partial(_choice_of, min_r2=min_r2, clip=clip))
         return self._named(found, dict.fromkeys(("method", "predicted_error", "numbers"), NOTHING))
 
     def __repr__(self) -> str:
@@ -411,10 +417,10 @@ def _zernike_of(point: SweepPoint, basis: "ZernikeOrder", terms: int, clip: bool
     return vars(found) | {"marechal": found.marechal}
 
 
-def _choice_of(point: SweepPoint, tolerance: float, clip: bool) -> Figures:
+def _choice_of(point: SweepPoint, min_r2: float, clip: bool) -> Figures:
     from p2sf.psf.methods import choose
 
-    return vars(choose(point.setup.lens, point.source, tolerance, clip))
+    return vars(choose(point.setup.lens, point.source, min_r2, clip))
 
 
 def _warn(found: list[Figures]) -> None:

@@ -152,7 +152,7 @@ def test_an_aim_is_that_of_the_lens_and_real_its_former_name(aim):
     assert r_squared(mine.values, other.values) < 0.99
     assert p2sf.choose_method(LENS, source, aim=aim) == p2sf.choose_method(filled, source)
     assert p2sf.zernike(LENS, source, aim=aim).rms == p2sf.zernike(filled, source).rms
-    assert p2sf.tradeoff(LENS, [0], methods="fitted", pixels=16, aim=aim)[0].aim == aim
+    assert p2sf.tradeoff(LENS, fields_deg=[0], methods="fitted", pixels=16, aim=aim)[0].aim == aim
     assert p2sf.build_database(LENS, [inf], [0, 5], [550], aim=aim).lens == with_aim(LENS, aim)
 
 
@@ -184,15 +184,15 @@ def test_a_database_is_built_written_opened_and_asked(tmp_path, method):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: p2sf.tradeoff(LENS, [0, 175]), "fields_deg is 175°"),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0, 175]), "fields_deg is 175°"),
         (lambda: p2sf.build_database(LENS, [inf], [0, 175], [550]), "fields_deg is 175°"),
-        (lambda: p2sf.tradeoff(LENS, [0], pixels=0), "a PSF of 0 samples; give a whole number"),
-        (lambda: p2sf.tradeoff(LENS, [0], pixel_um=0), "a pixel of 0 µm; give a positive number"),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixels=0), "a PSF of 0 samples; give a whole number"),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixel_um=0), "a pixel of 0 µm; give a positive number"),
         (lambda: p2sf.render(LENS, p2sf.Source(field_slope=np.array([0.0, 0.1]))), r"of shape \(2,\)"),
         (lambda: p2sf.coefficients(LENS, p2sf.Source(np.array([500.0]))), r"of shape \(1,\)"),
         (lambda: p2sf.choose_method(LENS, p2sf.Source(wavelength_um=np.array([0.5, 0.6]))), r"of shape \(2,\)"),
         (lambda: p2sf.render(LENS, aim="sharp"), 'aim is "sharp"; choose stop or paraxial'),
-        (lambda: p2sf.tradeoff(LENS, [0], aim="sharp"), 'aim is "sharp"; choose stop or paraxial'),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], aim="sharp"), 'aim is "sharp"; choose stop or paraxial'),
         (lambda: p2sf.render("double_gauss_28"), "lens is 'double_gauss_28'; give what p2sf.load_lens returns"),
         (lambda: p2sf.build_database("dg", [inf], [0], [550]), "p2sf.load_lens"),
         (lambda: p2sf.tradeoff("dg"), "p2sf.load_lens"),
@@ -220,9 +220,9 @@ def test_what_cannot_be_is_one_sentence_before_the_work(call, words):
         ({"pixel_um": nan}, "a pixel of nan µm"),
         ({"pixel_um": inf}, "a pixel of inf µm"),
         ({"quality": "best"}, 'quality "best" is unknown'),
-        ({"tolerance": nan}, "a tolerance of nan"),
-        ({"tolerance": 1.5}, "a tolerance of 1.5; give the R² to hold, below 1"),
-        ({"tolerance": -inf}, "a tolerance of -inf"),
+        ({"min_r2": nan}, "min_r2 is nan"),
+        ({"min_r2": 1.5}, "min_r2 is 1.5; give the R² to hold, below 1"),
+        ({"min_r2": -inf}, "min_r2 is -inf"),
     ],
 )
 def test_every_method_refuses_the_same_samples_qualities_and_tolerances(method, options, words):
@@ -259,7 +259,7 @@ def test_a_method_no_database_has_is_refused():
 
 def test_a_scene_is_planned_from_a_file_and_formed(tmp_path):
     (tmp_path / "s.toml").write_text(
-        "tolerance = 0.4\nf_number = 8\n[sensor]\nrows = 6\ncolumns = 8\npixel_um = 60.0\n"
+        "rtol = 0.4\nf_number = 8\n[sensor]\nrows = 6\ncolumns = 8\npixel_um = 60.0\n"
         '[[channel]]\nname = "green"\nwavelengths_nm = [540]\n'
     )
     planned = p2sf.plan(LENS, tmp_path / "s.toml")
@@ -269,7 +269,7 @@ def test_a_scene_is_planned_from_a_file_and_formed(tmp_path):
 
 
 def test_what_was_measured_prints_as_a_table():
-    rows = p2sf.tradeoff(p2sf.load_lens("landscape"), [0.0], methods="seidel", pixels=16)
+    rows = p2sf.tradeoff(p2sf.load_lens("landscape"), fields_deg=[0.0], methods="seidel", pixels=16)
     head, *lines = repr(rows).splitlines()
     assert head.startswith("method") and [line.split()[0] for line in lines] == ["seidel", "seidel"]
     assert rows._repr_html_().count("<tr>") == 3

@@ -19,7 +19,7 @@ SCENE = p2sf.Scene(
     channels=(p2sf.scene.scene.Channel("green", (540.0,), (1.0,)),),
     near_mm=1000,
     far_mm=5000,
-    tolerance=0.4,
+    rtol=0.4,
     f_number=8,
 )
 PICTURE = np.ones((6, 8, 1))
@@ -65,7 +65,8 @@ def test_a_quantity_is_converted_to_the_unit_of_its_parameter():
         lambda unit: p2sf.render(LENS, f_number=3 * unit.m),
         lambda unit: p2sf.mtf(LENS, frequency_per_mm=50 * unit.mm),
         lambda unit: p2sf.psf_of_opd(np.zeros((32, 32)) * unit.nm, 0.1, 550),
-        lambda unit: surface(radius=50 * unit.mm),
+        lambda unit: surface(radius=50 * unit.s),
+        lambda unit: surface(conic=1 * unit.mm),
         lambda unit: p2sf.PupilMask(zernike_um=(0, 0, 0, 1 * unit.s)),
     ],
 )
@@ -73,6 +74,52 @@ def test_a_quantity_of_another_kind_is_refused(call):
     with pytest.raises(p2sf.P2SFError) as raised:
         call(pytest.importorskip("astropy.units"))
     assert raised.value.message.template == "{parameter} is {value}; give a number without a unit, in {unit}"
+
+
+def test_lengths_of_a_lens_are_converted_to_millimetres():
+    unit = pytest.importorskip("astropy.units")
+    assert surface(radius=5 * unit.cm, thickness=90000 * unit.um) == surface()
+    assert p2sf.Placement(decentre_x=0.1 * unit.mm, tilt_y_deg=30 * unit.arcmin) == p2sf.Placement(0.1, tilt_y_deg=0.5)
+
+
+class Pint:
+    """A quantity as pint has it: ``units``, and ``to(unit).magnitude``."""
+
+    def __init__(self, magnitude, units):
+        self.magnitude, self.units = magnitude, (units,)
+
+    def to(self, unit):
+        factors = {("m", "mm"): 1e3, ("nm", "nm"): 1.0, ("", "dimensionless"): 1.0}
+        if (*self.units, unit) not in factors:
+            raise TypeError(unit)
+        return Pint(np.multiply(self.magnitude, factors[(*self.units, unit)]), unit)
+
+
+def test_a_quantity_of_pint_is_converted_too():
+    assert p2sf.Source(3 * np.float64(1), wavelength_nm=Pint(550, "nm")).wavelength_um == pytest.approx(0.55)
+    camera = p2sf.Camera(LENS, focus_mm=Pint(2, "m"), f_number=Pint(8, ""))
+    assert (camera.focus_mm, camera.f_number) == (2000, 8)
+    assert camera.sweep(depth_mm=Pint([1, 2], "m")).axes["depth_mm"].tolist() == [1000, 2000]
+    with pytest.raises(p2sf.P2SFError):
+        p2sf.Source(Pint(3, "s"))
+
+
+def test_quantities_of_pint_itself():
+    unit = pytest.importorskip("pint").UnitRegistry()
+    asked = p2sf.Source(3 * unit.m, field_deg=0.1 * unit.rad, wavelength_nm=0.55 * unit.um)
+    assert (asked.depth_mm, asked.wavelength_um) == (3000, pytest.approx(0.55, rel=1e-15))
+    assert p2sf.mtf(LENS, frequency_per_mm=[50, 100] / unit.mm).frequency_per_mm.tolist() == [50, 100]
+    with pytest.raises(p2sf.P2SFError):
+        p2sf.Source(3 * unit.s)
+
+
+def test_a_lens_is_made_of_names_and_numbers():
+    stated = Lens((Surface(50.0, 90.0, p2sf.medium("N-BK7")), Surface(thickness=50.0)), Aperture("f_number", 8.0))
+    assert Lens([Surface(50, 90, "N-BK7"), Surface(thickness=50)], 8) == stated
+    assert Surface(50, 90, 1.5) == Surface(50, 90, np.float32(1.5)) == surface()
+    assert Surface(medium={"nd": 1.5168, "vd": 64.17}).medium == p2sf.medium({"nd": 1.5168, "vd": 64.17})
+    assert Surface(-80, -50, "mirror").reflects
+    assert lens(object_medium="1.33").object_medium == ConstantIndex(1.33)
 
 
 def test_lists_and_arrays_are_tuples():
@@ -97,7 +144,7 @@ def test_one_frequency_radius_or_position_is_enough():
     )
     assert p2sf.encircled_energy(LENS, radius_um=5).fraction.shape == (1,)
     assert p2sf.line_spread(LENS, position_um=0).edge_x == pytest.approx(0.5, abs=1e-3)
-    one = p2sf.tradeoff(LENS, 5, 1000, 550, methods="seidel", pixels=8)[0]
+    one = p2sf.tradeoff(LENS, depths_mm=1000, fields_deg=5, wavelengths_nm=550, methods="seidel", pixels=8)[0]
     assert (one.depth_mm, one.field_deg) == (1000, 5)
 
 
@@ -115,7 +162,7 @@ WRONG = {
     "a shift that is None": lambda: p2sf.render(LENS, sensor_shift_um=None),
     "a pitch as a text": lambda: p2sf.render(LENS, pixel_um="2"),
     "several pitches": lambda: p2sf.render(LENS, pixel_um=np.array([1.0, 2.0])),
-    "a tolerance as a text": lambda: p2sf.render(LENS, tolerance="0.9"),
+    "a tolerance as a text": lambda: p2sf.render(LENS, min_r2="0.9"),
     "a clip as a text": lambda: p2sf.render(LENS, clip="no"),
     "integrated as a text": lambda: p2sf.render(LENS, integrated="no"),
     "half a term": lambda: p2sf.zernike(LENS, terms=3.5),
@@ -126,7 +173,7 @@ WRONG = {
     "an angle as a text": lambda: p2sf.mtf(LENS, turn_deg="x"),
     "an infinite radius": lambda: p2sf.encircled_energy(LENS, radius_um=[inf]),
     "a position where the sum repeats": lambda: p2sf.line_spread(LENS, position_um=1e9),
-    "a field as a text": lambda: p2sf.tradeoff(LENS, ["a"]),
+    "a field as a text": lambda: p2sf.tradeoff(LENS, fields_deg=["a"]),
     "nodes as a text": lambda: p2sf.build_database(LENS, ["a"], [0], [550]),
     "complex nodes": lambda: p2sf.build_database(LENS, [1000j], [0], [550]),
     "a path that is a number": lambda: p2sf.build_database(LENS, [inf], [0], [550], path=5),
@@ -140,10 +187,27 @@ WRONG = {
     "an aperture as a text": lambda: p2sf.psf_of_opd(np.zeros((32, 32)), "0.1", 550),
     "surfaces that are none": lambda: lens(surfaces=(1, 2)),
     "a surface alone": lambda: lens(surfaces=surface()),
-    "an aperture that is a number": lambda: lens(aperture=5.0),
+    "an aperture of 0": lambda: lens(aperture=0),
+    "an aperture as a name": lambda: lens(aperture="f/8"),
+    "an unknown kind of aperture": lambda: Aperture("fnumber", 8),
     "a radius as a text": lambda: surface(radius="50"),
-    "a medium by its name": lambda: lens(surfaces=(surface(medium="N-BK7"),)),
-    "an index for a medium": lambda: lens(surfaces=(surface(medium=1.5),)),
+    "a glass that nobody sells": lambda: surface(medium="N-BK77"),
+    "an index of 0": lambda: surface(medium=0),
+    "a medium that is none": lambda: surface(medium=None),
+    "object space that is none": lambda: lens(object_medium=[1.33]),
+    "a placement that is a number": lambda: p2sf.displaced(LENS, 1, 2, 0.1),
+    "a tilt as a text": lambda: p2sf.Placement(tilt_x_deg="1"),
+    "a setting by position": lambda: p2sf.Camera("achromat_f6", pixel_um="4"),
+    "a field of three": lambda: p2sf.Source(field_deg=(1, 2, 3)),
+    "an axis that is none": lambda: p2sf.Camera(LENS).sweep(fields_deg=[0, 5]),
+    "an R² for an error": lambda: p2sf.Scene(SCENE.sensor, rtol=5),
+    "two limits": lambda: p2sf.Scene(SCENE.sensor, rtol=0.1, min_r2=0.99),
+    "two names of one number": lambda: p2sf.render(LENS, tolerance=0.9, min_r2=0.9),
+    "a wavefront that is not square": lambda: p2sf.Pupil(np.zeros((8, 9)), 0.1, 550),
+    "a PSF in two rows": lambda: p2sf.fit_psf(np.zeros(9), na=0.1, wavelength_nm=550, pixel_um=1),
+    "a limit of nothing": lambda: p2sf.Camera("achromat_f6").tolerances({"sharpness": 0.3}),
+    "no pixels": lambda: p2sf.Camera("achromat_f6").photograph(PICTURE),
+    "no lens": lambda: p2sf.Camera(f_number=8).psf(3000),
     "a stop as a text": lambda: lens(stop_surface="1"),
     "a wavelength of a lens as a text": lambda: lens(wavelengths_nm=("550",)),
     "fields of a lens as a text": lambda: lens(fields_deg="5"),

@@ -70,7 +70,11 @@ CALLS = {
     "encircled_energy": lambda **camera: p2sf.encircled_energy(LENS, SOURCE, radius_um=5, **camera),
     "line_spread": lambda **camera: p2sf.line_spread(LENS, SOURCE, position_um=1, **camera),
     "build_database": lambda **camera: p2sf.build_database(LENS, [2000, inf], [0, 1], [550, 600], **camera).database,
-    "tradeoff": lambda **camera: p2sf.tradeoff(LENS, 1, 5000, 550, methods="seidel", pixels=8, **camera)[0].errors,
+    "tradeoff": lambda **camera: (
+        p2sf.tradeoff(LENS, depths_mm=5000, fields_deg=1, wavelengths_nm=550, methods="seidel", pixels=8, **camera)[
+            0
+        ].errors
+    ),
 }
 pytestmark = pytest.mark.filterwarnings("ignore::p2sf.P2SFWarning")  # of small windows
 

@@ -37,13 +37,13 @@ def test_a_database_covers_the_lens_as_it_is_set():
 @pytest.mark.parametrize("depths", [None, 3000.0, RNG.uniform(3000, 5000, (12, 16))])
 def test_a_photograph_is_that_of_a_plan(depths):
     values = RNG.uniform(0, 1, (12, 16, 3))
-    found = CAMERA.photograph(values, depths, tolerance=0.2)
+    found = CAMERA.photograph(values, depths, rtol=0.2)
     seen = depths if depths is not None else 4000.0
     scene = p2sf.Scene(
         p2sf.Sensor(12, 16, 40.0),
         near_mm=float(np.min(seen)),
         far_mm=float(np.max(seen)),
-        tolerance=0.2,
+        rtol=0.2,
         focus_mm=4000,
         f_number=8,
     )
@@ -51,7 +51,7 @@ def test_a_photograph_is_that_of_a_plan(depths):
     still = p2sf.form_image(p2sf.plan(masked, scene), values, None if np.ndim(seen) == 0 else seen)
     assert found.shape == values.shape and found.dtype == np.float32
     unshifted = p2sf.Camera(LENS, focus_mm=4000, f_number=8, pixel_um=40.0, obscuration=0.2)
-    np.testing.assert_allclose(unshifted.photograph(values, depths, tolerance=0.2), still, atol=1e-6)
+    np.testing.assert_allclose(unshifted.photograph(values, depths, rtol=0.2), still, atol=1e-6)
 
 
 @pytest.mark.parametrize("shape", [(48, 64), (48, 64, 3)], ids=["grey", "colours"])
@@ -60,7 +60,7 @@ def test_a_sharpened_photograph_is_nearer_to_the_scene(shape):
     blurred = p2sf.Camera(LENS, focus_mm=4000, pixel_um=6.0, sensor_shift_um=120)
     scene = np.full(shape, 0.3)
     scene[:, np.arange(64) % 12 < 6] = 0.7
-    photo = blurred.photograph(scene, tolerance=0.1) + RNG.normal(0, 0.002, shape)
+    photo = blurred.photograph(scene, rtol=0.1) + RNG.normal(0, 0.002, shape)
     found, known = blurred.sharpen(photo), blurred.sharpen(photo, noise=0.002)
     inner = np.s_[12:-12, 12:-12]
     before, after = (float(np.sqrt(np.mean((each - scene)[inner] ** 2))) for each in (photo, found))
@@ -72,7 +72,7 @@ def test_a_sharpened_photograph_is_nearer_to_the_scene(shape):
 def test_a_photograph_of_one_colour_keeps_its_shape():
     values = np.zeros((11, 15))
     values[5, 7] = 1.0
-    found = CAMERA.photograph(values, tolerance=0.2)
+    found = CAMERA.photograph(values, rtol=0.2)
     assert found.shape == (11, 15) and np.unravel_index(found.argmax(), found.shape) == (5, 7)
 
 

@@ -73,7 +73,7 @@ def test_wavefronts_are_those_of_a_loop():
     names = "w40", "w31", "w22", "w20", "w11", "wd", "na"
     assert_same(SWEEP.coefficients(), names, calls(p2sf.coefficients, *names))
     names = "method", "predicted_error", "numbers"
-    assert_same(SWEEP.choose_method(0.9), names, calls(p2sf.choose_method, *names, tolerance=0.9))
+    assert_same(SWEEP.choose_method(0.9), names, calls(p2sf.choose_method, *names, min_r2=0.9))
 
 
 def test_angles_along_x_are_those_of_a_source():
@@ -189,6 +189,31 @@ def test_a_dataset_of_xarray_has_coordinates_and_units():
     near = data["psf"].sel(f_number=8.0, depth_mm=2500.0, field_deg=9.0, wavelength_nm=620.0)
     assert np.array_equal(near.values, found["psf"][1, 0, 1, 1])
     assert data["depth_mm"].attrs == {"units": "mm"} and data["energy"].dims == tuple(SWEEP.sizes)
+
+
+def test_psfs_and_databases_are_datasets_too():
+    pytest.importorskip("xarray")
+    one = CAMERA.psf(3000, field_deg=9, wavelength_nm=550, pixels=9)
+    data = one.to_xarray()
+    assert data["psf"].dims == ("y_um", "x_um") and float(data["psf"].sel(x_um=0, y_um=4)) == one.values[5, 4]
+    assert (float(data["wavelength_nm"]), data["pixel_um"].attrs) == (pytest.approx(550), {"units": "um"})
+    both = one.with_fields(values=np.stack([one.values] * 2), wavelength_um=np.array([0.5, 0.6])).to_xarray()
+    assert both["wavelength_nm"].dims == ("axis_0",) and both["psf"].shape == (2, 9, 9)
+    swept = CAMERA.sweep(depth_mm=3000, field_deg=[0, 9], wavelength_nm=550).to_xarray(pixels=9)
+    np.testing.assert_array_equal(swept["psf"].sel(field_deg=9), one.values)
+    database = CAMERA.database(depths_mm=[2000, inf], fields_deg=[0, 5, 9], wavelengths_nm=[500, 600])
+    table = database.to_xarray()
+    assert dict(table.sizes) == {"depth_mm": 2, "field_deg": 3, "wavelength_nm": 2}
+    six = database.coefficients(p2sf.Source(2000, field_deg=5, wavelength_nm=600))
+    assert float(table["w31"].sel(depth_mm=2000).isel(field_deg=1, wavelength_nm=1)) == pytest.approx(
+        six.w31, rel=1e-12
+    )
+    assert table["w31"].attrs == {"units": "waves"} and table.attrs["lens"] == "double_gauss_28"
+
+
+def test_rows_from_the_top_are_those_of_pictures():
+    one = CAMERA.psf(3000, field_deg=14, wavelength_nm=550, pixels=9)
+    assert np.array_equal(one.flipud()[0], one.values[-1]) and np.array_equal(one.flipud(), np.flipud(one))
 
 
 def test_a_missing_library_is_named(monkeypatch):

@@ -241,7 +241,7 @@ def huygens_sum():
 
 @lru_cache(maxsize=1)
 def planned():
-    scene = p2sf.Scene(p2sf.Sensor(rows=24, columns=36, pixel_um=60.0), tolerance=0.2, f_number=8)
+    scene = p2sf.Scene(p2sf.Sensor(rows=24, columns=36, pixel_um=60.0), rtol=0.2, f_number=8)
     return replace(p2sf.plan(LENS, scene), counts=(5, 6))  # more kernels than the scene needs: something to share
 
 

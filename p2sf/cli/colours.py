@@ -43,7 +43,7 @@ def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None,
         wanted,
         window,
         lambda lens, source, pixels, pixel_um: render_integrated(
-            lens, source, method, pixels, pixel_um, PsfOptions(tolerance=picture.tolerance, clip=picture.clip)
+            lens, source, method, pixels, pixel_um, PsfOptions(min_r2=picture.min_r2, clip=picture.clip)
         ),
     )
     if output:

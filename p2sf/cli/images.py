@@ -76,8 +76,8 @@ class Picture:
     Attributes
     ----------
     method
-        How the PSF is computed; auto takes the cheapest method that holds the tolerance.
-    tolerance
+        How the PSF is computed; auto takes the cheapest method that holds this R².
+    min_r2
         Least R² against the exact reference that auto accepts.
     sampling
         How the six coefficients become a PSF: matrix DFT of any size, or zero-padded FFT of even sizes.
@@ -90,7 +90,7 @@ class Picture:
     """
 
     method: Method | None = None
-    tolerance: float = 0.99
+    min_r2: Annotated[float, Parameter(name=("--min-r2", "--tolerance"))] = 0.99
     sampling: Literal["fft", "mdft"] | None = None
     pixels: Whole | None = None
     pixel_um: float | None = None
@@ -98,11 +98,11 @@ class Picture:
 
     def __post_init__(self) -> None:
         check_samples(self.pixels, self.pixel_um)
-        if not 0 < self.tolerance < 1:
+        if not 0 < self.min_r2 < 1:
             raise RequestError(
                 "{parameter} is {value:g}; give an R² between 0 and 1, such as 0.99",
-                parameter="tolerance",
-                value=self.tolerance,
+                parameter="min_r2",
+                value=self.min_r2,
             )
         if self.sampling and self.method and not by_six(self.method):
             raise RequestError(
@@ -237,7 +237,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
     method = "seidel" if picture.seidel else method
     from p2sf.psf.pixel_integrals import render_integrated
 
-    options = PsfOptions(tolerance=picture.tolerance, clip=picture.clip)
+    options = PsfOptions(min_r2=picture.min_r2, clip=picture.clip)
     made = render_integrated(setup.lens, setup.source, method, picture.side, picture.pixel_um, options)
     return made.with_fields(azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 

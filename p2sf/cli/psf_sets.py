@@ -28,7 +28,7 @@ INSTEAD = {  # of an axis of a set: what states it for one PSF
     "fields_deg": ("field_deg", "object_height_mm", "image_height_mm"),
     "wavelengths_nm": ("wavelength_nm",),
 }
-UNFIT = "method", "tolerance", "sampling"  # of a picture: a set is of fits, or of rays
+UNFIT = "method", "min_r2", "sampling"  # of a picture: a set is of fits, or of rays
 SHOWN = "depth_mm", "field_deg", "wavelength_nm", "chief_mm", "captured", "peak", "rms_radius_um", "method"
 MOST_ROWS = 60
 

@@ -42,7 +42,7 @@ CHART = "chart:"
 TELL_EVERY_S = 1.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
-    "A scene as TOML: tolerance = 0.05, measure (relative, r2, mtf, psnr), f_number, zoom, focus_position, focus_mm, "
+    "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db), f_number, zoom, focus_position, focus_mm, "
     "aim, clip; [sensor] rows, columns, pixel_um, centre_mm; [depth] near_mm, far_mm or map; "
     "[[channel]] name, wavelengths_nm, weights, by default red, green and blue."
 )
@@ -283,7 +283,7 @@ def sharpen(
     noise: Annotated[
         float | None, Parameter(help="Its standard deviation, white being 1; estimated if left out.")
     ] = None,
-    tolerance: Annotated[float, Parameter(help="Relative error of each kernel that is allowed.")] = 0.05,
+    rtol: Annotated[float, Parameter(help="Relative error of each kernel that is allowed.")] = 0.05,
     encoding: Annotated[
         Literal["srgb", "linear"] | None, Parameter(help="What the numbers of the file mean, as for image.")
     ] = None,
@@ -301,7 +301,7 @@ def sharpen(
     taken = read_photo(photo, encoding)
     values = taken.values if taken.values.shape[2] == 3 else taken.values[..., 0]
     level = photo_noise(taken.values) if noise is None else noise
-    sharp = own.sharpen(values, depth_mm, noise=level, tolerance=tolerance, clip=clip, threads=threads)
+    sharp = own.sharpen(values, depth_mm, noise=level, rtol=rtol, clip=clip, threads=threads)
     write_photo(output, sharp, taken.encoding)
     rows, columns = sharp.shape[:2]
     if as_json:

@@ -71,7 +71,14 @@ def tradeoff(
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
     found = find_lens(lens)
-    rows = tradeoff.tradeoff(found, fields_deg, depths, wavelengths_nm, pixels=pixels, camera=Camera(**vars(camera)))
+    rows = tradeoff.tradeoff(
+        found,
+        depths_mm=depths,
+        fields_deg=fields_deg,
+        wavelengths_nm=wavelengths_nm,
+        pixels=pixels,
+        camera=Camera(**vars(camera)),
+    )
     head, *lines = tradeoff.table(rows)
     title = f"{found.title or found.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
     if output:

@@ -68,8 +68,8 @@ def record(found: ZernikeFit) -> dict[str, Any]:
     """Return the terms and the figures as JSON names them."""
     rows = zip(found.terms, found.waves.tolist(), found.share.tolist(), strict=True)
     return {
-        "basis": found.order,
-        "unit": "waves RMS" if found.order == "noll" else "waves peak",
+        "basis": found.basis,
+        "unit": "waves RMS" if found.basis == "noll" else "waves peak",
         "rms": found.rms,
         "rms_with_tilt": found.rms_with_tilt,
         "residual_rms": found.residual,

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import inf, isfinite
+from numbers import Real
 from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
@@ -241,18 +242,38 @@ def constant_index(value: float) -> ConstantIndex:
     return ConstantIndex(float(value))
 
 
-def parse_medium(medium: object) -> Medium:
-    """Return the medium for a user's text or table: a glass name, "air", "mirror", an index, or a table of nd and vd.
+def medium(glass: str | float | dict[str, Any]) -> Medium:
+    """Return a medium for a surface: a glass by its name, an index, nd and vd, or a table of measured indices.
 
-    A table ``{wavelengths_um = […], n = […]}``, with a ``label`` if wanted, gives measured indices, and ``{glass = …,
-    shift = …}`` a medium with a shifted index. Raises GlassError.
+    Parameters
+    ----------
+    glass : str or float or dict
+        A glass of a maker's catalogue, "N-BK7" or "SCHOTT N-BK7", "air" or "mirror"; an index at every wavelength;
+        ``{"nd": 1.5168, "vd": 64.17}``; ``{"wavelengths_um": […], "n": […]}``, with a ``"label"`` if wanted; or
+        ``{"glass": …, "shift": …}``, whose index differs by the same amount at every wavelength.
+
+    Raises
+    ------
+    GlassError
+        For a name that no catalogue has, or that several makers use, and for what cannot be an index.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.medium("N-BK7").label, p2sf.medium("N-BK7").index(0.5876).round(4).item(), p2sf.medium(1.5).label
+    ('SCHOTT N-BK7', 1.5168, '1.5')
     """
+    return parse_medium(glass)
+
+
+def parse_medium(medium: object) -> Medium:
+    """Return what `medium` does, for a value of any type."""
     if isinstance(medium, str):
         return _from_text(medium.strip())
     if isinstance(medium, dict):
         return _from_table(medium)
-    if isinstance(medium, int | float) and not isinstance(medium, bool):
-        return constant_index(medium)
+    if isinstance(medium, Real) and not isinstance(medium, bool):
+        return constant_index(float(medium))
     raise GlassError(
         'glass is {found}; write a name such as "SCHOTT N-BK7", an index, or nd and vd', found=repr(medium)
     )

@@ -55,7 +55,7 @@ def form_image(
     Examples
     --------
     >>> import numpy as np, p2sf
-    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), rtol=0.2, f_number=8)
     >>> planned = p2sf.plan(p2sf.load_lens("double_gauss_28"), scene)
     >>> p2sf.form_image(planned, np.ones((20, 30, 3))).shape
     (20, 30, 3)

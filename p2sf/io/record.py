@@ -19,6 +19,8 @@ CONVENTIONS = (
     "unit sum in the window; rows +y up the sensor, row 0 the lowest y, columns +x; a positive field's chief ray "
     "lands at +y; sample N//2 (from 0) is the chief ray; infinite values are null"
 )
+FORMER = {"tolerance": "error"}
+"""Fields of files before 0.3 by their names today."""
 UNITS = {"x_um": "µm", "y_um": "µm", "psf": "fraction of the window's light per sample"}
 
 
@@ -86,6 +88,7 @@ def psf_from(values: np.ndarray, known: dict) -> Psf:
     """Return a PSF of its samples and its `facts`; TypeError where these are not a PSF's."""
     peak = known.get("peak_um")
     read = {"sampling": Message(str(known.get("sampling", ""))), "peak_um": peak and tuple(peak)}
+    known = {FORMER.get(name, name): value for name, value in known.items()}
     return Psf(values, **{**known, **read})
 
 

@@ -5,15 +5,15 @@ from functools import cached_property, lru_cache, reduce
 from itertools import accumulate
 from math import inf, isfinite, isnan
 from operator import mul
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_arguments, check_fields
+from p2sf.arguments import NUMBERS, check_arguments, check_fields
 from p2sf.conventions import NM_PER_UM, FloatOrArray, angle_from_axis
-from p2sf.errors import GeometryError
-from p2sf.glass.media import AIR, MIRROR, Medium, transmittance_of
+from p2sf.errors import GeometryError, RequestError
+from p2sf.glass.media import AIR, MIRROR, Medium, parse_medium, transmittance_of
 from p2sf.html import html_table
 from p2sf.lens.grating import Phase
 from p2sf.lens.irregularity import Irregularity
@@ -22,7 +22,7 @@ from p2sf.lens.properties import PROPERTIES, turned_breaks
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Conic, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
-from p2sf.messages import Message
+from p2sf.messages import Alternatives, Message
 from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 
@@ -51,8 +51,9 @@ class Surface:
         Radius of curvature, mm, positive where the centre lies to the right; inf for a plane.
     thickness : float
         Distance to the next vertex, or from the last surface to the sensor, mm; negative where light travels to −z.
-    medium : Medium
-        The medium behind the surface; MIRROR for a reflecting surface.
+    medium : Medium or str or float
+        The medium behind the surface, by default air: a glass by its name, an index, or what `p2sf.medium` returns;
+        "mirror" for a reflecting surface.
     conic : float
         Conic constant K; 0 is a sphere, −1 a paraboloid.
     aspheric : tuple of float
@@ -96,6 +97,8 @@ class Surface:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if not hasattr(self.medium, "range_um"):
+            object.__setattr__(self, "medium", parse_medium(self.medium))
 
     def __getstate__(self) -> dict:
         return {field.name: getattr(self, field.name) for field in fields(self)}
@@ -195,6 +198,13 @@ class Aperture:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if self.kind not in get_args(ApertureKind):
+            raise RequestError(
+                '{parameter} is "{value}"; choose {choices}',
+                parameter="kind",
+                value=str(self.kind),
+                choices=Alternatives(get_args(ApertureKind)),
+            )
 
 
 @dataclass(frozen=True)
@@ -207,8 +217,8 @@ class Lens:
     ----------
     surfaces : tuple of Surface
         In the order in which light meets them; the thickness of the last is the distance to the sensor, mm.
-    aperture : Aperture
-        The aperture.
+    aperture : Aperture or float
+        The aperture; a plain number is the f-number.
     stop_surface : int, optional
         Number of the aperture stop, from 1; by default the narrowest rim for an object at infinity.
     name, title, source, comment : str
@@ -224,8 +234,8 @@ class Lens:
         Their shares of the light, in any unit; none means that all have the same.
     reference_nm : float, optional
         That of the wavelengths at which pupil diameter and f-number hold; the middle one where none is given.
-    object_medium : Medium
-        The medium of object space.
+    object_medium : Medium or str or float
+        The medium of object space, given as that of a surface.
     aim : str
         How exact rays fill the pupil: "stop", evenly up to the rim of the real stop; "paraxial", evenly over the
         paraxial entrance pupil.
@@ -271,6 +281,10 @@ class Lens:
     sensor_conic: float = 0.0
 
     def __post_init__(self) -> None:
+        if isinstance(self.aperture, NUMBERS) and not isinstance(self.aperture, bool):
+            object.__setattr__(self, "aperture", Aperture("f_number", float(self.aperture)))
+        if not hasattr(self.object_medium, "range_um"):
+            object.__setattr__(self, "object_medium", parse_medium(self.object_medium))
         check_fields(self)
         _check_surfaces(self.surfaces)
         _check_sensor(self.sensor_radius, self.sensor_conic)

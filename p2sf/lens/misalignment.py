@@ -5,12 +5,14 @@ from functools import lru_cache, reduce
 
 import numpy as np
 
+from p2sf.arguments import check_arguments
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
 from p2sf.lens.properties import PROPERTIES
 
 
+@check_arguments
 def displaced(lens: Lens, first: int, last: int, placement: Placement) -> Lens:
     """Return the lens with surfaces ``first`` to ``last``, from 1, moved as one piece; all others stay.
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from p2sf.arguments import check_fields
 from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
 
@@ -68,6 +69,9 @@ class Placement:
     tilt_z_deg: float = 0.0
     tilt_first: bool = False
     pivot: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        check_fields(self)
 
     @property
     def decentre(self) -> tuple[float, float, float]:

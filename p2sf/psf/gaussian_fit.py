@@ -53,7 +53,7 @@ def gaussian_psf(reference: Psf) -> Psf:
             centre=float(centre),
         ),
         seconds=perf_counter() - started,
-        tolerance=None,
+        error=None,
         predicted_error=1 - r_squared(values, wanted),  # measured, since the reference is at hand
     )
 

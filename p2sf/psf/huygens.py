@@ -86,26 +86,26 @@ def huygens_psf(
     source: Source,
     pixels: int,
     pixel_um: float,
-    tolerance: float | None = SETTLED_TOLERANCE,
+    rtol: float | None = SETTLED_TOLERANCE,
     clip: bool = False,
     watch: "Watch | None" = None,
 ) -> Psf:
     """Return the reference PSF, as `sum_rays` makes it of all rays of a source."""
-    return sum_rays(RayPupil(lens, source, clip), (pixels, pixel_um), tolerance, watch)
+    return sum_rays(RayPupil(lens, source, clip), (pixels, pixel_um), rtol, watch)
 
 
 @one_blas_thread
 def sum_rays(
     pupil: RayPupil,
     window: Window,
-    tolerance: float | None = SETTLED_TOLERANCE,
+    rtol: float | None = SETTLED_TOLERANCE,
     watch: "Watch | None" = None,
     quality: str = "settled",
 ) -> Psf:
-    """Return the PSF of a pupil's rays, their count raised until two successive ones agree to ``tolerance``.
+    """Return the PSF of a pupil's rays, their count raised until two successive ones agree to ``rtol``.
 
-    The agreement reached (relative L2 in the window) is reported as the PSF's ``tolerance``, also where more nodes than
-    are allowed would be needed; ``sampling`` says so. ``tolerance=None`` sums once, in float32, as many rays as
+    The agreement reached (relative L2 in the window) is reported as the PSF's ``error``, also where more nodes than
+    are allowed would be needed; ``sampling`` says so. ``rtol=None`` sums once, in float32, as many rays as
     the blur needs, for a preview of no guaranteed accuracy. ``quality``: of the search for the peak (`peak_of`).
     Threads (`p2sf.threads`) share the rays, and the sum does not depend on their number. Raises GeometryError where the
     chief ray, or every ray, fails; where other rays fail, the pupil ends there, and the radiometric amplitude is
@@ -113,7 +113,7 @@ def sum_rays(
     """
     started, watch = perf_counter(), watch or Watch()
     pixel_um, lens, source = window[1], pupil.lens, pupil.source
-    if tolerance is None:
+    if rtol is None:
         found = one_pass(pupil, window, watch)
         axis = centred_axis(*window)
         intensity = found.waves.intensity(axis, axis, np.float32)
@@ -121,12 +121,12 @@ def sum_rays(
         error = EDGE_ERROR if pupil.clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
         made = Origin("huygens", 0, _nodes(found.counts), sampling, started, None, error)
     else:
-        found, intensity, reached, rays = _settle(pupil, window, tolerance, watch)
+        found, intensity, reached, rays = _settle(pupil, window, rtol, watch)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
-        sampling = sampling_of(pupil, found, None if reached <= tolerance else short)
+        sampling = sampling_of(pupil, found, None if reached <= rtol else short)
         made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
     blur = None
-    if tolerance is not None and resolved(found.waves.spread, pixel_um):
+    if rtol is not None and resolved(found.waves.spread, pixel_um):
         blur = blur_um2(pupil)
     peak = peak_on_demand(intensity, pixel_um, found.waves, partial(waves_reaching, pupil), quality)
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
@@ -159,9 +159,7 @@ def one_pass(pupil: RayPupil, window: Window, watch: "Watch | None" = None) -> R
     return ray_waves(pupil, pupil.first_counts(window), window_reach_um(*window), watch)
 
 
-def _settle(
-    pupil: RayPupil, window: Window, tolerance: float, watch: "Watch"
-) -> tuple[RayWaves, np.ndarray, float, int]:
+def _settle(pupil: RayPupil, window: Window, rtol: float, watch: "Watch") -> tuple[RayWaves, np.ndarray, float, int]:
     """Return (plane waves, their intensity, agreement, rays traced) once two successive node counts agree."""
     axis, reach = centred_axis(*window), window_reach_um(*window)
     counts = pupil.first_counts(window)
@@ -174,7 +172,7 @@ def _settle(
         after = found.waves.intensity(axis, axis)
         rays += _nodes(counts)
         reached = float(np.linalg.norm(after - before) / np.linalg.norm(after))
-        if reached <= tolerance or _nodes(_raise_counts(counts)) > MOST_NODES:
+        if reached <= rtol or _nodes(_raise_counts(counts)) > MOST_NODES:
             watch.finish()
             return found, after, reached, rays
         before = after

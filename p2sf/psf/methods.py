@@ -114,12 +114,12 @@ Cancelled = Callable[[], bool]
 class PsfOptions:
     """How a PSF is made whatever it is of: "settled" or a "preview", its least R² by ``auto``, and within rims or not.
 
-    A fit takes as many numbers as ``tolerance`` asks for, 26 at least. ``clip`` applies the clear semi-diameters: exact
+    A fit takes as many numbers as ``min_r2`` asks for, 26 at least. ``clip`` applies the clear semi-diameters: exact
     rays tell where rims are, whatever describes the pupil within them.
     """
 
     quality: str = "settled"
-    tolerance: float = 0.99
+    min_r2: float = 0.99
     clip: bool = False
 
 
@@ -130,7 +130,7 @@ USUAL = PsfOptions()
 class PsfRequest:
     """What a method is asked for: everything a PSF depends on; ``window`` is (samples a side, µm between samples).
 
-    ``numbers``: of a fit, as many as ``tolerance`` asks for where None. ``converged``: whether the reference adds rays
+    ``numbers``: of a fit, as many as ``min_r2`` asks for where None. ``converged``: whether the reference adds rays
     until two sums agree, or sums once. ``six``: coefficients in place of the lens's own, which
     ``by_hand`` are altered so that no ray checks them. ``fit``: of the method that fits, where it is known already.
     """
@@ -180,20 +180,20 @@ class Method:
     of_reference: Callable[[Psf], Psf] | None = None
 
 
-def residual_for(tolerance: float) -> float:
-    """Return the RMS phase error in waves that keeps R² of a fit above ``tolerance``; at most RESIDUAL_WAVES."""
-    return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - tolerance, 0) / SAFETY["fitted"]) / (2 * np.pi)))
+def residual_for(min_r2: float) -> float:
+    """Return the RMS phase error in waves that keeps R² of a fit above ``min_r2``; at most RESIDUAL_WAVES."""
+    return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - min_r2, 0) / SAFETY["fitted"]) / (2 * np.pi)))
 
 
 @one_blas_thread
-def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = False) -> Choice:
-    """Return the cheapest method whose predicted R² is at least ``tolerance``, without running the reference.
+def choose(lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False) -> Choice:
+    """Return the cheapest method whose predicted R² is at least ``min_r2``, without running the reference.
 
     The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
-    Raises GeometryError if the chief ray does not reach the sensor, RequestError for a tolerance not below 1.
+    Raises GeometryError if the chief ray does not reach the sensor, RequestError for a ``min_r2`` not below 1.
     """
-    _check_tolerance(tolerance, BELOW_ONE)
-    allowed = 1 - tolerance
+    _check_min_r2(min_r2, BELOW_ONE)
+    allowed = 1 - min_r2
     xi, eta, weight = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
     if not rays.passed.all():
@@ -220,9 +220,9 @@ def choose(lens: Lens, source: Source, tolerance: float = 0.99, clip: bool = Fal
     return _by_rays(replace(tried, fitted_error=fitted, fitted_numbers=level.numbers), TRACED_ERROR)
 
 
-def _check_tolerance(tolerance: float, largest: float = 1.0) -> None:
-    if not -inf < tolerance <= largest:
-        raise RequestError("a tolerance of {tolerance:g}; give the R² to hold, below 1", tolerance=tolerance)
+def _check_min_r2(min_r2: float, largest: float = 1.0) -> None:
+    if not -inf < min_r2 <= largest:
+        raise RequestError("{parameter} is {value:g}; give the R² to hold, below 1", parameter="min_r2", value=min_r2)
 
 
 def _by_rays(tried: Choice, error: float) -> Choice:
@@ -275,20 +275,20 @@ def render(
     pixel_um: float | None = None,
     options: PsfOptions = USUAL,
 ) -> Psf:
-    """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ the tolerance ("auto").
+    """Return the PSF of one source by one method, or by the cheapest one that holds R² ≥ ``min_r2`` ("auto").
 
     Without ``pixel_um`` the pitch is that at which the six coefficients show the whole PSF. Raises P2SFError: for an
-    unknown method, without image or rays, and for impossible samples, quality or tolerance.
+    unknown method, without image or rays, and for impossible samples, quality or ``min_r2``.
     """
     check_samples(pixels, pixel_um)
     check_quality(options.quality)
-    _check_tolerance(options.tolerance)
+    _check_min_r2(options.min_r2)
     if pixel_um is None:
         pixel_um = whole_pixel_um(lens, source, pixels)
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
-    choice = choose(lens, source, options.tolerance, options.clip)
+    choice = choose(lens, source, options.min_r2, options.clip)
     return psf_of(replace(asked, method=choice.method, numbers=choice.numbers, fit=choice.fit))
 
 
@@ -356,7 +356,7 @@ def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     started = perf_counter()
     found = asked.fit
     if found is None:
-        found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.tolerance))
+        found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.min_r2))
     wavelength, quality = asked.source.wavelength_um, asked.options.quality
     return psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
 

@@ -25,7 +25,7 @@ class Origin:
     rays: int
     sampling: Message
     started: float
-    tolerance: float | None = None
+    error: float | None = None
     predicted_error: float | None = None
 
 
@@ -71,7 +71,7 @@ def psf_from_intensity(
         rays=made.rays,
         sampling=made.sampling,
         seconds=perf_counter() - made.started,
-        tolerance=made.tolerance,
+        error=made.error,
         predicted_error=made.predicted_error,
         peak_um=lambda: (peak().x_um, peak().y_um),
         sum_over_peak=total,

@@ -104,7 +104,7 @@ def integrate(
         pixel_um=pixel_um,
         energy=energy,
         sampling=Message("{sampling}; {across} × {across} samples per pixel", sampling=fine.sampling, across=across),
-        tolerance=None,
+        error=None,
         integrated=True,
         sum_over_peak=None if fine.sum_over_peak is None else fine.sum_over_peak * share / across**2,
     )

@@ -15,6 +15,7 @@ from p2sf.errors import P2SFWarning
 from p2sf.messages import Message, ParameterName
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
     from p2sf import Energy, LineSpread, Mtf
@@ -87,11 +88,11 @@ class Psf:
         The grid used.
     seconds : float
         Computing time.
-    tolerance : float or None
+    error : float or None
         Bound on the relative L2 error of the method's own sum in the window; None if it promises none.
     predicted_error : float or None
         Predicted 1 − R² of the method against the reference, at these settings: due to its description of the pupil,
-        which ``tolerance`` does not include. None if no rays were traced to predict it.
+        which ``error`` does not include. None if no rays were traced to predict it.
     azimuth_deg : float
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
     integrated : bool
@@ -112,7 +113,7 @@ class Psf:
     rays: int = 0
     sampling: Message = UNSTATED
     seconds: float = 0.0
-    tolerance: float | None = None
+    error: float | None = None
     azimuth_deg: float = 0.0
     predicted_error: float | None = None
     integrated: bool = False
@@ -126,6 +127,12 @@ class Psf:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Psf, tuple(getattr(self, field.name) for field in fields(self))
+
+    @property
+    def tolerance(self) -> float | None:
+        """Return `error` by its former name, with a DeprecationWarning."""
+        warnings.warn("Psf.tolerance is Psf.error now", DeprecationWarning, stacklevel=2)
+        return self.error
 
     @property
     def over_unaberrated(self) -> np.ndarray | None:
@@ -179,6 +186,13 @@ class Psf:
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:
         return np.array(self.values, dtype, copy=copy)
 
+    def flipud(self) -> np.ndarray:
+        """Return the samples with row 0 at the top, as pictures have it: turn a PSF so before it meets a picture.
+
+        Of an odd number of rows the chief ray stays on the middle one.
+        """
+        return np.flip(self.values, -2)
+
     def mtf(self, frequency_per_mm: ArrayLike | None = None) -> "Mtf":
         """Return the contrast at frequencies, cycles per mm, by the samples; see `p2sf.mtf_of_psf`."""
         from p2sf import mtf_of_psf
@@ -207,6 +221,20 @@ class Psf:
             axes = pyplot.subplots(layout="constrained")[1]
         draw_psf(axes, self)
         return axes
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return ``psf`` over ``y_um`` and ``x_um``, with wavelength and pixel, as a dataset of xarray.
+
+        The axes of a stack before these are ``axis_0``, ``axis_1`` and so on. ExportError without xarray.
+        """
+        from p2sf.named_arrays import NamedArrays, along
+
+        before = tuple(f"axis_{k}" for k in range(self.values.ndim - 2))
+        wavelength = np.asarray(self.wavelength_um, dtype=float) * NM_PER_UM
+        own = {"wavelength_nm": (before[len(before) - wavelength.ndim :], wavelength)}
+        places = along("y_um", self.y_um) | along("x_um", self.x_um) | along("pixel_um", np.asarray(self.pixel_um))
+        arrays = {"psf": ((*before, "y_um", "x_um"), self.values)}
+        return NamedArrays(arrays, places | own).to_xarray().assign_attrs(method=self.method)
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the PSF to a file, .npz, .tiff, .csv or .png by its ending; see `p2sf.write_psf`."""

@@ -156,7 +156,7 @@ def _result(
         rays=2,
         sampling=stack.sampling,
         seconds=perf_counter() - start,
-        tolerance=tolerance,
+        error=tolerance,
         peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
         sum_over_peak=float(stack.total) if single else stack.total,
     )

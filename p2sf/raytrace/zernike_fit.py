@@ -5,6 +5,7 @@ polynomials orthogonalised there by Gram–Schmidt (Mahajan & Dai 2007); over a 
 Mahajan 1981. The mean squares then add up to the variance of the wavefront for any shape of the pupil.
 """
 
+import warnings
 from dataclasses import dataclass
 from math import ceil
 
@@ -41,7 +42,7 @@ class ZernikeFit:
     below 1 the terms are orthogonal over that part. ``rays``: the number of rays traced.
     """
 
-    order: ZernikeOrder
+    basis: ZernikeOrder
     terms: tuple[ZernikeTerm, ...]
     waves: np.ndarray
     rms_waves: np.ndarray
@@ -53,6 +54,12 @@ class ZernikeFit:
     rays: int
 
     @property
+    def order(self) -> ZernikeOrder:
+        """Return `basis` by its former name, with a DeprecationWarning."""
+        warnings.warn("ZernikeFit.order is ZernikeFit.basis now", DeprecationWarning, stacklevel=2)
+        return self.basis
+
+    @property
     def marechal(self) -> float:
         """Return exp(−(2π·rms)²), the Strehl ratio of so small an RMS by Maréchal (Mahajan 1983, eq. 6)."""
         return float(np.exp(-((2 * np.pi * self.rms) ** 2)))
@@ -60,16 +67,16 @@ class ZernikeFit:
 
 @one_blas_thread
 def zernike_fit(
-    lens: Lens, source: Source, order: ZernikeOrder = "noll", count: int = USUAL_TERMS, clip: bool = False
+    lens: Lens, source: Source, basis: ZernikeOrder = "noll", count: int = USUAL_TERMS, clip: bool = False
 ) -> ZernikeFit:
     """Return the first ``count`` terms of the displayed OPD of exact rays; ``clip`` applies every clear semi-diameter.
 
     The phase of a mask is part of the wavefront. Raises RequestError for an order or a count that does not exist,
     GeometryError where no part of the pupil is clear and open.
     """
-    terms = zernike_terms(order, count)
+    terms = zernike_terms(basis, count)
     nodes, waves = pupil_opd(lens, source, clip)
-    return decompose(nodes, waves, order, terms)
+    return decompose(nodes, waves, basis, terms)
 
 
 def pupil_opd(
@@ -110,7 +117,7 @@ def open_nodes(lens: Lens, source: Source, counts: tuple[int, int], edges: Pupil
     return edges.nodes(mask, LINES_PER_RADIUS * counts[0], 2 * counts[0], lens.pupil_domain.behind(mask.domain))
 
 
-def decompose(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
+def decompose(nodes: ClearNodes, waves: np.ndarray, basis: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
     """Return the terms of a wavefront at nodes, (nodes,) waves; nodes of the half disc mean one that is even in ξ.
 
     Terms that are odd in ξ are then zero. The others are orthogonalised in order by a QR decomposition of the terms at
@@ -125,9 +132,9 @@ def decompose(nodes: ClearNodes, waves: np.ndarray, order: ZernikeOrder, terms: 
     rest = root * waves - columns @ found[there]
     blur = rms(waves, nodes.weight, nodes.axes)
     still = np.array([term.n < 2 for term in terms])  # piston and tilt
-    scale = np.array([term.norm if order == "fringe" else 1.0 for term in terms])
+    scale = np.array([term.norm if basis == "fringe" else 1.0 for term in terms])
     return ZernikeFit(
-        order=order,
+        basis=basis,
         terms=terms,
         waves=found * scale,
         rms_waves=found,

@@ -8,11 +8,11 @@ from typing import Any
 from p2sf.errors import RequestError
 from p2sf.lens.positions import PARAMETER
 from p2sf.messages import Message
-from p2sf.scene.scene import CAMERA_PARAMETERS, RGB, Channel, Scene
+from p2sf.scene.scene import CAMERA_PARAMETERS, LIMITS, RGB, USUAL_RTOL, Channel, Scene, limit_of
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", *CAMERA_PARAMETERS, "clip", "sensor", "depth", "channel"},
+    "": {"name", "tolerance", "measure", *LIMITS, *CAMERA_PARAMETERS, "clip", "sensor", "depth", "channel"},
     "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
     "depth": {"near_mm", "far_mm", "map"},
     "channel": {"name", "wavelengths_nm", "weights"},
@@ -60,8 +60,10 @@ def scene_from(table: dict, path: Path) -> Scene:
     if missing:
         raise RequestError("[sensor] lacks {missing}; add it", missing=tuple(sorted(missing)))
     far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
-    given: dict[str, Any] = {key: table[key] for key in ("name", "measure", "aim") if key in table}
-    given |= {key: _number(key, table[key]) for key in ("tolerance", "focus_mm", "f_number") if key in table}
+    given: dict[str, Any] = {key: table[key] for key in ("name", "aim") if key in table}
+    given |= {key: _number(key, table[key]) for key in (*LIMITS, "focus_mm", "f_number") if key in table}
+    if "tolerance" in table or "measure" in table:  # as before 0.3
+        given |= limit_of(table.get("measure", "relative"), _number("tolerance", table.get("tolerance", USUAL_RTOL)))
     given |= {key: _place(key, table[key]) for key in PARAMETER.values() if key in table}
     if "clip" in table:
         given["clip"] = _flag("clip", table["clip"])

@@ -1,7 +1,11 @@
 """The scene: depths, part of the field, colours and tolerance."""
 
+import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import wraps
 from math import inf, isfinite, log10, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -10,12 +14,14 @@ from p2sf.camera import AimChoice, Request, Settings, set_up
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
-from p2sf.messages import Alternatives, Message
+from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.parameters import check_aim, check_reach
 from p2sf.scene.sensor import Sensor
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
-MEASURES = "relative", "r2", "mtf", "psnr"
+LIMITS = {"rtol": "relative", "min_r2": "r2", "mtf_error": "mtf", "min_psnr_db": "psnr"}
+"""Numbers that state the tolerable error, and how each measures it."""
+USUAL_RTOL = 0.05
 TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil do not achieve less
 LOOSEST = 0.9  # relative error: beyond 1 a kernel of zeros would suffice
 WHITE = 0.5  # the largest standard deviation of numbers from 0 to 1: half of them are 0 (Popoviciu 1935)
@@ -70,10 +76,10 @@ RGB = (
 class Scene:
     """A scene: sensor, colours, depths (mm from the first vertex, inf allowed) and the tolerable error.
 
-    ``tolerance`` is the relative L2 error of a pixel's kernel. With ``measure`` "r2" it is the smallest R²; with "mtf"
-    the RMS error of the MTF over all spatial frequencies that the pixels resolve; with "psnr" the smallest peak
-    signal-to-noise ratio in dB of a picture of white noise between black and white. Pictures with most of their light
-    at low frequencies have smaller errors.
+    One of four numbers says which error is tolerable: ``rtol``, the relative L2 error of a pixel's kernel, 0.05 where
+    none is given; ``min_r2``, its least R²; ``mtf_error``, the RMS error of the MTF over all spatial frequencies that
+    the pixels resolve; ``min_psnr_db``, the least peak signal-to-noise ratio, dB, of a picture of white noise between
+    black and white. Pictures with most of their light at low frequencies have smaller errors.
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
     the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
@@ -84,8 +90,10 @@ class Scene:
     channels: tuple[Channel, ...] = RGB
     near_mm: float = inf
     far_mm: float = inf
-    tolerance: float = 0.05
-    measure: str = "relative"
+    rtol: float | None = None
+    min_r2: float | None = None
+    mtf_error: float | None = None
+    min_psnr_db: float | None = None
     focus_mm: float | None = None
     f_number: float | None = None
     aim: AimChoice | None = None
@@ -105,33 +113,53 @@ class Scene:
                 near=self.near_mm,
                 far=self.far_mm,
             )
-        if self.measure not in MEASURES:
-            raise RequestError(
-                'the tolerance is measured as "{measure}"; choose {choices}',
-                measure=self.measure,
-                choices=Alternatives(MEASURES),
-            )
-        if self.measure == "psnr" and not self.tolerance > 0:
-            raise RequestError(
-                "the tolerance is {tolerance:g} dB; give the least peak signal-to-noise ratio, a positive number",
-                tolerance=self.tolerance,
-            )
-        if self.measure != "psnr" and not 0 < self.tolerance < 1:
-            raise RequestError(
-                "the tolerance is {tolerance:g}; give a number between 0 and 1", tolerance=self.tolerance
-            )
-        if self.relative_tolerance < TIGHTEST:
-            raise RequestError(
-                "the tolerance of {tolerance:g} ({measure}) is tighter than the {least:g} relative error "
-                "that polynomial pupils can promise; loosen it or render single PSFs with {parameter} huygens",
-                parameter="method",
-                tolerance=self.tolerance,
-                measure=self.measure,
-                least=TIGHTEST,
-            )
+        self._check_limit()
         check_aim("aim", self.aim)
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
+
+    def _check_limit(self) -> None:
+        """Raise RequestError for an error that cannot be asked for."""
+        first, *others = [name for name in LIMITS if getattr(self, name) is not None] or ["rtol"]
+        if others:
+            raise RequestError(
+                "{parameter} and {other} are both given; keep one of them", parameter=first, other=others[0]
+            )
+        if self.measure == "psnr" and not self.limit > 0:
+            raise RequestError(
+                "{parameter} is {value:g}; give the least peak signal-to-noise ratio, a positive number",
+                parameter=first,
+                value=self.limit,
+            )
+        if self.measure != "psnr" and not 0 < self.limit < 1:
+            raise RequestError(
+                "{parameter} is {value:g}; give a number between 0 and 1", parameter=first, value=self.limit
+            )
+        if self.relative_tolerance < TIGHTEST:
+            raise RequestError(
+                "{parameter} of {value:g} is tighter than the relative error of {least:g} that polynomial pupils can "
+                "promise; loosen it or render single PSFs with {method} huygens",
+                parameter=first,
+                value=self.limit,
+                least=TIGHTEST,
+                method=ParameterName("method"),
+            )
+
+    @property
+    def measure(self) -> str:
+        """Return how the tolerable error is measured, "relative", "r2", "mtf" or "psnr", by which number states it."""
+        return next((LIMITS[name] for name in LIMITS if getattr(self, name) is not None), "relative")
+
+    @property
+    def limit(self) -> float:
+        """Return the number that states the tolerable error."""
+        return next((value for name in LIMITS if (value := getattr(self, name)) is not None), USUAL_RTOL)
+
+    @property
+    def tolerance(self) -> float:
+        """Return `limit` by its former name, with a DeprecationWarning."""
+        warnings.warn("Scene.tolerance is Scene.limit now", DeprecationWarning, stacklevel=2)
+        return self.limit
 
     @property
     def relative_tolerance(self) -> float:
@@ -148,10 +176,10 @@ class Scene:
         sum, the peak being 1.
         """
         if self.measure == "relative":
-            return self.tolerance
+            return self.limit
         if self.measure == "r2":
-            return sqrt(1 - self.tolerance)
-        absolute = self.tolerance if self.measure == "mtf" else 10 ** (-self.tolerance / 20) / WHITE
+            return sqrt(1 - self.limit)
+        absolute = self.limit if self.measure == "mtf" else 10 ** (-self.limit / 20) / WHITE
         return min(absolute / norm, LOOSEST)
 
     def measured(self, relative: float, norm: float) -> float:
@@ -177,5 +205,32 @@ class Scene:
         return Request(**{name: getattr(self, name) for name in CAMERA_PARAMETERS})
 
 
+def limit_of(measure: str, tolerance: float | None) -> dict[str, float | None]:
+    """Return a tolerable error under the name of its measure; RequestError for an unknown measure."""
+    name = next((name for name, each in LIMITS.items() if each == measure), None)
+    if name is None:
+        raise RequestError(
+            'the tolerance is measured as "{measure}"; choose {choices}',
+            measure=measure,
+            choices=Alternatives(LIMITS.values()),
+        )
+    return {name: tolerance}
+
+
+def _with_former_names(make: Callable[..., None]) -> Callable[..., None]:
+    """Return the constructor, which takes ``tolerance`` and ``measure`` too, with a DeprecationWarning."""
+
+    @wraps(make)
+    def call(self: Scene, *args: Any, **given: Any) -> None:
+        if {"tolerance", "measure"} & given.keys():
+            words = "tolerance and measure are rtol, min_r2, mtf_error or min_psnr_db now"
+            warnings.warn(words, DeprecationWarning, stacklevel=2)
+            given |= limit_of(given.pop("measure", "relative"), given.pop("tolerance", USUAL_RTOL))
+        make(self, *args, **given)
+
+    return call
+
+
+Scene.__init__ = _with_former_names(Scene.__init__)  # type: ignore[method-assign]
 CAMERA_PARAMETERS = tuple(part.name for part in fields(Scene) if part.name in {own.name for own in fields(Settings)})
 """What of a camera a scene states."""

@@ -98,7 +98,7 @@ def fidelity(lens: Lens, field_deg: float) -> dict:
     """Return R² against the settled Huygens sum, for every method at one field of the paper's comparison."""
     reference, made = psfs(lens, field_deg)
     scores = {name: r_squared(psf.values, reference.values) for name, psf in made.items()}
-    return {"aim": lens.aim, "field_deg": field_deg, "reference_tolerance": reference.tolerance, "r_squared": scores}
+    return {"aim": lens.aim, "field_deg": field_deg, "reference_tolerance": reference.error, "r_squared": scores}
 
 
 def psfs(lens: Lens, field_deg: float) -> tuple[Psf, dict[str, Psf]]:

@@ -12,7 +12,7 @@ from typing import BinaryIO
 
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_arguments, number_list
+from p2sf.arguments import check_arguments, former_names, number_list
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, set_up_source, with_camera
 from p2sf.conventions import NM_PER_UM
 from p2sf.html import html_table
@@ -50,7 +50,7 @@ class MethodCost:
     seconds: float
     bytes: int
     sampling: Message
-    tolerance: float | None
+    error: float | None
 
 
 class TradeoffTable(list[MethodCost]):
@@ -66,15 +66,16 @@ class TradeoffTable(list[MethodCost]):
         return html_table("Each method against the Huygens sum", head, rows)
 
 
+@former_names(positional=("fields_deg", "depths_mm", "wavelengths_nm"))
 @one_blas_thread
 @check_arguments
 @with_camera
 def tradeoff(
     lens: Lens,
-    fields_deg: ArrayLike | None = None,
-    depths_mm: ArrayLike = (inf,),
-    wavelengths_nm: ArrayLike | None = None,
     *,
+    depths_mm: ArrayLike = (inf,),
+    fields_deg: ArrayLike | None = None,
+    wavelengths_nm: ArrayLike | None = None,
     methods: str | Sequence[str] = NAMES,
     pixels: int = PIXELS,
     pixel_um: float | None = None,
@@ -87,10 +88,10 @@ def tradeoff(
     ----------
     lens : Lens
         The lens, see `load_lens`.
-    fields_deg, wavelengths_nm : array_like, optional
-        Field angles, degrees, and wavelengths, nm; by default the fields and the middle wavelength of the lens.
     depths_mm : array_like
         Object distances from the first vertex, mm.
+    fields_deg, wavelengths_nm : array_like, optional
+        Field angles, degrees, and wavelengths, nm; by default the fields and the middle wavelength of the lens.
     methods : str or sequence of str
         One method, or several.
     pixels : int
@@ -183,7 +184,7 @@ def _row(
         seconds=seconds,
         bytes=_peak_bytes(once),
         sampling=psf.sampling,
-        tolerance=psf.tolerance,
+        error=psf.error,
     )
 
 
@@ -281,5 +282,5 @@ def _points(rows: list[MethodCost]) -> tuple[list[float], list[float]]:
 
 def error(row: MethodCost) -> float:
     """Return the relative L2 error; for the reference itself, the agreement that it reached."""
-    own = row.tolerance if row.method == REFERENCE and row.tolerance else 0.0
+    own = row.error if row.method == REFERENCE and row.error else 0.0
     return max(row.errors.relative_l2, own, 1e-12)

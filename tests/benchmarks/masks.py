@@ -90,7 +90,7 @@ def finer(method: str, case: Case) -> np.ndarray:
     if method in ("seidel", "fitted"):
         radial, angular = counts_for(found.steepness, window_reach_um(2 * PIXELS, case.pixel_um))
         return unit(fitted_intensity(found, (radial, angular), PIXELS, case.pixel_um))
-    return huygens_psf(lens, source, PIXELS, case.pixel_um, tolerance=FINER).values
+    return huygens_psf(lens, source, PIXELS, case.pixel_um, rtol=FINER).values
 
 
 def unit(values: np.ndarray) -> np.ndarray:

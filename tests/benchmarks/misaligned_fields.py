@@ -28,8 +28,8 @@ from tests.support.exact_lattice import exact_lattice
 
 ERROR = Placement(0.15, 0.1, 0.02, 0.2, 0.3)  # of the elements between the third and the fifth surface
 SCENES = (
-    ("one depth", Scene(Sensor(240, 360, 60.0), tolerance=0.05, far_mm=inf)),
-    ("15 m to infinity", Scene(Sensor(240, 360, 60.0), tolerance=0.1, near_mm=15e3)),
+    ("one depth", Scene(Sensor(240, 360, 60.0), rtol=0.05, far_mm=inf)),
+    ("15 m to infinity", Scene(Sensor(240, 360, 60.0), rtol=0.1, near_mm=15e3)),
 )
 
 

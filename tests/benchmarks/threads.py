@@ -34,7 +34,7 @@ def public_calls() -> Calls:
 
     lens = p2sf.load_lens("double_gauss_28")
     corner, near = p2sf.Source(field_deg=10), p2sf.Source(field_deg=10, depth_mm=3000)
-    small = p2sf.Scene(p2sf.Sensor(rows=200, columns=300, pixel_um=60.0), tolerance=0.2, f_number=8)
+    small = p2sf.Scene(p2sf.Sensor(rows=200, columns=300, pixel_um=60.0), rtol=0.2, f_number=8)
     planned, picture = p2sf.plan(lens, small), draw_chart("landscape", 200, 300)
     axes = [2000, 5000, np.inf], np.linspace(0, 14, 8), np.linspace(450, 650, 5)
     exact, fitted = (p2sf.build_database(lens, *axes, method=method) for method in ("seidel", "fitted"))
@@ -54,7 +54,7 @@ def public_calls() -> Calls:
         "form_image lowrank": lambda: p2sf.form_image(planned, picture, method="lowrank"),
         "preview": lambda: preview(lens, small, picture),
         "psf_of_opd": lambda: p2sf.psf_of_opd(opd, wavelength_nm=550, na=0.1, pixels=64, pixel_um=1.0),
-        "tradeoff": lambda: p2sf.tradeoff(lens, [10], methods=["seidel", "fitted", "huygens"], pixels=32),
+        "tradeoff": lambda: p2sf.tradeoff(lens, fields_deg=[10], methods=["seidel", "fitted", "huygens"], pixels=32),
         "database.psf seidel": lambda: exact.psf(near),
         "database.psf fitted": lambda: fitted.psf(near),
     }

@@ -60,7 +60,7 @@ OPTIONS = [
     ("psf", "--pixels 1000000", ("--pixels is 1000000", "2048")),
     ("psf", "--pixel-um 0", ("--pixel-um is 0 µm",)),
     ("psf", "--pixel-um nan", ("--pixel-um is nan µm",)),
-    ("psf", "--tolerance 1.5", ("--tolerance is 1.5",)),
+    ("psf", "--min-r2 1.5", ("--min-r2 is 1.5",)),
     ("psf", "--sampling fft --method fitted", ("--sampling is fft", "--method fitted")),
     ("psf", "--method magic", ("magic", "--method", "huygens")),
     ("psf", "-o nowhere/a.npz", ("nowhere/a.npz", "make the folder first")),

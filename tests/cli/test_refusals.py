@@ -157,7 +157,7 @@ def test_a_name_no_file_can_have_is_no_lens(refused):
 
 
 def test_a_scene_without_a_sensor_is_refused(tmp_path):
-    (tmp_path / "s.toml").write_text("tolerance = 0.1\nsensor = 5\n")
+    (tmp_path / "s.toml").write_text("rtol = 0.1\nsensor = 5\n")
     with pytest.raises(RequestError, match=r"there is no table \[sensor\]; add it, with rows"):
         read_scene(tmp_path / "s.toml")
 

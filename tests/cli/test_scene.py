@@ -9,7 +9,7 @@ from p2sf.cli import main
 from p2sf.io.photo_files import read_photo, write_photo
 
 SCENE = """
-tolerance = 0.1
+rtol = 0.1
 f_number = 5.6
 [sensor]
 rows = 40
@@ -78,7 +78,7 @@ def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):
     depth = np.zeros((40, 60), np.float32)
     depth[:, :30] = 20000.0
     write_photo(tmp_path / "depth.tif", depth, "linear", "float")
-    rough = SCENE.replace("tolerance = 0.1", "tolerance = 0.4")  # its plan is made in a few seconds
+    rough = SCENE.replace("rtol = 0.1", "rtol = 0.4")  # its plan is made in a few seconds
     scene.write_text(rough + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\nfar_mm = inf\n')
     assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 0
     write_photo(tmp_path / "depth.tif", depth, "linear", "8")

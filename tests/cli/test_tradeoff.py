@@ -81,5 +81,5 @@ def test_no_method_is_timed_at_its_first_call(monkeypatch):
     made, clock = module._point_of_trade, module._time_call
     monkeypatch.setattr(module, "_point_of_trade", lambda *given: called.append(given[-2:]) or made(*given))
     monkeypatch.setattr(module, "_time_call", lambda once: timed.append(tuple(called)) or clock(once))
-    module.tradeoff(find_lens("landscape"), (0.0,), methods=("gaussian", "seidel"), pixels=16)
+    module.tradeoff(find_lens("landscape"), fields_deg=(0.0,), methods=("gaussian", "seidel"), pixels=16)
     assert {("gaussian", "settled"), ("seidel", "preview"), ("seidel", "settled")} <= set(timed[0])

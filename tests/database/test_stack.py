@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -52,6 +53,19 @@ def test_a_stack_holds_the_psfs_of_its_database(stack):
         found = read_psfs(stack, (d, f, w))
         assert np.linalg.norm(found - expected) <= 1e-4 * np.linalg.norm(expected)  # what settled pictures promise
     np.testing.assert_allclose(read_psfs(stack, ...).sum((-2, -1)), 1, atol=1e-5)
+
+
+def test_xarray_opens_a_stack_with_coordinates_and_units(stack):
+    xarray = pytest.importorskip("xarray")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # of metadata that is looked for in vain
+        data = xarray.open_zarr(stack.path)
+    space = stack.stored.database.space
+    assert data["psf"].dims == ("depth_mm", "field_deg", "wavelength_nm", "y_um", "x_um")
+    np.testing.assert_array_equal(data["depth_mm"], space.depths_mm)
+    assert [data[name].attrs["units"] for name in data["psf"].dims] == ["mm", "deg", "nm", "um", "um"]
+    one = data["psf"].sel(field_deg=14, depth_mm=np.inf).isel(wavelength_nm=1)
+    np.testing.assert_array_equal(one, read_psfs(stack, (-1, 4, 1)))
 
 
 def test_any_zarr_reader_finds_axes_units_and_provenance(stack):

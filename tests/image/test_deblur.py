@@ -20,7 +20,7 @@ INNER = (slice(20, -20), slice(20, -20))
 @pytest.fixture(scope="module")
 def blurred():
     """10 mm off the axis of the Double Gauss at f/3, pixels of 16 µm, noise of a five-hundredth of white."""
-    scene = Scene(Sensor(SIZE, SIZE, 16.0, (0.0, 10.0)), (Channel("green", (540.0,), (1.0,)),), tolerance=0.05)
+    scene = Scene(Sensor(SIZE, SIZE, 16.0, (0.0, 10.0)), (Channel("green", (540.0,), (1.0,)),), rtol=0.05)
     planned = plan(find_lens("double_gauss_28"), scene)
     lattice = plan_lattice(planned, planned.vergences[0])
     chart = draw_chart("siemens_star", SIZE, SIZE)[..., 1:2]

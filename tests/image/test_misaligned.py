@@ -24,7 +24,7 @@ from p2sf.scene.sensor import Sensor
 
 WAVE = 0.54
 SENSOR = Sensor(25, 37, 20.0, (0.0, 9.0))  # around a field of 5°, where misalignment turns the PSF
-SCENE = Scene(SENSOR, (Channel("green", (540.0,), (1.0,)),), tolerance=0.05)
+SCENE = Scene(SENSOR, (Channel("green", (540.0,), (1.0,)),), rtol=0.05)
 WIDE = Sensor(64, 96, 150.0)  # distorted by more than pictures leave out
 
 
@@ -109,7 +109,7 @@ def test_without_misalignment_it_is_the_picture_of_the_symmetric_lens(gauss):
     turned = displaced(lens, 1, 1, Placement(tilt_x_deg=2.0, pivot=(0.0, 0.0, lens.surfaces[0].radius)))
     values = np.random.default_rng(0).random((64, 96, 1)).astype(np.float32)
     for clip in (False, True):
-        scene = replace(SCENE, sensor=WIDE, tolerance=0.1, clip=clip)
+        scene = replace(SCENE, sensor=WIDE, rtol=0.1, clip=clip)
         both = plan(turned, scene), plan(lens, scene)
         found, expected = (form_image(made, values) for made in both)
         assert np.linalg.norm(found - expected) < 0.01 * np.linalg.norm(expected)

@@ -43,7 +43,7 @@ def test_what_is_written_is_read_back(tmp_path, ending, tolerance):
     psf = blob()
     back, meta = read_psf(write_psf(psf, tmp_path / f"spot.{ending}", META))
     np.testing.assert_allclose(back.values, psf.values, rtol=tolerance)  # float32 rounds to 2^-24 = 6e-8
-    assert (back.pixel_um, back.method, back.strehl, back.tolerance) == (psf.pixel_um, "seidel", 0.37, None)
+    assert (back.pixel_um, back.method, back.strehl, back.error) == (psf.pixel_um, "seidel", 0.37, None)
     assert back.predicted_error == 2.5e-3
     assert back.sampling == psf.sampling and meta["psf"]["sampling"] == "test"
     assert meta["setup"] == {"depth_mm": None, "field_deg": 14.0}

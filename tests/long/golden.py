@@ -346,7 +346,7 @@ def _picture(name: str, lens: Any, tolerance: float, f_number: float) -> dict[st
     import p2sf
 
     sensor = p2sf.Sensor(rows=24, columns=36, pixel_um=_pixel_um(name, lens))
-    planned = p2sf.plan(lens, p2sf.Scene(sensor, tolerance=tolerance, f_number=f_number))
+    planned = p2sf.plan(lens, p2sf.Scene(sensor, rtol=tolerance, f_number=f_number))
     points = np.zeros((24, 36, 3))
     points[4::8, 4::8] = 1
     formed = p2sf.form_image(planned, points, threads=1)

@@ -106,7 +106,7 @@ def trial(lens: Lens, source: Source, tolerance: float) -> Trial | None:
     def error(psf) -> float:
         return 1 - r_squared(psf.values, reference.values)
 
-    chosen = render(lens, source, choice.method, PIXELS, pixel, PsfOptions(tolerance=tolerance))
+    chosen = render(lens, source, choice.method, PIXELS, pixel, PsfOptions(min_r2=tolerance))
     errors = tuple(error(psf) for psf in _cheaper(lens, source, choice, pixel))
     return Trial(lens.name, source, tolerance, choice.method, choice.predicted_error, error(chosen), errors)
 

@@ -87,7 +87,7 @@ def outcome(number: int, seed: int) -> Outcome:
                 reference = huygens_psf(bad, source, PIXELS, pixel)
                 choice = choose(bad, source, tolerance)
                 break
-    chosen = render(bad, source, choice.method, PIXELS, pixel, PsfOptions(tolerance=tolerance))
+    chosen = render(bad, source, choice.method, PIXELS, pixel, PsfOptions(min_r2=tolerance))
     traced = traced_psf(bad, source, PIXELS, pixel)
     try:
         fits = [fitted_psf(bad, source, PIXELS, pixel, level.numbers) for level in NOT_SYMMETRIC[:2]]

@@ -108,7 +108,7 @@ def trial(planned: Plan, planning: float, seed: int = 0) -> dict:
     grid = nodes * sum(len(channel.wavelengths_nm) for channel in scene.channels)
     looser = loosened_cost(planned.lens, scene) <= planned.cost.kernel_seconds if seed % 5 == 0 else None
     return {
-        "tolerance": scene.tolerance,
+        "tolerance": scene.limit,
         "predicted": planned.predicted_error,
         "worst": verdict.worst,
         "meets": planned.meets,
@@ -187,7 +187,7 @@ def naive_seconds(planned: Plan) -> float:
 
 def loosened_cost(lens, scene) -> float:
     """Return the predicted cost at twice the tolerance."""
-    return plan(lens, replace(scene, tolerance=min(0.9, 2 * scene.tolerance))).cost.kernel_seconds
+    return plan(lens, replace(scene, rtol=min(0.9, 2 * scene.limit))).cost.kernel_seconds
 
 
 def run(name: str, numbers: range, known: set[tuple[str, int]]) -> Iterator[dict]:

@@ -147,7 +147,7 @@ def test_a_psf_says_how_it_was_summed():
     settled, preview = (fitted_psf(lens, source, 32, pixel, 26, quality) for quality in ("settled", "preview"))
     assert settled.sampling.values["precision"] == "float64"
     assert preview.sampling.values["precision"] == "float32"
-    assert (settled.tolerance, preview.tolerance) == (SETTLED_TOLERANCE, None)
+    assert (settled.error, preview.error) == (SETTLED_TOLERANCE, None)
     assert (settled.method, settled.numbers, settled.rays, settled.pixel_um) == ("fitted", 26, 64, pixel)
     assert 0 < settled.seconds < 60 and settled.wavelength_um == source.wavelength_um and 0 < settled.energy < 1
     coarse = fitted_psf(lens, source, 8, 20 * pixel, 26)

@@ -210,7 +210,7 @@ def test_the_choice_keeps_its_promise(mask):
     lens = with_mask(find_lens("double_gauss_28"), mask)
     for source, tolerance in ((Source(), 0.99), (Source(field_deg=10), 0.999)):
         reference = huygens_psf(lens, source, 32, 1.4)
-        found = render(lens, source, "auto", 32, 1.4, PsfOptions(tolerance=tolerance))
+        found = render(lens, source, "auto", 32, 1.4, PsfOptions(min_r2=tolerance))
         assert r_squared(found.values, reference.values) >= tolerance
         assert choose(lens, source, tolerance).predicted_error <= 1 - tolerance
 

@@ -85,14 +85,14 @@ def test_methods_rank_by_accuracy():
 def test_quality_passes_through(method):
     lens, source, pixel, _ = off_axis()
     preview, settled = (render(lens, source, method, 32, pixel, PsfOptions(q)) for q in ("preview", "settled"))
-    assert preview.tolerance is None and settled.tolerance is not None
+    assert preview.error is None and settled.error is not None
     # The preview of six coefficients is a 128² grid with a hard edge: 4e-2 of the light here.
     assert r_squared(preview.values, settled.values) > (0.9 if method == "seidel" else 0.9999)
 
 
 def test_auto_takes_the_method_that_choose_names():
     lens, source, _, _ = off_axis()
-    made = render(lens, source, options=PsfOptions(tolerance=0.99))
+    made = render(lens, source, options=PsfOptions(min_r2=0.99))
     assert choose(lens, source, 0.99).method == "fitted" == made.method
     slow = replace(lens, aperture=Aperture("stop_semi_diameter", 1.0))
     assert choose(slow, replace(source, field_slope=0.0), 0.99).method == "seidel"
@@ -152,7 +152,7 @@ def test_choose_never_picks_a_method_below_the_tolerance(capsys):
 
 def test_a_fit_takes_the_numbers_that_the_tolerance_asks_for():
     lens, source, pixel, _ = off_axis()
-    coarse, fine = (render(lens, source, "fitted", 32, pixel, PsfOptions(tolerance=t)) for t in (0.99, 0.9999))
+    coarse, fine = (render(lens, source, "fitted", 32, pixel, PsfOptions(min_r2=t)) for t in (0.99, 0.9999))
     assert (coarse.numbers, fine.numbers) == (26, 46)
     assert predicted_error(residual_for(0.9999), "fitted") == pytest.approx(1e-4)
 
@@ -174,7 +174,7 @@ def test_a_fit_that_fails_near_total_reflection_says_so():
     source = Source(inf, np.tan(np.deg2rad(37.3555)), 0.5876)
     made = render(lens, source, "fitted", 64, 30.0)
     reference = huygens_psf(lens, source, 64, 30.0, None)
-    assert 1 - r_squared(made.values, reference.values) > 1e-4 >= made.tolerance
+    assert 1 - r_squared(made.values, reference.values) > 1e-4 >= made.error
     assert made.predicted_error > CAUTION
 
 

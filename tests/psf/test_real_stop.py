@@ -137,7 +137,7 @@ def test_the_choice_allows_for_an_uneven_pupil():
     """Six coefficients fill the pupil evenly; where the stop's rays do not, the prediction knows."""
     lens, source, pixel = place("reverse_telephoto", 30)
     choice = choose(lens, source, 0.9999)
-    made = render(lens, source, "auto", 32, pixel, PsfOptions(tolerance=0.9999))
+    made = render(lens, source, "auto", 32, pixel, PsfOptions(min_r2=0.9999))
     assert made.method == choice.method != "seidel"
     assert r_squared(made.values, huygens_psf(lens, source, 32, pixel).values) > 0.9999
 

@@ -67,7 +67,7 @@ def test_settled_keeps_its_promise_against_the_plain_formula(six, pixels):
     c = waves(*six)
     psf = seidel_psf(c, pixels)
     plain = plain_intensity(c, pixels, psf.pixel_um)
-    assert psf.tolerance == SETTLED_TOLERANCE
+    assert psf.error == SETTLED_TOLERANCE
     assert relative_l2(psf.values, plain / plain.sum()) < SETTLED_TOLERANCE / 10
     assert psf.over_unaberrated.max() == pytest.approx(plain.max(), rel=SETTLED_TOLERANCE)
 
@@ -80,7 +80,7 @@ def test_three_samplings_show_one_picture(sign):
     for other in (seidel_psf(c, 32, 0.9, quality="preview"), seidel_psf(c, 32, 0.9, sampling="fft")):
         assert relative_l2(other.values, settled.values) < 1e-2
         assert other.strehl == pytest.approx(settled.strehl, rel=1e-2)
-        assert other.tolerance is None
+        assert other.error is None
 
 
 @pytest.mark.parametrize("pixel_um", in_tiers([0.3, 1.0, 4.0], (1.0, 4.0)))

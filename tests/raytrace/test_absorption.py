@@ -311,7 +311,7 @@ def test_what_takes_the_pupil_for_even_refuses_it():
         with pytest.raises(GeometryError) as caught:
             p2sf.render(wrong, source, method)
         assert caught.value.message.values["shading"].values["surface"] == 1
-    assert p2sf.render(lens, source, tolerance=0.5).method != "seidel"
+    assert p2sf.render(lens, source, min_r2=0.5).method != "seidel"
     assert float(coefficients(lens, np.inf, 0.0, UM).w40)  # of the wavefront, which absorption leaves as it is
     database = p2sf.build_database(lens, depths_mm=(1e4, 1e5), fields_deg=(0, 2), wavelengths_nm=(500, 501))
     assert database.database.method == "fitted" and database.lens == lens

@@ -161,7 +161,7 @@ def test_the_choice_takes_rays_where_a_hole_clips():
     lens, source = telescope(RIM), Source(wavelength_nm=500, field_deg=1.225)
     assert choose(lens, source, 0.999, clip=True).method == "traced"
     reference = huygens_psf(lens, source, 32, 0.5, clip=True)
-    found = render(lens, source, "auto", 32, 0.5, PsfOptions(tolerance=0.999, clip=True))
+    found = render(lens, source, "auto", 32, 0.5, PsfOptions(min_r2=0.999, clip=True))
     assert r_squared(found.values, reference.values) > 0.999
 
 

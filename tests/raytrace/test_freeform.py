@@ -147,7 +147,7 @@ def test_databases_and_plans_of_a_freeform_are_fitted():
     found = database.psf(source, pixels=32, pixel_um=2.0).values
     off = ((found - reference.values) ** 2).sum() / ((reference.values - reference.values.mean()) ** 2).sum()
     assert off < 1e-3
-    scene = p2sf.Scene(p2sf.Sensor(rows=8, columns=12, pixel_um=40.0), tolerance=0.2)
+    scene = p2sf.Scene(p2sf.Sensor(rows=8, columns=12, pixel_um=40.0), rtol=0.2)
     assert p2sf.plan(lens, scene)
 
 

@@ -19,7 +19,7 @@ from p2sf.scene import Channel, Scene, Sensor, plan, verify
 from tests.support.exact_lattice import exact_lattice
 
 GREEN = (Channel("green", (520.0, 560.0), (1.0, 1.0)),)
-SCENE = Scene(Sensor(40, 60, 60.0, (3.0, 6.0)), GREEN, tolerance=0.05)
+SCENE = Scene(Sensor(40, 60, 60.0, (3.0, 6.0)), GREEN, rtol=0.05)
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def distance(found, wanted):
 def test_a_plan_promises_what_exact_rays_find(planned):
     """Against sums over the rays of each point alone, at random places."""
     assert planned.meets
-    assert planned.predicted_error <= SCENE.tolerance
+    assert planned.predicted_error <= SCENE.limit
     verdict = verify(planned, 4)
     assert verdict.kept
     assert {str(decision.what) for decision in planned.decisions} >= {"method", "field", "sampling", "depth", "pupils"}
@@ -60,7 +60,7 @@ NEAR = 15000.0
 
 @pytest.fixture(scope="module")
 def deep(bad):
-    return plan(bad, replace(SCENE, near_mm=NEAR, tolerance=0.2))
+    return plan(bad, replace(SCENE, near_mm=NEAR, rtol=0.2))
 
 
 @pytest.mark.slow
@@ -95,7 +95,7 @@ def test_a_lens_turned_about_its_centres_has_the_picture_of_the_straight_one(str
 
 def test_six_coefficients_serve_a_perturbed_lens_where_its_pixels_hide_the_rest(straight, bad):
     """Their own share of what the plan allows holds against exact rays; finer pixels of a worse lens take a fit."""
-    scene = replace(SCENE, sensor=Sensor(24, 36, 120.0, (3.0, 6.0)), tolerance=0.2)
+    scene = replace(SCENE, sensor=Sensor(24, 36, 120.0, (3.0, 6.0)), rtol=0.2)
     slight = plan(displaced(with_f_number(straight, 11.0), 3, 5, Placement(0.02, -0.03, tilt_x_deg=0.05)), scene)
     assert slight.recipe.method == "seidel"
     assert verify(slight, 3).kept
@@ -121,7 +121,7 @@ def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
 def test_surfaces_without_six_coefficients_are_planned_by_fits(straight, shape):
     """A freeform, which has no symmetry either, and an odd asphere, which has."""
     odd = replace(straight, surfaces=(replace(straight.surfaces[0], shape=shape), *straight.surfaces[1:]))
-    scene = replace(SINGLE, f_number=11.0, tolerance=0.1)
+    scene = replace(SINGLE, f_number=11.0, rtol=0.1)
     made = plan(odd, scene)
     assert made.meets and made.recipe.method == "fitted"
     assert made.sensor_map(0.0).about_axis == shape.radial
@@ -150,7 +150,7 @@ def test_chief_rays_place_the_picture(planned, bad):
 
 
 VANE = PupilMask(vanes=1, vane_width=0.3)
-SINGLE = replace(SCENE, tolerance=0.2, channels=(Channel("green", (540.0,), (1.0,)),))
+SINGLE = replace(SCENE, rtol=0.2, channels=(Channel("green", (540.0,), (1.0,)),))
 
 
 @pytest.mark.parametrize(

@@ -98,7 +98,7 @@ def method_results(
         psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)
         error = relative_l2(psf.values, reference.values)
         if method.name == REFERENCE:
-            error = reference.tolerance or error
+            error = reference.error or error
         yield MethodResult(
             method.name, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays
         )
@@ -114,5 +114,5 @@ def psf_by(method: str, live: Live, reference: Psf) -> Psf:
         return derived(reference)
     pixels, pitch = reference.values.shape[-1], reference.pixel_um
     setup, state = live.setup, live.state
-    options = PsfOptions(tolerance=state.optics.tolerance, clip=state.optics.clip)
+    options = PsfOptions(min_r2=state.optics.tolerance, clip=state.optics.clip)
     return render(setup.lens, setup.source, method, pixels, pitch, options)

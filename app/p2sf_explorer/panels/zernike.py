@@ -85,7 +85,7 @@ class TermsChart(Chart):
     def show_fit(self, fit: ZernikeFit) -> None:
         """Show the bars of the terms that blur."""
         self.fit = fit
-        self.name_axes("term", UNITS[fit.order])
+        self.name_axes("term", UNITS[fit.basis])
         limit = max(float(np.abs(fit.waves[BLURRING - 1 :]).max()), SMALLEST)
         ends = BLURRING - 0.7, len(fit.waves) + 0.7
         self.set_range(ends, (-limit, limit), steady="y")

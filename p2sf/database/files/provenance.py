@@ -6,7 +6,7 @@ from functools import cached_property, reduce
 from math import inf
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,6 +32,9 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.mask import CLEAR, PupilMask
+
+if TYPE_CHECKING:
+    import xarray
 
 COEFFICIENT_UNITS = {
     "w40 w31 w22 w20 w11 wd errors": "waves",
@@ -188,6 +191,23 @@ class Stored:
         check_samples(pixels, pixel_um)
         found: np.ndarray = psfs_into(self.database, points, Sampling(pixels, pixel_um), out)
         return found
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return the six coefficients at all nodes, in waves, and ``na`` as a dataset of xarray, with what it is of.
+
+        ExportError without xarray. `psfs` looks up the PSFs.
+        """
+        from p2sf.named_arrays import NamedArrays, along
+
+        across = {} if self.fields_x_deg is None else {"field_x_deg": self.fields_x_deg}
+        nodes = {"depth_mm": self.depths_mm, "field_deg": self.fields_deg} | across
+        nodes |= {"wavelength_nm": self.wavelengths_nm}
+        found = self.coefficients(**dict(zip(nodes, np.ix_(*nodes.values()), strict=True)))
+        names = "w40", "w31", "w22", "w20", "w11", "wd", "na"
+        coords = {key: part for name, values in nodes.items() for key, part in along(name, values).items()}
+        made = NamedArrays({name: (tuple(nodes), getattr(found, name)) for name in names}, coords).to_xarray()
+        about = {"lens": self.meta["lens"]["name"], "method": self.meta["method"], "aim": self.meta["aim"]}
+        return made.assign_attrs(about, conventions=CONVENTIONS)
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the database as a .npz file, which `p2sf.open_database` opens; ExportError where that is impossible."""

@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -19,6 +20,7 @@ from p2sf.database.files.place import Place, chunk_names, exists, place_of, send
 from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.errors import DatabaseError
 from p2sf.files.writing import plain
+from p2sf.named_arrays import unit_of
 
 SCHEMA = 1
 CHUNK_BYTES = 1 << 20  # a chunk is lost if a writer is killed, and is the least that a reader loads
@@ -133,10 +135,14 @@ def _create_arrays(draft: Path, stored: Stored, raw: bytes, sampling: Sampling) 
         fill_value=np.nan,
         compressors=[zarr.codecs.ZstdCodec(level=1), zarr.codecs.Crc32cCodec()],
         dimension_names=names,
+        attributes={"long_name": "share of the window's light", "units": "1"},
     )
     for name, values in zip(names, _axes(stored, pixels, pixel_um), strict=True):
-        group.create_array(name, data=values, dimension_names=(name,))
-    group.create_array("database", data=np.frombuffer(raw, dtype=np.uint8))
+        group.create_array(name, data=values, dimension_names=(name,), attributes=unit_of(name))
+    group.create_array("database", data=np.frombuffer(raw, dtype=np.uint8), dimension_names=("byte",))
+    with warnings.catch_warnings():  # xarray looks for it first, although the standard does not have it yet
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(draft)
 
 
 def _attributes(stored: Stored, pixel_um: float) -> dict[str, Any]:
@@ -175,7 +181,7 @@ def open_stack(path: str | PathLike[str], mode: Literal["r", "r+"] = "r") -> Sta
         )
     try:
         with translate_errors(place):
-            group = zarr.open_group(place, mode=mode, zarr_format=3)
+            group = zarr.open_group(place, mode=mode, zarr_format=3, use_consolidated=False)
             psf, raw, attributes = group["psf"], group["database"][:].tobytes(), dict(group.attrs)
         if attributes["p2sf_stack_schema"] > SCHEMA:
             raise DatabaseError(

@@ -160,7 +160,7 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     Examples
     --------
     >>> import p2sf
-    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), tolerance=0.2, f_number=8)
+    >>> scene = p2sf.Scene(p2sf.Sensor(rows=20, columns=30, pixel_um=60.0), rtol=0.2, f_number=8)
     >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
     True
     """

@@ -35,7 +35,7 @@ def _as_asked(planned: Plan) -> str:
         "psnr": "{0:.1f} dB, at least {1:g}",
         "r2": "R² {0:.4f}, at least {1:g}",
     }
-    return f": {words[scene.measure].format(found, scene.tolerance)}" if scene.measure in words else ""
+    return f": {words[scene.measure].format(found, scene.limit)}" if scene.measure in words else ""
 
 
 def plan_facts(planned: Plan) -> dict:
@@ -43,7 +43,7 @@ def plan_facts(planned: Plan) -> dict:
     return {
         "aim": planned.lens.aim,
         "tolerance": planned.allowed_error,
-        "asked": {"measure": planned.scene.measure, "tolerance": planned.scene.tolerance},
+        "asked": {"measure": planned.scene.measure, "tolerance": planned.scene.limit},
         "predicted_error": planned.predicted_error,
         "meets": planned.meets,
         "nodes": {"rows": planned.counts[0], "columns": planned.counts[1], "depths": len(planned.vergences)},

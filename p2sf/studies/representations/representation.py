@@ -61,9 +61,9 @@ def traced_picture(space: LensSpace, source: Source) -> np.ndarray:
     return space.window.light(traced_psf(space.lens, source, *space.window.fine).values)
 
 
-def huygens_picture(space: LensSpace, source: Source, tolerance: float = SETTLED_TOLERANCE) -> np.ndarray:
-    """Return one picture by the Huygens sum whose two last node counts agree to ``tolerance``, (pixels, pixels)."""
-    return space.window.light(huygens_psf(space.lens, source, *space.window.fine, tolerance=tolerance).values)
+def huygens_picture(space: LensSpace, source: Source, rtol: float = SETTLED_TOLERANCE) -> np.ndarray:
+    """Return one picture by the Huygens sum whose two last node counts agree to ``rtol``, (pixels, pixels)."""
+    return space.window.light(huygens_psf(space.lens, source, *space.window.fine, rtol=rtol).values)
 
 
 def clipped_to_unit_sum(values: np.ndarray) -> np.ndarray:

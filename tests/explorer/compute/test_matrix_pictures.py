@@ -62,7 +62,7 @@ def test_a_settled_picture_is_that_of_the_library(method):
         setup = paraxial_setup(state)
         count = tile.content.values.shape[0]
         window = count, tile.content.width_um / count
-        psf = render(setup.lens, setup.source, method, *window, PsfOptions(tolerance=state.optics.tolerance))
+        psf = render(setup.lens, setup.source, method, *window, PsfOptions(min_r2=state.optics.tolerance))
         values = tile.content.values * window[1] ** 2
         energy = 1.0 if psf.energy is None else psf.energy
         assert values == pytest.approx(psf.values * energy, abs=1e-9 * psf.values.max())
@@ -74,7 +74,7 @@ def test_previews_keep_the_r_squared_that_they_are_predicted():
     request = request_of(TRIPLET, matrix_rows=2, matrix_columns=2)
     for state, tile in each(request, previews(request)):
         setup, width = paraxial_setup(state), tile.content.width_um
-        reference = huygens_psf(setup.lens, setup.source, 128, width / 128, tolerance=None)
+        reference = huygens_psf(setup.lens, setup.source, 128, width / 128, rtol=None)
         values = tile.content.values / tile.content.values.sum()
         assert 1 - r_squared(values, reference.values) <= tile.error
 

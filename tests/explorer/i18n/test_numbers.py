@@ -30,7 +30,7 @@ def test_the_sentence_on_the_dominant_term_breaks_at_no_unit(window):
 
 def test_the_reasons_of_a_plan_name_its_channels_in_german():
     camera = find_lens("singlet_f6")
-    planned = plan(camera, Scene(Sensor(24, 32, 20.0), tolerance=0.2))
+    planned = plan(camera, Scene(Sensor(24, 32, 20.0), rtol=0.2))
     set_language("de")
     try:
         headings = [said(heading) for heading, _ in plan_notes(planned)]

@@ -82,5 +82,5 @@ def csv_rows(fit: ZernikeFit) -> list[list[str]]:
     """Return every term as a row: number, n, m, name, waves, share of the variance without piston and tilt."""
     found = zip(fit.terms, fit.waves.tolist(), fit.share.tolist(), strict=True)
     body = [[str(t.number), str(t.n), str(t.m), t.name, f"{waves:.9g}", f"{share:.9g}"] for t, waves, share in found]
-    unit = "waves RMS" if fit.order == "noll" else "waves peak"
-    return [[f"{fit.order} term", "n", "m", "name", unit, "share of variance"], *body]
+    unit = "waves RMS" if fit.basis == "noll" else "waves peak"
+    return [[f"{fit.basis} term", "n", "m", "name", unit, "share of variance"], *body]
