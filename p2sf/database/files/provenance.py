@@ -202,7 +202,8 @@ class Stored:
         across = {} if self.fields_x_deg is None else {"field_x_deg": self.fields_x_deg}
         nodes = {"depth_mm": self.depths_mm, "field_deg": self.fields_deg} | across
         nodes |= {"wavelength_nm": self.wavelengths_nm}
-        found = self.coefficients(**dict(zip(nodes, np.ix_(*nodes.values()), strict=True)))
+        every: dict[str, Any] = dict(zip(nodes, np.ix_(*nodes.values()), strict=True))
+        found = self.coefficients(**every)
         names = "w40", "w31", "w22", "w20", "w11", "wd", "na"
         coords = {key: part for name, values in nodes.items() for key, part in along(name, values).items()}
         made = NamedArrays({name: (tuple(nodes), getattr(found, name)) for name in names}, coords).to_xarray()
