@@ -60,7 +60,7 @@ def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):
 def test_a_photo_is_sharpened(tmp_path, capsys):
     photo, out = tmp_path / "photo.tif", tmp_path / "sharp.tif"
     write_photo(photo, np.full((30, 40), 0.25, np.float32), "linear")
-    arguments = ["sharpen", "achromat_f6", str(photo), "--focus-mm", "4000", "--tolerance", "0.2", "-o", str(out)]
+    arguments = ["sharpen", "achromat_f6", str(photo), "--focus-mm", "4000", "--rtol", "0.2", "-o", str(out)]
     assert main([*arguments, "--pixel-um", "20", "--noise", "0.01", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {
         "file": str(out),
