@@ -107,31 +107,23 @@ def render(
     clip : bool
         Stop rays at every clear semi-diameter, not only at the aperture stop.
     integrated : bool, optional
-        Whether a sample is the light on the square pixel around it, or the intensity at its place. By default it is
-        the light where pixels are wider than λ/(4 NA), up to which samples hold all of a PSF.
+        Whether a sample is the light on the pixel around it; by default where pixels are wider than λ/(4 NA).
     camera : Camera
         How the camera is set; by default as the lens file has it. The keywords ``focus_mm``, ``sensor_shift_um``,
         ``f_number``, ``stop`` and ``aim`` set one of its numbers each.
     threads : int, optional
-        Number of threads for a sum of many rays; the result does not depend on it. By default the environment
-        variable P2SF_THREADS, or else the number of cores.
+        For a sum of many rays; by default P2SF_THREADS or the number of cores. No result depends on it.
 
     Returns
     -------
     Psf
-        Samples with unit sum, rows towards the field, and how they were computed. ``energy`` is the share of all light
-        that falls into the window; below 0.9 a ``P2SFWarning`` says so.
+        Samples with unit sum, rows towards the field. A ``P2SFWarning`` says where the window holds too little light.
 
     Raises
     ------
-    RequestError
-        If a value is invalid, or if a keyword and ``camera`` state the same number.
-    GeometryError
-        If the lens forms no image of this source.
-    GlassError
-        If the wavelength is outside the data of a glass.
-    SamplingError
-        If the grid is too coarse or too large for the PSF.
+    RequestError, GeometryError, GlassError, SamplingError
+        For an invalid value or one stated twice; a lens that forms no image of this source; a wavelength outside the
+        data of a glass; a grid too coarse or too large for the PSF.
 
     Examples
     --------

@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import fields
 from functools import lru_cache, wraps
-from inspect import Parameter, signature
+from inspect import Parameter, Signature, signature
 from numbers import Real
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, cast, get_args, get_origin
@@ -42,8 +42,12 @@ Kinds = tuple[type, ...]
 
 
 def check_arguments(function: Function) -> Function:
-    """Decorate a function so that `argument` converts and checks its arguments."""
-    kinds = {name: each.annotation for name, each in signature(function).parameters.items()}
+    """Decorate a function so that `argument` converts and checks its arguments.
+
+    Its signature is shown without types, which the docstring states in words: ``ArrayLike`` alone takes five lines.
+    """
+    own = signature(function)
+    kinds = {name: each.annotation for name, each in own.parameters.items()}
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
@@ -51,6 +55,8 @@ def check_arguments(function: Function) -> Function:
         named = {name: argument(name, value, kinds.get(name, Any)) for name, value in kwargs.items()}
         return function(*given, *args[len(kinds) :], **named)
 
+    plain = [each.replace(annotation=Parameter.empty) for each in own.parameters.values()]
+    call.__signature__ = Signature(plain)  # type: ignore[attr-defined]
     return cast("Function", call)
 
 

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import pydoc
 from dataclasses import replace
 from importlib import import_module
 from io import BytesIO
@@ -131,6 +132,13 @@ def test_the_library_and_the_command_line_set_a_lens_up_by_one_road():
     same = render_integrated(theirs.lens, theirs.source, "seidel", 16)
     np.testing.assert_array_equal(p2sf.render(LENS, source, "seidel", pixels=16, **camera).values, same.values)
     assert p2sf.choose_method(LENS, source, 0.9, **camera) == methods.choose(theirs.lens, theirs.source, 0.9)
+
+
+def test_help_fits_a_screen():
+    """Of 50 rows and 120 columns, over which its long line of parameters is wrapped."""
+    lines = pydoc.plain(pydoc.render_doc(p2sf.render)).splitlines()
+    assert sum(max(1, -(-len(line) // 120)) for line in lines) <= 50
+    assert "Union" not in lines[2] and "method='auto'" in lines[2]
 
 
 def test_every_function_that_takes_a_camera_takes_how_rays_fill_its_pupil():

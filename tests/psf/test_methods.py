@@ -253,7 +253,8 @@ def test_a_lens_without_seidel_sums_is_rendered_by_rays_and_refused_by_the_six_c
 def test_every_text_that_lists_the_methods_names_all_of_them():
     """Docstrings of the library by what their signatures take; README and theory a row of a table for each."""
     for call in vars(api).values():
-        taken = inspect.signature(call).parameters.get("method") if inspect.isfunction(call) else None
+        own = inspect.unwrap(call) if inspect.isfunction(call) else None
+        taken = inspect.signature(own).parameters.get("method") if own else None
         if taken is not None and taken.annotation in (api.Method, api.PupilMethod):
             stated = re.search(r"^    method : \{(.*)\}$", call.__doc__ or "", re.MULTILINE)
             assert stated is None or set(re.findall(r'"(\w+)"', stated[1])) == set(get_args(taken.annotation)), call
