@@ -36,6 +36,7 @@ Keep = Annotated[
     Path | None,
     Parameter(negative="", help="With --complete: a folder that keeps each lens's result, from which a run goes on."),
 ]
+Every = Annotated[bool, Parameter("--all", negative="", help="Every number of the listings, not their groups only.")]
 Sampling = Annotated[bool, Parameter(negative="", help="The error of the paper's FFT over NPUPIL and NPSF instead.")]
 
 
@@ -123,10 +124,10 @@ def _write_tradeoff(output: Path, rows: list["MethodCost"], lines: Sequence[tupl
     write_beside(output, write)
 
 
-def validate(*, as_json: Json = False) -> int:
+def validate(*, every: Every = False, as_json: Json = False) -> int:
     """Put this program's figures beside those that other programs and the paper's authors published.
 
-    The exit code is 1 where a figure differs by more than its tolerance.
+    Numbers of other programs' listings are told by groups. The exit code is 1 where a figure differs unexplained.
     """
     from p2sf.studies import validate as study
 
@@ -135,11 +136,20 @@ def validate(*, as_json: Json = False) -> int:
     if as_json:
         print_json({"agree": failed == 0, "figures": [study.record(row) for row in rows]})
         return int(failed > 0)
-    print_table("Published figures beside this program's own", study.COLUMNS, study.lines(rows))
+    single = tuple(row for row in rows if every or not row.published.group)
+    print_table("Published figures beside this program's own", study.COLUMNS, study.lines(single))
+    if found := study.groups(rows):
+        print_table("\nListings of other programs, number by number", study.GROUP_COLUMNS, study.group_lines(found))
+    for why, count in study.explanations(rows).items():
+        print(f"  {count} explained: {why}")
     print("\nA tolerance is")
     for why, tolerances in study.reasons(rows).items():
         print(f"  {tolerances}: {why}")
-    print(f"{len(rows)} figures, {failed} differ, {sum(row.ours is None for row in rows)} cannot be computed yet")
+    explained = sum(row.verdict == study.EXPLAINED for row in rows)
+    print(
+        f"{len(rows)} figures, {explained} explained, {failed} differ unexplained, "
+        f"{sum(row.ours is None for row in rows)} cannot be computed yet"
+    )
     return int(failed > 0)
 
 

@@ -118,7 +118,7 @@ def file_stop(lens: Lens) -> tuple[int, float]:
 
 def rim_radii(lens: Lens, named: int, rim: float) -> np.ndarray:
     """Return clear semi-diameters in mm, shape (surfaces,), with that of the stop replaced by its rim."""
-    rims = np.array([surface.semi_diameter for surface in lens.surfaces])
+    rims = np.array([surface.semi_diameter for surface in lens.surfaces], float)
     rims[named - 1] = rim
     return rims
 

@@ -23,12 +23,15 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.zernike_fit import zernike_fit
+from p2sf.studies.listings import edges, hubble, singlet, telescope
+from p2sf.studies.listings.row import Listed
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 
 DATA = Path(__file__).with_name("published.toml")
 KINDS = {"program": "another program", "paper": "the paper's authors", "witness": "independent witness"}
 LISTED = 32  # points along a side of a listed wavefront
-AGREES, DIFFERS = "agrees", "differs, unexplained"
+AGREES, EXPLAINED, DIFFERS = "agrees", "explained", "differs, unexplained"
+LISTINGS = singlet, hubble, telescope, edges
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,8 @@ class Published:
     what this program lacks. The others say what of the shipped lens is replaced: ``glasses`` by label, all ``indices``
     at this wavelength, the ``last_radius``, the ``f_number``, the ``stop_semi_diameter``, mm, and the ``inner_radii``
     by surface. ``file``: the lens's, beside this module, where it is not a shipped one. ``pixels`` and ``pixel_um``:
-    the samples among which the highest is looked for.
+    the samples among which the highest is looked for. ``group``: of the rows that are told together.
+    ``explained``: why the two differ by more than the tolerance, and ``within``: the most that this accounts for.
     """
 
     quantity: str
@@ -66,6 +70,9 @@ class Published:
     indices: tuple[float, ...] = ()
     row: int = 0
     column: int = 0
+    group: str = ""
+    explained: str = ""
+    within: float = 0.0
 
     @property
     def wavelength_um(self) -> float:
@@ -95,7 +102,10 @@ class Comparison:
         """Return `AGREES`, `DIFFERS`, or what the figure waits for."""
         if self.difference is None:
             return f"waits for {self.published.waits_for}"
-        return AGREES if abs(self.difference) <= self.published.tolerance else DIFFERS
+        if abs(self.difference) <= self.published.tolerance:
+            return AGREES
+        known = self.published.explained and abs(self.difference) <= self.published.within
+        return EXPLAINED if known else DIFFERS
 
 
 @cache
@@ -113,8 +123,84 @@ def compare(figure: Published) -> Comparison:
 
 
 def validation() -> tuple[Comparison, ...]:
-    """Return every published figure beside this program's own."""
-    return tuple(map(compare, published_figures()))
+    """Return every published figure, and every number of the listings, beside this program's own."""
+    return *map(compare, published_figures()), *listed_figures()
+
+
+@cache
+def listed_figures() -> tuple[Comparison, ...]:
+    """Return every number of the listings of other programs beside this program's own."""
+    return tuple(comparison_of(row) for listing in LISTINGS for row in listing.rows())
+
+
+def comparison_of(row: Listed) -> Comparison:
+    """Return a listed number beside this program's own."""
+    numbers = row.quantity, row.lens, row.listed, row.unit, row.tolerance, row.why, row.source, "program"
+    figure = Published(*numbers, group=f"{row.lens}: {row.group}", explained=row.explained, within=row.within)
+    return Comparison(figure, row.ours)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Rows that are told together: how many there are, agree and are explained, and the largest use of a tolerance.
+
+    ``worst``: the largest difference over its tolerance among those that agree.
+    """
+
+    name: str
+    source: str
+    rows: int
+    agree: int
+    explained: int
+    worst: float
+
+    @property
+    def verdict(self) -> str:
+        """Return `AGREES`, `EXPLAINED` where some of the rows are, or `DIFFERS`."""
+        if self.agree + self.explained < self.rows:
+            return DIFFERS
+        return EXPLAINED if self.explained else AGREES
+
+
+def groups(rows: tuple[Comparison, ...]) -> tuple[Group, ...]:
+    """Return the groups of the listed rows, in their order."""
+    found: dict[str, list[Comparison]] = {}
+    for row in rows:
+        if row.published.group:
+            found.setdefault(row.published.group, []).append(row)
+    return tuple(_group(name, some) for name, some in found.items())
+
+
+def _group(name: str, rows: list[Comparison]) -> Group:
+    verdicts = [row.verdict for row in rows]
+    shares = [_share(row) for row in rows if row.verdict == AGREES]
+    counts = len(rows), verdicts.count(AGREES), verdicts.count(EXPLAINED)
+    return Group(name, rows[0].published.source, *counts, max(shares, default=0.0))
+
+
+def _share(row: Comparison) -> float:
+    """Return how much of its tolerance a difference takes."""
+    return abs(row.difference or 0.0) / (row.published.tolerance or 1.0)
+
+
+GROUP_COLUMNS = ("listing", "source", "rows", "agree", "explained", "most of a tolerance", "verdict")
+
+
+def group_lines(found: tuple[Group, ...]) -> list[tuple[str, ...]]:
+    """Return the groups in words, a line each, as `GROUP_COLUMNS` names them."""
+    return [
+        (one.name, one.source, f"{one.rows}", f"{one.agree}", f"{one.explained}", f"{one.worst:.0%}", one.verdict)
+        for one in found
+    ]
+
+
+def explanations(rows: tuple[Comparison, ...]) -> dict[str, int]:
+    """Return each explanation of a difference → how many rows it stands for."""
+    found: dict[str, int] = {}
+    for row in rows:
+        if row.verdict == EXPLAINED:
+            found[row.published.explained] = found.get(row.published.explained, 0) + 1
+    return found
 
 
 def lens_of(figure: Published) -> Lens:
@@ -248,9 +334,19 @@ def _format_figure(value: float, figure: Published) -> str:
 
 
 def markdown(rows: tuple[Comparison, ...]) -> str:
-    """Return the table as the handbook has it: without differences, which round-off changes from machine to machine."""
-    shown = [k for k, name in enumerate(COLUMNS) if name != "difference"]
-    cells = [COLUMNS, ("---",) * len(COLUMNS), *lines(rows)]
+    """Return single figures as the handbook has them: without differences, which round-off changes by the machine."""
+    single = tuple(row for row in rows if not row.published.group)
+    return _markdown(COLUMNS, lines(single), "difference")
+
+
+def markdown_of_groups(rows: tuple[Comparison, ...]) -> str:
+    """Return the groups as the handbook has them, without what round-off changes from machine to machine."""
+    return _markdown(GROUP_COLUMNS, group_lines(groups(rows)), "most of a tolerance")
+
+
+def _markdown(columns: tuple[str, ...], told: list[tuple[str, ...]], left_out: str) -> str:
+    shown = [k for k, name in enumerate(columns) if name != left_out]
+    cells = [columns, ("---",) * len(columns), *told]
     return "".join("| " + " | ".join(line[k] for k in shown) + " |\n" for line in cells)
 
 

@@ -20,6 +20,7 @@ from p2sf.paraxial.pupils import (
     numerical_aperture,
     paraxial_rays,
     pupils,
+    rim_radii,
     stop_rim,
     working_f_number,
 )
@@ -204,3 +205,10 @@ def test_the_relay_inverts_its_object_and_both_pupils_are_inverted_as_its_title_
     assert float(rays.chief_y[-1] + rays.chief_nu[-1] * lens.sensor_mm) == pytest.approx(1.0, abs=1e-12)
     assert pupils(lens, lens.reference_wavelength_um).upright == -1
     assert "inverted pupils" in lens.title and "image inverted" in lens.character
+
+
+def test_rims_of_whole_numbers_take_an_infinite_stop():
+    lens = Lens(
+        (Surface(50.0, 5.0, ConstantIndex(1.5), semi_diameter=10), Surface(semi_diameter=9)), Aperture("f_number", 8)
+    )
+    assert rim_radii(lens, 1, inf).tolist() == [inf, 9.0]
