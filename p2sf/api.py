@@ -40,7 +40,8 @@ def load_lens(name_or_path: Path) -> Lens:
     ----------
     name_or_path : str or path
         The name of a shipped lens, such as "double_gauss_28" (``p2sf lenses`` lists them), or a file of P2SF (TOML),
-        Zemax, CODE V, OSLO, ray-optics, ISET or the Optical Bench, or a CSV table; the content decides which.
+        Zemax, CODE V, OSLO, ray-optics, ray-optics-web, Optiland, DeepLens, ISET, the Optical Bench or a renderer, a
+        patent's prescription or a CSV table; the content decides which.
 
     Returns
     -------

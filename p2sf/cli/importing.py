@@ -30,7 +30,7 @@ def import_(
     whole_folder: Whole = False,
     as_json: Json = False,
 ) -> None:
-    """Read a lens of Zemax, CODE V, OSLO, ray-optics, ISET, Optical Bench or CSV; write .toml, .zmx, .seq or .json."""
+    """Read a lens of Zemax, CODE V, OSLO, ray-optics, Optiland, DeepLens … or CSV; write .toml, .zmx, .seq or .json."""
     if whole_folder:
         if output is not None:
             raise RequestError("{parameter} is for one lens, not for the list of a folder", parameter="output")

@@ -16,7 +16,7 @@ from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number
 
 # Endings of lens files only; other files are lenses where they bear a format's mark.
-CERTAIN = (".zmx", ".seq", ".roa", ".len")
+CERTAIN = (".zmx", ".seq", ".roa", ".len", ".fx")
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from p2sf.errors import LensFileError
 
 # A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
 LARGEST_BYTES = 4_000_000
-LENSES = (".zmx", ".seq", ".len", ".roa", ".json", ".txt")
+LENSES = (".zmx", ".seq", ".len", ".roa", ".fx", ".json", ".txt")
 CATALOGUE = ".agf"
 MOST_CATALOGUES = 50
 DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError, ValueError)

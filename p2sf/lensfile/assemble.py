@@ -18,6 +18,7 @@ from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import CATALOGUE_AIR, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
+from p2sf.lensfile.stated import compare, in_remarks
 from p2sf.messages import Message
 
 HIGHEST_ORDER = 40
@@ -57,6 +58,8 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     if not raw.sensor_stated:
         lens = _with_line(lambda: _at_paraxial_focus(lens, raw, notes), raw, source, None)
     _read_notes(lens, raw, notes)
+    own = {each.kind for each in raw.stated}
+    compare([*raw.stated, *(each for each in in_remarks(source) if each.kind not in own)], lens, notes)
     _note_vignetting(lens, raw, notes)
     lens = _with_curved_sensor(lens, raw, notes)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)

@@ -11,10 +11,15 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.agf import Catalogue, read_agf, read_agf_text
 from p2sf.lensfile.formats.codev import read_codev
 from p2sf.lensfile.formats.csv_table import read_table
+from p2sf.lensfile.formats.deeplens import read_deeplens
+from p2sf.lensfile.formats.fx import read_fx
 from p2sf.lensfile.formats.iset import read_iset_dat, read_iset_json
 from p2sf.lensfile.formats.optical_bench import read_optical_bench
+from p2sf.lensfile.formats.optiland import read_optiland
 from p2sf.lensfile.formats.oslo import read_oslo
+from p2sf.lensfile.formats.patent import read_patent
 from p2sf.lensfile.formats.ray_optics import read_ray_optics
+from p2sf.lensfile.formats.ray_optics_web import read_ray_optics_web
 from p2sf.lensfile.formats.zemax import read_zemax
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.report import ImportReport, Notebook
@@ -49,9 +54,22 @@ def _pattern(text: str) -> re.Pattern[str]:
     return re.compile(text, re.IGNORECASE | re.MULTILINE)
 
 
+def _json(keys: str) -> re.Pattern[str]:
+    """Return the mark of a JSON object with one of these keys."""
+    return re.compile(rf'\A\s*\{{(?s:.*?)"(?:{keys})"\s*:')
+
+
+# The head of crayg's sections, or a row of an iris.
+FX = r"^\s*\[(elements|surfaces)\]|^\s*[-+.\deE]+[ \t]+[-+.\deE/ \t]+[ \t]iris\b"
+JSON_ENDINGS = (".json", ".roa")
 FORMATS = (
     Format("ray-optics model", re.compile(r'\A\s*\{\s*"optical_model"\s*:'), ".roa", read_ray_optics),
-    Format("ISET lens (JSON)", re.compile(r"\A\s*\{"), ".json", read_iset_json),
+    Format("ray-optics-web (JSON)", _json("curvatureRadius"), ".json", read_ray_optics_web),
+    Format("Optiland (JSON)", _json("surface_group"), ".json", read_optiland),
+    Format("DeepLens (JSON)", _json("d_next|mat2|d_sensor"), ".json", read_deeplens),
+    Format("patent prescription (JSON)", _json("radius_mm"), ".json", read_patent),
+    Format("ISET lens (JSON)", _json("surfaces|surfaceArray"), ".json", read_iset_json),
+    Format("renderer's lens (.fx)", _pattern(FX), ".fx", read_fx),
     Format("Optical Bench text", _pattern(r"^\s*\[lens data\]"), ".txt", read_optical_bench),
     Format("P2SF lens (TOML)", _pattern(r"^\s*\[\[\s*surface\s*\]\]"), ".toml", _read_toml),
     Format("Zemax", _pattern(r"^\s*SURF\s+\d+\s*$"), ".zmx", read_zemax),
@@ -100,7 +118,12 @@ def recognise(source: LensText) -> Format:
         return by_ending[ending]
     if ending == ".agf" or re.search(r"^NM \S+ \d+", source.text, re.MULTILINE):
         raise source.error("this is a glass catalogue, not a lens; give it beside a lens file", 1)
-    marked = next((known for known in FORMATS if known.mark.search(source.text)), None)
+    is_json = re.match(r"\s*(\{\s*[\"}]|\[\s*[\"{\d])", source.text)
+    kinds = [known for known in FORMATS if not is_json or known.ending in JSON_ENDINGS]
+    marked = next((known for known in kinds if known.mark.search(source.text)), None)
+    if is_json and marked is None:
+        names = tuple(known.name for known in kinds)
+        raise source.error("this JSON is a lens of none of the known kinds: {formats}", 1, formats=names)
     if marked or ending in by_ending:
         return marked or by_ending[ending]
     raise source.error(

@@ -14,6 +14,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Shape
 from p2sf.lensfile.source_text import LensText
+from p2sf.lensfile.stated import Stated, StatedKind
 from p2sf.messages import Message
 from p2sf.pupil.mask import CLEAR, PupilMask
 
@@ -119,6 +120,11 @@ class RawLens:
     sensor_stated: bool = True
     image: RawSurface | None = None
     sensor_before: tuple[Placement, ...] = ()
+    stated: list[Stated] = field(default_factory=list)
+
+    def state(self, kind: StatedKind, value: float, line: int) -> None:
+        """Take note of a number that the file states of the whole lens, in mm or degrees."""
+        self.stated.append(Stated(kind, value, line))
 
     def apodise(self, exponent: float, source: LensText, line: int) -> None:
         """Let the amplitude fall as exp(−exponent·ρ²) over the pupil; LensFileError where that is impossible."""

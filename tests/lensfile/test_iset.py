@@ -77,7 +77,7 @@ def test_a_plane_inside_glass_is_no_stop():
 
 REFUSED = {
     "not JSON": ((' "ior": 1.691, "semi', ' "ior": [1.691 2], "semi'), "this is not JSON"),
-    "no surfaces": (('"surfaces"', '"faces"'), "no list of surfaces"),
+    "no surfaces": (('"surfaces": [', '"surfaces": {}, "faces": ['), "no list of surfaces"),
     "no radius": (('"radius": 86.759, ', ""), "surface 8: radius is None"),
     "a text": (('"radius": 86.759', '"radius": "big"'), "surface 8: radius is big"),
     "two radii": (('"radius": 86.759', '"radius": [86, 87]'), "surface 8: radius differs between x and y"),

@@ -95,7 +95,7 @@ TABLE_REFUSED = {
     "two stops": (("10,,,", "10,,,x"), "surfaces 1 and 2 both are the stop"),
     "an unknown glass": (("N-BK7", "N-BOK7"), 'glass "N-BOK7" of SCHOTT is in no catalogue'),
     "a power too high": (("A4", "A50"), 'column "a50" is unknown'),
-    "a word": (("47.5", "far"), 'thickness "far" is not a number'),
+    "a word": (("47.5", "far"), 'distance "far" has no value'),
     "no stop, no aperture": (("# f_number: 8\n", "# f_number: -8\n"), "the aperture is -8"),
 }
 

@@ -15,9 +15,10 @@ from p2sf_explorer.state.state_files import SCHEMA, read_state
 
 SNAPSHOTS = "*.png *.npz *.tiff *.fits *.csv"
 KINDS = (
-    f"Lenses, states, snapshots (*.toml *.zmx *.zar *.zip *.seq *.len *.roa *.json *.dat *.txt {SNAPSHOTS});;"
+    f"Lenses, states, snapshots (*.toml *.zmx *.zar *.zip *.seq *.len *.roa *.fx *.json *.dat *.txt {SNAPSHOTS});;"
     "P2SF lens (*.toml);;Zemax (*.zmx *.zar *.zip);;CODE V (*.seq);;OSLO (*.len);;ray-optics (*.roa);;"
-    "ISET lens, or a state (*.json *.dat);;Optical Bench or table (*.txt *.csv);;"
+    "ISET, Optiland, DeepLens or patent lens, or a state (*.json *.dat);;"
+    "Renderer's lens (*.fx);;Optical Bench or table (*.txt *.csv);;"
     f"Snapshot ({SNAPSHOTS});;All files (*)"
 )
 HEAD = 4096  # a state names its schema in its first lines

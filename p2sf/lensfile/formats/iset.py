@@ -4,16 +4,15 @@ Lengths are mm. ``ior`` is the index behind a surface: a number, or [[nm …], [
 stop where ior is 0 or the name says so, elsewhere a plane. A stop has the same medium on both sides.
 """
 
-import json
 import re
 from math import inf
-from typing import Any
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.media import measured_index
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
+from p2sf.lensfile.formats.json_parts import parse_json
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
@@ -37,7 +36,7 @@ KEYS = (
 
 def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of an ISET .json file; LensFileError with its line for what is missing or not centred."""
-    top = _parse(source)
+    top = parse_json(source)
     if not isinstance(top, dict) or not isinstance(top.get("surfaces"), list):
         older = isinstance(top, dict) and "surfaceArray" in top
         remedy = (
@@ -79,17 +78,6 @@ def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> L
         _add(raw, surface, _is_stop(values), notes, source)
     notes.add("read", "the fourth column as the rim's diameter")
     return _finish(raw, sources, notes, source)
-
-
-def _parse(source: LensText) -> Any:
-    try:
-        return json.loads(source.text)
-    except json.JSONDecodeError as failure:
-        raise source.error(
-            "this is not JSON ({reason}); correct the line", failure.lineno, reason=failure.msg
-        ) from failure
-    except (RecursionError, ValueError) as failure:
-        raise source.error("lists are nested too deep or a number is too long; this is not a lens file", 1) from failure
 
 
 def _text(values: dict, key: str) -> str:

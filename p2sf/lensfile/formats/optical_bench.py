@@ -9,13 +9,11 @@ import re
 from dataclasses import dataclass, field
 from math import inf
 
-from p2sf.errors import GlassError
-from p2sf.glass.media import Medium
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.agf import nd_and_vd
 from p2sf.lensfile.configurations import Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
-from p2sf.lensfile.glass_lookup import GlassSources, Resolution, nd_of, resolve
+from p2sf.lensfile.formats.glass_rows import glass_of_row
+from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
@@ -23,7 +21,6 @@ from p2sf.messages import Message
 
 PLANES = ("AS", "CG", "FS", "INFINITY", "INF", "0", "PLANO")
 FIELD_FRACTIONS = (0.0, 0.7, 1.0)
-SAME_ND, SAME_VD = 2e-5, 5e-3  # what melts and old data sheets of one glass differ by; vd as a share
 
 
 @dataclass
@@ -183,36 +180,10 @@ def _glass(reading: BenchReading, words: list[str], surface: RawSurface, line: i
     """Return the medium: the named glass if it is found exactly and is what nd and vd of the row say, else these."""
     if not words[3]:
         return None
-    nd = number(words[3], "nd", reading.source, line)
+    number(words[3], "nd", reading.source, line)
     vd = number(words[5], "vd", reading.source, line) if words[5] else 0.0
-    stated = RawGlass(model=(nd, vd), line=line) if vd else RawGlass(index=nd, line=line)
-    if not words[6]:
-        return stated
-    named = _exactly(RawGlass(words[6], tuple(words[7].upper().split()), line=line), reading.sources)
-    if named and _agrees(named.medium, words[3], nd, vd):
-        return RawGlass(medium=named.medium, line=line)
-    name, values = words[6][:30], {"nd": nd, "vd": vd}
-    if named:
-        told = "glass {name} is {own:.5f} at d; nd {nd:g} and vd {vd:g} of the same row are taken"
-        reading.notes.add("caution", told, surface.number, line, name=name, own=nd_of(named.medium), **values)
-    else:
-        told = "glass {name} is not known by name; its nd {nd:g} and vd {vd:g} of the same row are taken"
-        reading.notes.add("read", told, surface.number, line, name=name, **values)
-    return stated
-
-
-def _agrees(medium: Medium, written: str, nd: float, vd: float) -> bool:
-    """Return whether a glass has nd to the digits that are written, and vd, where there is one, to `SAME_VD`."""
-    own_nd, own_vd = nd_and_vd(medium)
-    rounding = 0.5 * 10.0 ** -len(written.partition(".")[2])
-    return abs(own_nd - nd) <= max(rounding, SAME_ND) and (not vd or abs(own_vd / vd - 1) <= SAME_VD)
-
-
-def _exactly(glass: RawGlass, sources: GlassSources) -> Resolution | None:
-    try:
-        return resolve(glass, GlassSources(sources.catalogues, sources.private, accept_substitutes=False))
-    except GlassError:
-        return None
+    named = RawGlass(words[6], tuple(words[7].upper().split()), line=line)
+    return glass_of_row(named, words[3], vd, surface, reading.sources, reading.notes)
 
 
 def _asphere(reading: BenchReading, words: list[str], line: int) -> None:
@@ -249,6 +220,9 @@ def _finish(reading: BenchReading) -> None:
     if angle:
         raw.field_line = reading.variables["angle of view"][1]
         raw.fields = [(0.0, fraction * angle / 2) for fraction in FIELD_FRACTIONS]
+    focal = _value(reading, "focal length")
+    if focal:
+        raw.state("focal_length", focal, reading.variables["focal length"][1])
     if raw.surfaces and not raw.surfaces[-1].thickness:
         back = _value(reading, "bf")
         raw.surfaces[-1].thickness = back or 0.0

@@ -26,7 +26,7 @@ REFUSED = {
     **dict.fromkeys("DCX DCY DCZ TLA TLB TLC TOX TOY TOZ GC GCD BEN RCO RCD".split(), TILTS),
     **dict.fromkeys("ASP ASI ASX ASR CVX RDX SPL".split(), SHAPES),
     **dict.fromkeys("GSP GOR DOE".split(), Message("diffracts")),
-    **dict.fromkeys("PFL".split(), Message("is an ideal lens without a prescription")),
+    **dict.fromkeys("PFM".split(), Message("is an ideal lens for one magnification")),
     **dict.fromkeys("LMO".split(), Message("is a lens module that hides its surfaces")),
 }
 HARMLESS = {
@@ -46,6 +46,7 @@ class OsloReading:
     surfaces: list[RawSurface] = field(default_factory=lambda: [RawSurface(0, 1)])
     stated: set[int] = field(default_factory=set)  # surfaces whose thickness the file states
     object_height: float | None = None
+    focal_length: tuple[float, int] | None = None  # in the file's unit, which comes later
     models: dict[int, tuple[str, list[float]]] = field(default_factory=dict)
     line: int = 0
 
@@ -65,9 +66,10 @@ def read_oslo(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .len file; LensFileError with its line for tilts, gratings and shapes not known."""
     reading = OsloReading(source, notes)
     for reading.line, text in enumerate(source.lines, 1):
-        words = re.findall(r'"[^"]*"|\S+', text.split("//")[0])
-        if words:
-            _command(reading, words)
+        for command in re.findall(r'(?:"[^"]*"|[^;"])+', text.split("//")[0]):
+            words = re.findall(r'"[^"]*"|\S+', command)
+            if words:
+                _command(reading, words)
     _finish(reading)
     return assemble(reading.raw, sources, notes, source)
 
@@ -104,7 +106,7 @@ def _command(reading: OsloReading, words: list[str]) -> None:
         reading.notes.add("ignored", known) if known else reading.notes.add_unknown(name, reading.line)
 
 
-ON_SURFACE = ("RD", "CV", "TH", "CC", "AP", "LN")
+ON_SURFACE = ("RD", "CV", "TH", "CC", "AP", "LN", "PFL")
 SYSTEM = ("LEN", "UNI", "EBR", "FNO", "NAO", "ANG", "OBH", "END")
 
 
@@ -114,6 +116,8 @@ def _on_surface(reading: OsloReading, name: str, value: float) -> None:
         surface.curvature = 1 / value if value else 0.0
     elif name == "CV":
         surface.curvature = value
+    elif name == "PFL":
+        surface.ideal_focal_length = value
     elif name == "TH":
         reading.stated.add(surface.number)
         surface.thickness = value
@@ -163,6 +167,7 @@ def _system(reading: OsloReading, name: str, words: list[str]) -> None:
     if name == "LEN":
         title = next((word for word in words if word.startswith('"')), '""')
         raw.title = " ".join(title.strip('"').split())[:200]
+        _state_focal_length(reading, words)
     elif name == "UNI":
         raw.unit_mm = reading.value(words)
         if not 1e-3 <= raw.unit_mm <= 1e6:
@@ -175,6 +180,13 @@ def _system(reading: OsloReading, name: str, words: list[str]) -> None:
         raw.field_line, value = reading.line, abs(reading.value(words))
         reading.object_height = value if name == "OBH" else None
         raw.fields = [(0.0, share * value) for share in (0.0, 0.7, 1.0)] if value else [(0.0, 0.0)]
+
+
+def _state_focal_length(reading: OsloReading, words: list[str]) -> None:
+    """Take the focal length of LEN NEW "title" focal-length surfaces, which OSLO writes before it reads the unit."""
+    numbers = [float(word) for word in words if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", word)]
+    if len(numbers) > 1 and 0 < abs(numbers[0]) < FAR:
+        reading.focal_length = numbers[0], reading.line
 
 
 def _finish(reading: OsloReading) -> None:
@@ -190,6 +202,8 @@ def _finish(reading: OsloReading) -> None:
         _angles(reading, raw)
     raw.surfaces[-1].thickness += image.thickness  # defocus
     raw.image = image
+    if reading.focal_length:
+        raw.state("focal_length", reading.focal_length[0] * raw.unit_mm, reading.focal_length[1])
     raw.sensor_stated = raw.surfaces[-1].number in reading.stated
     check_stop(raw, reading.source, image.line)
     if raw.stop is None:

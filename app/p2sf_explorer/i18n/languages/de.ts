@@ -1313,7 +1313,6 @@
 <message><source>irregularity, surface {where}</source><translation>Passfehler, Fläche {where}</translation></message>
 <message><source>is a Fresnel surface</source><translation>ist eine Fresnel-Fläche</translation></message>
 <message><source>is a lens module that hides its surfaces</source><translation>ist ein Linsenmodul, das seine Flächen verbirgt</translation></message>
-<message><source>is an ideal lens without a prescription</source><translation>ist eine ideale Linse ohne Konstruktionsdaten</translation></message>
 <message><source>is followed by a gradient index</source><translation>wird von einem Gradientenindex gefolgt</translation></message>
 <message><source>is stopped by the rim of surface {surface}</source><translation>wird vom Rand der Fläche {surface} aufgehalten</translation></message>
 <message><source>is tilted or decentred</source><translation>ist gekippt oder dezentriert</translation></message>
@@ -1462,7 +1461,7 @@
 <message><source>only some columns of the lens have {name}; give it to all of them or to none</source><translation>nur manche Spalten des Objektivs haben {name}; allen oder keiner geben</translation></message>
 <message><source>only {count} fields have a focus, but a plane needs three; choose smaller fields</source><translation>{count} Felder haben einen Fokus, und eine Ebene braucht drei; kleinere Felder wählen</translation></message>
 <message><source>only {share:.0%} of the light lies in the window; take a larger one</source><translation>nur {share:.0%} des Lichts liegen im Fenster; ein größeres nehmen</translation></message>
-<message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json und .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
+<message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, .json of ISET, Optiland, DeepLens, ray-optics-web and of patents, .fx of renderers, ISET .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, .json von ISET, Optiland, DeepLens, ray-optics-web und von Patenten, .fx von Renderern, ISET .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
 <message><source>order or wavelength of a phase</source><translation>Ordnung oder Wellenlänge einer Phase</translation></message>
 <message><source>other wavefronts explain the pictures as well: {count}; add a focus</source><translation>andere Wellenfronten erklären die Bilder ebenso gut: {count}; einen Fokus hinzufügen</translation></message>
@@ -2133,6 +2132,43 @@
 <message><source>{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd</source><translation>{glass} steht in keinem Katalog; seinen AGF-Katalog angeben oder seinen Index als nd und vd</translation></message>
 <message><source>{glass} (nd {nd:.5f})</source><translation>{glass} (nd {nd:.5f})</translation></message>
 <message><source>glass {name} is sold with different indices, and the file does not say by whom; {taken} is taken, from which {other} differs by {f_line:+.5f}, {d_line:+.5f}, {c_line:+.5f} at F, d and C</source><translation>Das Glas {name} wird mit verschiedenen Indizes verkauft, und die Datei sagt nicht, von wem; genommen ist {taken}, von dem {other} bei F, d und C um {f_line:+.5f}, {d_line:+.5f}, {c_line:+.5f} abweicht</translation></message>
+<message><source>"{name}" is not an object; correct it</source><translation>„{name}“ ist kein Objekt; berichtigen</translation></message>
+<message><source>Abbe number</source><translation>Abbe-Zahl</translation></message>
+<message><source>a lens lists its "{name}"; add them</source><translation>ein Objektiv führt „{name}“ auf; ergänzen</translation></message>
+<message><source>a row needs radius, thickness, index and housing radius; complete it</source><translation>eine Zeile braucht Radius, Dicke, Index und Fassungsradius; ergänzen</translation></message>
+<message><source>a row needs radius, thickness, material and housing radius; complete it</source><translation>eine Zeile braucht Radius, Dicke, Material und Fassungsradius; ergänzen</translation></message>
+<message><source>a row of glass needs its name, nd, vd and a housing radius; complete it</source><translation>eine Zeile mit Glas braucht dessen Namen, nd, vd und einen Fassungsradius; ergänzen</translation></message>
+<message><source>a wavelength is not a pair of nanometres and weight; correct it</source><translation>eine Wellenlänge ist kein Paar aus Nanometern und Gewicht; berichtigen</translation></message>
+<message><source>back focal length, mm</source><translation>Schnittweite, mm</translation></message>
+<message><source>focal length, mm</source><translation>Brennweite, mm</translation></message>
+<message><source>half field, °</source><translation>halbes Feld, °</translation></message>
+<message><source>is an ideal lens for one magnification</source><translation>ist eine ideale Linse für einen einzigen Abbildungsmaßstab</translation></message>
+<message><source>its rim is square; a round one of the same half-width is used instead</source><translation>ihr Rand ist quadratisch; stattdessen wird ein runder derselben halben Breite benutzt</translation></message>
+<message><source>normalization radius {radius:g} is not positive; correct it</source><translation>Normierungsradius {radius:g} ist nicht positiv; berichtigen</translation></message>
+<message><source>row</source><translation>Zeile</translation></message>
+<message><source>scale</source><translation>Maßstab</translation></message>
+<message><source>surface {surface} diffracts, which is not read of this format</source><translation>Fläche {surface} beugt, was aus diesem Format nicht gelesen wird</translation></message>
+<message><source>surface {surface} has a material of type {kind}, which is not read</source><translation>Fläche {surface} hat ein Material der Art {kind}, die nicht gelesen wird</translation></message>
+<message><source>surface {surface} has a rim of type {kind}, which is not read; give a round one</source><translation>Fläche {surface} hat einen Rand der Art {kind}, die nicht gelesen wird; einen runden angeben</translation></message>
+<message><source>surface {surface} has an infinite thickness; give a finite one</source><translation>Fläche {surface} hat eine unendliche Dicke; eine endliche angeben</translation></message>
+<message><source>surface {surface} has type {kind}, which is not read</source><translation>Fläche {surface} ist von der Art {kind}, die nicht gelesen wird</translation></message>
+<message><source>surface {surface} has type {kind}, which is not read; only {known} are</source><translation>Fläche {surface} ist von der Art {kind}, die nicht gelesen wird; nur {known} werden gelesen</translation></message>
+<message><source>surface {surface} is tilted by {kind}, which is not read; only {known} are</source><translation>Fläche {surface} ist durch {kind} gekippt, was nicht gelesen wird; nur {known} werden gelesen</translation></message>
+<message><source>surface {surface} is tilted or decentred (pos_xy, vec_local), which is not read; centre it</source><translation>Fläche {surface} ist gekippt oder dezentriert (pos_xy, vec_local), was nicht gelesen wird; zentrieren</translation></message>
+<message><source>surface {surface} is tilted or decentred, which is not read of this format; centre it</source><translation>Fläche {surface} ist gekippt oder dezentriert, was aus diesem Format nicht gelesen wird; zentrieren</translation></message>
+<message><source>surface {surface}: {error}</source><translation>Fläche {surface}: {error}</translation></message>
+<message><source>surface {surface}: {name}</source><translation>Fläche {surface}: {name}</translation></message>
+<message><source>surface {surface}: {name} is not a list of numbers; correct it</source><translation>Fläche {surface}: {name} ist keine Liste von Zahlen; berichtigen</translation></message>
+<message><source>the aperture is of type {kind}, which is not read</source><translation>die Öffnung ist von der Art {kind}, die nicht gelesen wird</translation></message>
+<message><source>the fields are of type {kind}, which is not read</source><translation>die Felder sind von der Art {kind}, die nicht gelesen wird</translation></message>
+<message><source>the picture is squeezed by {factor}, which is left out</source><translation>das Bild ist um {factor} gestaucht, was weggelassen ist</translation></message>
+<message><source>this JSON is a lens of none of the known kinds: {formats}</source><translation>dieses JSON ist kein Objektiv einer bekannten Art: {formats}</translation></message>
+<message><source>this JSON is a list and no lens; give one with surfaces</source><translation>dieses JSON ist eine Liste und kein Objektiv; eines mit Flächen angeben</translation></message>
+<message><source>track from the first surface to the sensor, mm</source><translation>Baulänge von der ersten Fläche bis zum Sensor, mm</translation></message>
+<message><source>{count} surfaces have radius 0; {number} is the stop</source><translation>{count} Flächen haben den Radius 0; {number} ist die Blende</translation></message>
+<message><source>{name} is {found}; write a number</source><translation>{name} ist {found}; eine Zahl schreiben</translation></message>
+<message><source>{surface} has type {kind}, which is not read; only {known} are</source><translation>{surface} ist von der Art {kind}, die nicht gelesen wird; nur {known} werden gelesen</translation></message>
+<message><source>{what}: the file states {stated:.6g}, its surfaces give {found:.6g} ({off:+.2%})</source><translation>{what}: die Datei nennt {stated:.6g}, ihre Flächen ergeben {found:.6g} ({off:+.2%})</translation></message>
 <message><source>{glass} replaced by {substitute}; the file does not tell the index it wants</source><translation>{glass} ersetzt durch {substitute}; die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>{glass} shares its name with another maker's glass of this lens; save as TOML</source><translation>{glass} heißt wie das Glas eines anderen Herstellers in diesem Objektiv; als TOML speichern</translation></message>
 <message><source>{keyword} is of number {number}, which does not exist; correct it</source><translation>{keyword} betrifft Nummer {number}, die es nicht gibt; berichtigen</translation></message>

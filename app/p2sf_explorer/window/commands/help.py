@@ -17,7 +17,8 @@ MOUSE_AND_KEYS = (
     ("wheel, drag, double-click", "zoom, pan or see the whole of the plot under the pointer; also + −, arrows, Home"),
     ("click or P, L", "pin a marker to a plot; lock its scales"),
     ("Tab, Shift+Tab", "to the next or the previous control"),
-    ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, ISET .json and .dat, "
+    ("drop a file", "open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, .json of ISET, "
+     "Optiland, DeepLens, ray-optics-web and of patents, .fx of renderers, ISET .dat, "
      "Optical Bench .txt, .csv with named columns, .toml, or a saved state"),
 )  # fmt: skip
 POINT = "Typed numbers may have a decimal point or a decimal comma; files and the command line take a decimal point."
