@@ -16,8 +16,8 @@ def folder(tmp_path):
     (tmp_path / "deeper").mkdir()
     shutil.copy(FOLDER / "doublet.seq", tmp_path / "deeper" / "b.seq")
     shutil.copy(FOLDER / "mirrors.roa", tmp_path / "c.roa")
-    toroid = text_of("doublet.zmx").replace("TYPE EVENASPH", "TYPE TOROIDAL")
-    (tmp_path / "a.zmx").write_text(toroid, encoding="utf-8")
+    gradient = text_of("doublet.zmx").replace("TYPE EVENASPH", "TYPE GRINSUR1")
+    (tmp_path / "a.zmx").write_text(gradient, encoding="utf-8")
     (tmp_path / "notes.txt").write_text("no lens", encoding="utf-8")
     (tmp_path / "settings.json").write_text("[1, 2]", encoding="utf-8")
     (tmp_path / "broken.len").write_text("nothing", encoding="utf-8")
@@ -42,14 +42,14 @@ def test_every_lens_file_has_its_verdict(capsys, folder):
     assert rows["deeper/b.seq"]["notes"] > 0 and rows["deeper/b.seq"]["reason"] is None
     refused = rows["a.zmx"]
     assert (refused["opens"], refused["format"], refused["surface"]) == (False, "Zemax", 3)
-    assert refused["line"] and refused["reason"].startswith("surface 3 has type TOROIDAL")
+    assert refused["line"] and refused["reason"].startswith("surface 3 has type GRINSUR1")
     assert rows["broken.len"]["reason"] and not rows["broken.len"]["opens"]
 
 
 def test_the_table_counts_and_says_why(capsys, folder):
     code, out, _ = listed(capsys, folder)
     assert code == 0 and f"{folder}: 2 of 4 lens files open" in out.replace("\n", "")
-    assert "surface 3 has type TOROIDAL" in out and "ray-optics model" in out
+    assert "surface 3 has type GRINSUR1" in out and "ray-optics model" in out
 
 
 def test_glasses_of_a_catalogue_and_substitutes_count(capsys, folder):

@@ -70,9 +70,10 @@ def test_zmx_is_the_same_lens_to_this_reader(name, tmp_path):
     assert abcd(again, wave) == pytest.approx(abcd(lens, wave), rel=1e-13, abs=1e-13)
     assert stop_rim(again) == pytest.approx(stop_rim(lens), rel=1e-12)
     assert int(find_stop(again).surface) == int(find_stop(lens).surface)
+    if any(surface.before or surface.after for surface in lens.surfaces):
+        return  # a break is a surface of its own in Zemax
     for new, old in zip(again.surfaces, lens.surfaces, strict=True):
-        assert (new.conic, new.aspheric) == (old.conic, old.aspheric)
-        assert new.thickness == old.thickness or any(s.before or s.after for s in lens.surfaces)  # a break has it then
+        assert (new.conic, new.aspheric, new.thickness) == (old.conic, old.aspheric, old.thickness)
 
 
 SHAPED = {
