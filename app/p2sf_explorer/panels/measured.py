@@ -44,13 +44,16 @@ from p2sf_explorer.compute.views.measured import (
     point_rows,
     whole_rows,
     with_file_date,
+    write_sample,
 )
+from p2sf_explorer.files.recent import recent_path
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.drop import MeasuredDrop
+from p2sf_explorer.widgets.empty_state import EmptyState
 from p2sf_explorer.widgets.plan_note import small_button
 from p2sf_explorer.widgets.readout import FactTable, in_scroll_area
 from p2sf_explorer.widgets.tiles import TilesChart, tile
@@ -63,7 +66,9 @@ TIP = (
 )
 PICTURES = "Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)"
 BUILT = "P2SF lens (*.toml);;PSF database (*.npz)"
-EMPTY = "Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF."
+EMPTY = "Drop a picture of points here"
+EMPTY_WORDS = "A screen of bright points, stars, or a PSF: the panel finds the wavefront behind each of them."
+SAMPLE_TIP = "Measure six points through this lens whose sensor stands 60 µm too far; the panel finds that"
 HEADS = ("x, mm", "y, mm", "R²", "χ²", "not used because")
 STOPPED = "stopped; choose the picture again to measure it"
 ENCODINGS = (("automatic", "automatic"), ("srgb", "sRGB"), ("linear", "linear"))
@@ -128,7 +133,11 @@ class MeasuredPanel:
             (self.pixel, self.encoding, self.beside, self.sharpen),
         ):
             column.addLayout(_row(parts))
+        self.choose = small_button("Picture…", "Choose a picture of points to measure", self._ask_picture)
+        self.sample = small_button("Try a sample", SAMPLE_TIP, self.try_sample)
+        self.empty = EmptyState(tr(EMPTY), tr(EMPTY_WORDS), (self.choose, self.sample))
         column.addWidget(self.body, 1)
+        column.addWidget(self.empty, 1)
         self.widget.set_body(whole)
         self.note.setObjectName("muted")
         self.note.setWordWrap(True)
@@ -162,6 +171,19 @@ class MeasuredPanel:
         self._request = None
         self._store.update(measured_picture=path)
         self._measure()
+
+    def try_sample(self) -> None:
+        """Measure points through the lens on screen, or say why it has no such picture."""
+        path = recent_path().with_name("sample_points.npy")
+        if self._asked is None:
+            return
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_sample(self._asked, path)
+        except P2SFError as error:
+            self._store.refused.emit(error)
+            return
+        self.open_picture(str(path))
 
     def _measure(self) -> None:
         asked = with_file_date(self._asked) if self._asked else None
@@ -212,8 +234,10 @@ class MeasuredPanel:
             button.setEnabled(found is not None and found.used > 0)
         for button in (self.built, self.sharpen):
             button.setEnabled(found is not None and has_lens_as_built(found))
-        instead = STOPPED if self._stopped else "measuring" if name else EMPTY
-        self.overlay.say(self._refusal or ("" if found else tr(instead)), 0)
+        self.empty.setVisible(not name)
+        self.body.setVisible(bool(name))
+        instead = STOPPED if self._stopped else "measuring"
+        self.overlay.say(self._refusal or ("" if found or not name else tr(instead)), 0)
         if working:
             name = progress or tr("measuring")
         elif found is not None:

@@ -101,6 +101,7 @@ class SolidPanel:
         self.process.errorOccurred.connect(lambda _: self._on_probed(probe.NO_CONTEXT))
         program, argument = probe.command()
         self.process.start(program, [argument])
+        QTimer.singleShot(0, load_renderer)  # while the other process asks for OpenGL
 
     def _on_probed(self, code: int, status: QProcess.ExitStatus = QProcess.ExitStatus.NormalExit) -> None:
         crashed = status == QProcess.ExitStatus.CrashExit
@@ -111,12 +112,11 @@ class SolidPanel:
             QTimer.singleShot(0, self._load)
 
     def _load(self) -> None:
-        try:
-            from p2sf_explorer.scene3d.renderer import Renderer
-        except ImportError:
+        make = load_renderer()
+        if make is None:
             self.view.say(tr(probe.sentence(probe.NO_LIBRARY)), final=True)
             return
-        self.renderer = Renderer(self.view.pixels())
+        self.renderer = make(self.view.pixels())
         self.view.set_renderer(self.renderer)
         self.save_button.setEnabled(True)
 
@@ -125,3 +125,12 @@ class SolidPanel:
         path, chosen = QFileDialog.getSaveFileName(self.widget, tr("Save the 3D view"), first, tr(FILES))
         if path:
             self.save(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+
+
+def load_renderer() -> "type[Renderer] | None":
+    """Return the class of the renderer, None where its libraries are not installed; importing takes half a second."""
+    try:
+        from p2sf_explorer.scene3d.renderer import Renderer
+    except ImportError:
+        return None
+    return Renderer

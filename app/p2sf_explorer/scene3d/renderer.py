@@ -31,11 +31,12 @@ VIEW_DEG = 16.0  # the camera's angle of view: small, so that lengths along the 
 MARGIN = 1.02  # of the distance at which the scene just fits
 SAMPLES = 8  # a pixel, for smooth edges
 SHARP_DEG = 30.0  # glass is shaded smoothly over flatter edges
-GLASS: dict[str, Any] = {"opacity": 0.42, "specular": 0.6, "specular_power": 30.0, "smooth_shading": True}
+GLASS: dict[str, Any] = {"opacity": 0.22, "specular": 0.8, "specular_power": 40.0, "smooth_shading": True}
+EDGE: dict[str, Any] = {"line_width": 1.4, "lighting": False, "opacity": 0.8}  # of glass: one sees into it all the same
 LOOKS: dict[str, dict[str, Any]] = {
     "stop": {},
-    "sensor": {},
-    "rays": {"line_width": 1.6, "lighting": False},
+    "sensor": {"opacity": 0.35},  # the spot is seen from behind too
+    "rays": {"line_width": 1.4, "lighting": False},
     "front": {"opacity": 0.85},
     "psf": {},
 }
@@ -82,6 +83,7 @@ class Renderer:
         if tuple(self._plotter.window_size) != size:
             self._plotter.window_size = list(size)
         self._window.SetMultiSamples(SAMPLES if smooth else 0)
+        self._plotter.renderer.SetUseFXAA(not smooth)  # one pass over the picture: rays are smooth in a drag too
 
     @property
     def _window(self) -> vtkRenderWindow:
@@ -124,8 +126,12 @@ class Renderer:
         self._drawn.clear()
         self._plotter.background_color = pyvista.Color(theme.card)
         for number, piece in enumerate(scene.glass):
-            mesh = _data(piece.mesh).compute_normals(feature_angle=SHARP_DEG, split_vertices=True)
+            solid = _data(piece.mesh)
+            mesh = solid.compute_normals(feature_angle=SHARP_DEG, split_vertices=True)
             self._add(f"glass {number}", mesh, color=theme.glass, **GLASS)
+            edges = solid.extract_feature_edges(SHARP_DEG, non_manifold_edges=False)
+            if edges.n_points:
+                self._add(f"edge {number}", edges, color=theme.glass_edge, **EDGE)
 
     def _put(self, name: str, mesh: Mesh | np.ndarray, colour: str | np.ndarray) -> None:
         """Move the mesh of this name, or the lines of rays, to new points; add it where there is none."""

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from PIL import Image
+from PySide6.QtCore import Qt
 
 from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
@@ -17,6 +18,7 @@ from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views import image
+from p2sf_explorer.compute.views.measured import SAMPLE_SHIFT_UM
 from p2sf_explorer.state.state import change
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
@@ -144,3 +146,16 @@ def test_what_is_no_picture_of_points_is_said(panel, window, qtbot, tmp_path):
     window.store.undo()
     assert window.store.state.measured.picture.endswith("noise.npy")
     qtbot.waitUntil(lambda: "o point rises above" in panel._refusal)
+
+
+@pytest.mark.slow
+def test_without_a_picture_a_sample_is_offered_and_its_sensor_found(panel, window, qtbot):
+    """Six points through the lens on screen, simulated with finer sums than a measurement takes."""
+    window.store.update(measured_picture="")
+    assert panel.empty.isVisibleTo(panel.widget) and not panel.body.isVisibleTo(panel.widget)
+    qtbot.mouseClick(panel.sample, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: panel._found is not None)
+    assert panel.body.isVisibleTo(panel.widget) and not panel.empty.isVisibleTo(panel.widget)
+    found = dict(zip((row[0] for row in panel.table.rows), panel.table.values, strict=True))["sensor shift"]
+    shift, error = map(float, found.removesuffix(" µm").split(" ± "))
+    assert abs(shift - SAMPLE_SHIFT_UM) <= 5 * error <= 15

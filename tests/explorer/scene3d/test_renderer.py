@@ -73,7 +73,9 @@ def test_the_scene_is_written_and_read_by_others(renderer, tmp_path):
     renderer.save(str(tmp_path / "lens.obj"))
     document = json.loads((tmp_path / "lens.gltf").read_text())
     assert document["asset"]["version"] == "2.0"
-    assert len(document["meshes"]) == len(scene_at().glass) + 5  # and stop, sensor, rays, wavefront, PSF
+    assert (
+        len(document["meshes"]) == 2 * len(scene_at().glass) + 5
+    )  # with their edges, and stop, sensor, rays, wavefront, PSF
     corners = [line for line in (tmp_path / "lens.obj").read_text().splitlines() if line.startswith("v ")]
     assert len(corners) > 10_000
     with pytest.raises(P2SFError, match=r"\.stl.*gltf or \.obj"):

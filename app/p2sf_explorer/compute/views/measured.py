@@ -11,16 +11,20 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
+from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.measure.as_built import CERTAIN
 from p2sf.measure.fitting.frame_fit import FrameFit
 from p2sf.measure.fitting.frame_terms import F_NUMBER, lens_optics
 from p2sf.measure.fitting.point_fit import PointFit
 from p2sf.measure.fitting.point_model import PictureOptics
+from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import FrameRequest, Measurement, measure_frame
 from p2sf.measure.points import window_of
 from p2sf.measure.reading import read_frame
+from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.messages import Message, Number
 from p2sf.paraxial.pupils import f_number
 from p2sf_explorer.compute.lens_files import stamp
@@ -55,6 +59,8 @@ DEFINITIONS = {
     "w20": "Of the whole field: at the farthest point, growing with the square of the distance from the axis.",
 }
 
+SAMPLE_SHIFT_UM = 60.0  # by which the sensor of a sample is too far from the lens
+SAMPLE_PIXELS, SAMPLE_SHARE = (300, 480), 0.72  # of a sample: rows and columns, and the part that points stand in
 AUTOMATIC = "automatic"
 ENCODED = {"srgb": "numbers read as sRGB and made linear", "linear": "numbers read as linear counts"}
 
@@ -117,6 +123,18 @@ def sensor_piece(lens: Lens) -> tuple[int, int]:
 def with_file_date(asked: MeasurementRequest) -> MeasurementRequest:
     """Return the request for its file as it is now."""
     return replace(asked, stamp=stamp(asked.picture))
+
+
+def write_sample(asked: MeasurementRequest, path: Path) -> None:
+    """Write a frame of points through the lens of a question, its sensor too far away, to be measured.
+
+    Raises P2SFError where the lens has no such picture, ExportError where it cannot be written.
+    """
+    across_mm = SAMPLE_PIXELS[1] * asked.pixel_um / UM_PER_MM
+    places = grid_of_points(3, 2, SAMPLE_SHARE * across_mm, SAMPLE_SHARE * across_mm / 2)
+    geometry, exposure = FrameGeometry(*SAMPLE_PIXELS, asked.pixel_um), Exposure(sensor_shift_um=SAMPLE_SHIFT_UM)
+    frame = simulated_frame(asked.lens, places, geometry, exposure, asked.depth_mm, asked.wavelength_um)
+    write_beside(path, lambda handle: np.save(handle, frame.values))
 
 
 def answer(asked: MeasurementRequest, cancelled: Callable[[], bool], progress: Callable[[float], None]) -> Measurement:

@@ -35,6 +35,7 @@
 <message><source>8 µm pixels</source><translation>8-µm-Pixel</translation></message>
 <message><source>?</source><translation>?</translation></message>
 <message><source>A and B side by side, or A alone</source><translation>A und B nebeneinander oder A allein</translation></message>
+<message><source>A screen of bright points, stars, or a PSF: the panel finds the wavefront behind each of them.</source><translation>Ein Schirm mit hellen Punkten, Sterne oder eine PSF: die Ansicht findet zu jedem die Wellenfront.</translation></message>
 <message><source>A</source><translation>A</translation></message>
 <message><source>A and B are the same: move a control, or choose another lens or method</source><translation>A und B sind gleich: bewegen Sie einen Regler oder wählen Sie ein anderes Objektiv oder Verfahren</translation></message>
 <message><source>A back focus longer than the focal length: a wide angle that leaves room for a mirror</source><translation>Schnittweite länger als die Brennweite: ein Weitwinkel, das einem Spiegel Platz lässt</translation></message>
@@ -197,7 +198,7 @@
 <message><source>Drag or use the arrow keys to turn the surface; a double-click goes back</source><translation>Ziehen oder die Pfeiltasten drehen die Fläche; ein Doppelklick führt zurück</translation></message>
 <message><source>Drag the line or click, or use the left and right arrow keys: the sensor follows.</source><translation>Die Linie ziehen, klicken oder die Pfeiltasten links und rechts: der Sensor folgt.</translation></message>
 <message><source>Draw again</source><translation>Neu ziehen</translation></message>
-<message><source>Drop a picture of points here, or choose one: a screen of bright points, stars, or a PSF.</source><translation>Ein Bild von Punkten hier ablegen oder eines wählen: ein Schirm heller Punkte, Sterne oder eine PSF.</translation></message>
+<message><source>Drop a picture of points here</source><translation>Ein Bild von Punkten hier ablegen</translation></message>
 <message><source>Drop to open the link</source><translation>Loslassen öffnet den Link</translation></message>
 <message><source>Drop to open {file}</source><translation>Loslassen öffnet {file}</translation></message>
 <message><source>EFL {focal} mm, {speed} · {column}</source><translation>EFL {focal} mm, {speed} · {column}</translation></message>
@@ -286,9 +287,11 @@
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
 <message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is |mean of exp(2πiW)|² of the phase W at the focus, without piston and tilt.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand. Die Strehl-Zahl ist |Mittel von exp(2πiW)|² der Phase W im Fokus, ohne Konstante und Verkippung.</translation></message>
+<message><source>Measure six points through this lens whose sensor stands 60 µm too far; the panel finds that</source><translation>Sechs Punkte durch dieses Objektiv messen, dessen Sensor 60 µm zu weit steht; die Ansicht findet das</translation></message>
 <message><source>Picture to the edges, or within its axes</source><translation>Bild bis zum Rand oder innerhalb seiner Achsen</translation></message>
 <message><source>Show A and B side by side on one scale; zoom and crosshair go together</source><translation>A und B nebeneinander in einem Maßstab zeigen; Zoom und Fadenkreuz gehen gemeinsam</translation></message>
 <message><source>Show A, B, A − B, A | B in turn</source><translation>A, B, A − B, A | B der Reihe nach zeigen</translation></message>
+<message><source>Try a sample</source><translation>Ein Beispiel versuchen</translation></message>
 <message><source>What-if: coefficients altered by hand; of the lens itself remain: {panels}.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; die des Objektivs selbst bleiben: {panels}.</translation></message>
 <message><source>higher peak</source><translation>höhere Spitze</translation></message>
 <message><source>internal transmittance</source><translation>Reintransmissionsgrad</translation></message>
