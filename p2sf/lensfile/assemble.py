@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import zip_longest
-from math import inf, isfinite
+from math import hypot, inf, isfinite
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
@@ -15,15 +15,17 @@ from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
-from p2sf.lensfile.raw import CATALOGUE_AIR, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import CATALOGUE_AIR, HOLE, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.stated import compare, in_remarks
 from p2sf.messages import Message
+from p2sf.paraxial.pupils import stop_rim
 
 HIGHEST_ORDER = 40
 SAME_DEG_C, SAME_ATM = 5.0, 0.05  # which change the index of a glass relative to air by less than 3e-5
 MOST_SURFACES = 1000
+MOST_OBSCURED = 0.99  # of the stop's rim
 SAME_FOCUS = 1e-4  # relative: glasses of another catalogue, and digits that files leave out
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
 NO_STOP = Message("no stop named")
@@ -54,6 +56,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     lens = _with_line(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
     lens = _with_line(lambda: _at_solved_focus(lens, raw, notes), raw, source, None)
     lens = _with_line(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
+    lens = _with_line(lambda: _with_obscuration(lens, raw, notes), raw, source, None)
     lens = _with_line(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
     if not raw.sensor_stated:
         lens = _with_line(lambda: _at_paraxial_focus(lens, raw, notes), raw, source, None)
@@ -316,6 +319,29 @@ def _with_aperture(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     return replace(lens, aperture=conjugates.aperture(raw, raw.aperture, rays))
 
 
+def _with_obscuration(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with an obscuration of its stop as a part of the mask; note all others, and holes.
+
+    One that is not a whole disc within the rim stays a hole of the surface.
+    """
+    stop = (lens.stop_surface or 0) - 1
+    for place, stated in enumerate(raw.surfaces):
+        if not stated.inner_radius:
+            continue
+        own = lens.surfaces[place]
+        rim, (x, y) = (stop_rim(lens) if place == stop else 0.0), own.rim.decentre if own.rim else (0.0, 0.0)
+        share = own.inner_radius / rim if rim else inf
+        if not (stated.obscured and share + hypot(x, y) / (rim or 1.0) <= MOST_OBSCURED):
+            notes.add("caution", HOLE, stated.number, stated.line, radius=stated.inner_radius)
+            continue
+        told = "the middle of the stop is dark within a radius of {radius:g}, whatever rims do"
+        notes.add("read", told, stated.number, stated.line, radius=stated.inner_radius)
+        clear = replace(own, inner_radius=0.0, rim=own.rim if own.rim and own.rim.half_widths else None)
+        mask = replace(lens.mask, obscuration=share, obscuration_x=x / rim, obscuration_y=y / rim)
+        lens = replace(lens, mask=mask, surfaces=(*lens.surfaces[:place], clear, *lens.surfaces[place + 1 :]))
+    return lens
+
+
 def _open_to_its_rims(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     """Return the lens of a file without an aperture, open to the rim of its stop or to its narrowest rim."""
     if raw.stop and isfinite(lens.surfaces[raw.stop - 1].semi_diameter):
@@ -380,7 +406,7 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
     )
     if lens.fields_x_deg:
         notes.add("read", "fields along x {angles:.4g}°", angles=lens.fields_x_deg)
-    if not raw.mask.clear:
+    if isfinite(raw.mask.apodisation):
         told = "the pupil's amplitude falls to 1/e at {radius:.6g} of its rim's radius"
         notes.add("read", told, radius=raw.mask.apodisation)
     if lens.wavelength_weights:

@@ -55,7 +55,8 @@ class RawSurface:
     """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it.
 
     ``aspheric`` maps a power of r to its coefficient; ``shape`` is added to it. ``beyond_focus``: how far beyond the
-    paraxial focus the next surface stands, where a solve says so; the thickness follows.
+    paraxial focus the next surface stands, where a solve says so; the thickness follows. ``obscured``: whether
+    ``inner_radius`` is an obscuration and no hole, which in the stop is a part of the pupil's mask.
     """
 
     number: int
@@ -76,6 +77,7 @@ class RawSurface:
     ideal_focal_length: float = inf
     rim: Rim | None = None
     beyond_focus: float | None = None
+    obscured: bool = False
 
     @property
     def name(self) -> Message:

@@ -31,6 +31,7 @@ from p2sf.lensfile.toml.columns import columns_of
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.positions import focused_vergence, matches_columns
+from p2sf.paraxial.pupils import stop_rim
 from p2sf.pupil.mask import PupilMask
 
 SILICA_LABEL = "main/SiO2/Malitson"
@@ -59,8 +60,8 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
         raise LensFileError(
             'ending "{ending}" is none of {endings}; choose one', path, ending=ending, endings=tuple(writers)
         )
-    gaussian = ending in (".zmx", ".seq") and lens.mask == PupilMask(apodisation=lens.mask.apodisation)
-    if ending != ".toml" and not lens.mask.clear and not gaussian:
+    known = ending in (".zmx", ".seq") and lens.mask == _obscured_gaussian(lens.mask)
+    if ending != ".toml" and not lens.mask.clear and not known:
         raise LensFileError(
             "a mask stands in the stop, which a file that ends in {ending} cannot express; save as TOML",
             path,
@@ -71,6 +72,12 @@ def write_lens(lens: Lens, path: str | os.PathLike) -> None:
     if catalogue:
         write_text(catalogue, Path(path).with_suffix(".agf"))
     write_text(text, path)
+
+
+def _obscured_gaussian(mask: PupilMask) -> PupilMask:
+    """Return what files for Zemax and CODE V can express of a mask: a dark disc and a Gaussian."""
+    disc = {name: getattr(mask, name) for name in ("obscuration", "obscuration_x", "obscuration_y")}
+    return PupilMask(apodisation=mask.apodisation, **disc)
 
 
 def _check_aligned(lens: Lens, what: Message) -> None:
@@ -183,7 +190,7 @@ def _zemax_head(lens: Lens, makers: list[str]) -> list[str]:
             for i, (wave, weight) in enumerate(zip(waves, weights, strict=True), 1)
         ),
         f"PWAV {waves.index(lens.reference_wavelength_nm) + 1}",
-        *[f"GFAC 1 {digits(lens.mask.apodisation**-2)}"] * (not lens.mask.clear),
+        *[f"GFAC 1 {digits(lens.mask.apodisation**-2)}"] * isfinite(lens.mask.apodisation),
         f"RAIM 0 {0 if lens.aim == 'paraxial' else 2} 1 1 0 0 0 0 0",
     ]
 
@@ -227,13 +234,36 @@ def _zemax_surface(lens: Lens, surface: Surface, number: int, stop: int) -> list
         *[_zemax_glass(surface.medium)] * (surface.medium != AIR),
         *[f"  CONI {digits(conic)}"] * bool(conic),
         f"  DIAM {digits(rim) if isfinite(rim) else 0} {int(isfinite(rim))} 0 0 1",
-        *_zemax_rim(surface, number),
+        *(_zemax_obscuration(lens, surface, number) if number == stop else []),
+        *_zemax_rim(surface, number, number == stop),
     ]
 
 
-def _zemax_rim(surface: Surface, number: int) -> list[str]:
-    """Return the lines of a hole and of a rim that is decentred or a rectangle, which takes the place of a circle's."""
+def _zemax_obscuration(lens: Lens, surface: Surface, number: int) -> list[str]:
+    """Return the lines of the dark disc of the mask, which stands on the stop; LensFileError beside another rim."""
+    mask = lens.mask
+    if not mask.obscuration:
+        return []
+    if surface.rim or surface.inner_radius:
+        raise LensFileError(
+            "surface {surface} is the stop, with an obscuration beside a hole or a rim that is not a circle about the "
+            "axis, for which Zemax has no line; save as TOML",
+            surface=number,
+        )
+    radius, x, y = (
+        digits(share * stop_rim(lens)) for share in (mask.obscuration, mask.obscuration_x, mask.obscuration_y)
+    )
+    return [f"  OBSC 0 {radius}", *[f"  OBDC {x} {y}"] * bool(mask.obscuration_x or mask.obscuration_y)]
+
+
+def _zemax_rim(surface: Surface, number: int, is_stop: bool) -> list[str]:
+    """Return the lines of a hole and of a rim that is decentred or a rectangle, which takes the place of a circle's.
+
+    In the stop a hole is the inner radius of a rim, since an obscuration there is a mask.
+    """
     rim, hole = surface.rim, surface.inner_radius
+    if rim is None and is_stop and hole:
+        return [f"  CLAP {digits(hole)} {digits(min(surface.semi_diameter, UNLIMITED))} 0"]
     if rim is None:
         return [f"  OBSC 0 {digits(hole)}"] * bool(hole)
     if rim.turn_deg or (rim.half_widths and hole):

@@ -24,7 +24,7 @@ GLAS = "GLAS N-BK7 0 0 1.5 4.0E+1 0 0 0 0 0 0"
 TOLD = {
     "telecentric": (("FTYP 0 0 2 3", "FTYP 0 1 2 3"), "telecentric object space"),
     "a central hole": (("  DISZ 6.0\n", "  DISZ 6.0\n  CLAP 1.0 9.0\n"), "a hole or an obscuration"),
-    "an obscuration": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 3.0\n"), "a hole or an obscuration"),
+    "an obscuration": (("  MAZH 0 0\n", "  OBSC 0 3.0\n"), "a hole or an obscuration"),
     "a ring": (("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 2.0 3.0\n"), "its obscuration is left out"),
     "partial dispersion": ((GLAS, "GLAS ___BLANK 1 0 1.52 64.0 0.02"), "deviation in partial dispersion is left out"),
 }
@@ -67,7 +67,7 @@ def test_wavelengths_in_one_line_replace_those_before():
     ("name", "change"),
     [
         (ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  CLAP 1.5 9.0\n")),
-        (ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 1.5\n")),
+        (ZEMAX, ("  MAZH 0 0\n", "  OBSC 0 1.5\n")),
         ("doublet.seq", ("  PIM", "  CIR OBS 1.5")),
         ("doublet.seq", ("  PIM", "  CIR HOL 1.5")),
     ],
@@ -81,6 +81,25 @@ def test_what_is_dark_in_the_middle_is_read_and_written_back(name, change, tmp_p
     assert (again.inner_radius, again.semi_diameter) == (1.5, lens.surfaces[number].semi_diameter)
     with pytest.raises(LensFileError, match="surface"):
         write_lens(lens, tmp_path / "back.json")
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        (ZEMAX, ("  DISZ 6.0\n", "  DISZ 6.0\n  OBSC 0 3.0\n  OBDC 1.0 -2.0\n")),
+        ("doublet.seq", ("STO\n", "STO\nCIR OBS 3.0\nADX 1.0\nADY -2.0\n")),
+    ],
+)
+@pytest.mark.parametrize("ending", [".zmx", ".seq"])
+def test_an_obscuration_of_the_stop_is_a_part_of_the_mask_and_is_written_back(name, change, ending, tmp_path):
+    """The entrance pupil has a radius of 10 mm and stands on the first surface, the stop."""
+    lens = read(name, change).lens
+    found = [getattr(lens.mask, name) for name in ("obscuration", "obscuration_x", "obscuration_y")]
+    assert found == pytest.approx([0.3, 0.1, -0.2], rel=1e-14)
+    assert not any(surface.inner_radius or surface.rim for surface in lens.surfaces)
+    write_lens(lens, tmp_path / f"back{ending}")
+    again = load_lens(tmp_path / f"back{ending}")
+    assert again.mask == lens.mask and again.surfaces[0].semi_diameter == lens.surfaces[0].semi_diameter
 
 
 def test_an_outer_rim_bounds_the_light_and_one_of_zero_does_not():

@@ -316,7 +316,7 @@ def test_a_mask_of_a_picture_stands_upright(tmp_path):
 
 
 def test_other_formats_say_that_they_hold_no_mask(tmp_path):
-    lens = with_mask(parse_toml(MASKED.format(entry="")), PupilMask(obscuration=0.2))
+    lens = with_mask(parse_toml(MASKED.format(entry="")), PupilMask(vanes=3))
     with pytest.raises(LensFileError, match="mask"):
         write_lens(lens, tmp_path / "lens.zmx")
 

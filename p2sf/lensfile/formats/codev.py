@@ -25,7 +25,7 @@ from p2sf.lensfile.assemble import check_stop, private_glass
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import HOLE, RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
@@ -448,8 +448,7 @@ def _rim(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> N
         elif not kind:
             reading.rims.setdefault(id(surface), {})[command.name[:3]] = value
     elif kind:
-        surface.inner_radius = max(value, 0.0)
-        reading.notes.add("caution", HOLE, surface.number, command.line, radius=value)
+        surface.inner_radius, surface.obscured = max(value, 0.0), kind == "OBS"
     else:
         surface.semi_diameter = value if value > 0 else inf
 

@@ -22,6 +22,7 @@ from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.surface_endings import check_endings, check_plain, in_own_axes, type_in_file
+from p2sf.paraxial.pupils import stop_rim
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
@@ -59,8 +60,8 @@ def lens_to_seq(lens: Lens) -> str:
     bent = [f"SI {digits(lens.sensor_radius if lens.sensor_surface.curvature else 0.0)} 0.0"]
     bent += ["ASP", f"K {digits(lens.sensor_conic)}"] * bool(lens.sensor_conic)
     behind = f" {_glass(lens.object_medium, private)}" if lens.object_medium != AIR else ""
-    head = [*_head(lens), f"SO 0.0 {digits(FAR)}{behind}"]
-    return "\n".join([*head, *surfaces, *bent, *_tilts("", image), *_catalogue(lens, private), "GO", ""])
+    head = [*_head(lens), *_catalogue(lens, private), f"SO 0.0 {digits(FAR)}{behind}"]
+    return "\n".join([*head, *surfaces, *bent, *_tilts("", image), "GO", ""])
 
 
 def _head(lens: Lens) -> list[str]:
@@ -77,7 +78,7 @@ def _head(lens: Lens) -> list[str]:
         f"WL {' '.join(map(digits, waves))}",
         f"REF {waves.index(lens.reference_wavelength_nm) + 1}",
         *[f"PUX {digits(lens.mask.apodisation)}; PUY {digits(lens.mask.apodisation)}; PUI {digits(exp(-2))}"]
-        * (not lens.mask.clear),
+        * isfinite(lens.mask.apodisation),
         *[f"WTW {' '.join(digits(lines[wave]) for wave in waves)}"] * bool(lens.wavelength_weights),
         *[f"XAN {' '.join(map(digits, lens.fields_x_deg))}"] * bool(lens.fields_x_deg),
         f"YAN {' '.join(map(digits, lens.fields_deg))}",
@@ -218,9 +219,11 @@ def _rim(lens: Lens, surface: Surface, is_stop: bool) -> list[str]:
     rim, shaped = surface.semi_diameter, surface.rim
     if is_stop and lens.aperture.kind == "stop_semi_diameter":
         rim = lens.aperture.value
-    lines = [f"CIR {digits(rim)}"] * isfinite(rim) + [f"CIR OBS {digits(surface.inner_radius)}"] * bool(
-        surface.inner_radius
-    )
+    hole = "HOL" if is_stop else "OBS"  # an obscuration in the stop is a part of the mask
+    lines = [f"CIR {digits(rim)}"] * isfinite(rim)
+    lines += [f"CIR {hole} {digits(surface.inner_radius)}"] * bool(surface.inner_radius)
+    if is_stop and lens.mask.obscuration:
+        return [*lines, *_obscuration(lens, surface)]
     if shaped is None:
         return lines
     numbers = {"ADX": shaped.decentre[0], "ADY": shaped.decentre[1], "ARO": shaped.turn_deg}
@@ -229,6 +232,19 @@ def _rim(lens: Lens, surface: Surface, is_stop: bool) -> list[str]:
         *lines,
         *(f"{name} {digits(side)}" for name, side in (*sides, *numbers.items()) if side and isfinite(side)),
     ]
+
+
+def _obscuration(lens: Lens, surface: Surface) -> list[str]:
+    """Return the dark disc of the mask, which stands on the stop; LensFileError beside a hole or another rim."""
+    mask = lens.mask
+    if surface.rim or surface.inner_radius:
+        raise LensFileError(
+            "surface {surface} is the stop, with an obscuration beside a hole or a rim that is not a circle about the "
+            "axis, for which CODE V has no line; save as TOML",
+            surface=lens.surfaces.index(surface) + 1,
+        )
+    sizes = {"CIR OBS": mask.obscuration, "ADX": mask.obscuration_x, "ADY": mask.obscuration_y}
+    return [f"{name} {digits(share * stop_rim(lens))}" for name, share in sizes.items() if share]
 
 
 def _glass(medium: Medium, private: dict[Medium, str]) -> str:

@@ -24,7 +24,7 @@ from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_a
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.formats.zemax_solves import SOLVES, Solve, SolvedSurfaces, apply_solves
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import HOLE, RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number, whole
 from p2sf.messages import Message
@@ -375,6 +375,7 @@ def _obscuration(reading: ZemaxReading, words: list[str]) -> None:
     """Read OBSC inner outer: no light passes between the two radii; a ring that is open in its middle is left out."""
     if reading.number(words, 1, Message("inner radius"), 0.0) == 0:
         _inner_radius(reading, reading.number(words, 2, Message("outer radius"), 0.0))
+        reading.surface.obscured = True
         return
     reading.notes.add(
         "caution",
@@ -386,8 +387,7 @@ def _obscuration(reading: ZemaxReading, words: list[str]) -> None:
 
 def _inner_radius(reading: ZemaxReading, radius: float) -> None:
     if radius > 0:
-        reading.surface.inner_radius = radius
-        reading.notes.add("caution", HOLE, reading.surface.number, reading.line, radius=radius)
+        reading.surface.inner_radius, reading.surface.obscured = radius, False
 
 
 def _rectangle(reading: ZemaxReading, words: list[str]) -> None:
