@@ -13,7 +13,7 @@ from p2sf.arguments import real_array
 from p2sf.errors import RequestError
 from p2sf.image.geometry import distort, illumination
 from p2sf.image.lattice import Lattice, build_lattice
-from p2sf.image.layers import layer_weights, merge
+from p2sf.image.layers import DepthLayer, depth_layers
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.overlap import overlap_add
 from p2sf.image.progress import Progress
@@ -27,6 +27,7 @@ METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
 LIGHT_HEIGHTS = 4, 9  # heights at which illumination is computed, for a preview and for the final picture
 SAME_DEPTH = 1e-6  # a relative difference due to float32
+LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
 
 
@@ -83,17 +84,34 @@ def form_image(
         placed, lattice = _placed_and_lattice(planned, picture, how, watch, lattice)
         return _cropped_blur(planned, placed, lattice, how, watch)
     _check_depths(planned.scene, depth_mm)
-    weights = layer_weights(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2])
+    light, covered, passing = np.zeros_like(picture), np.zeros_like(picture[..., :1]), np.ones_like(picture[..., :1])
+    for layer in depth_layers(picture, np.asarray(depth_mm), np.array(planned.vergences), _largest_half(planned)):
+        lattice = _with_middle_twice(plan_lattice(planned, planned.vergences[layer.number], watch))
+        blurred = _cropped_blur(planned, _placed_layer(planned, layer, how), lattice, how, watch)
+        light += passing * blurred[..., :-2]
+        covered += passing * blurred[..., -2:-1]
+        passing *= np.clip(1 - blurred[..., -1:], 0, 1)
+    found: np.ndarray = light / np.maximum(covered, LEAST_COVERAGE)
+    return found
+
+
+def _largest_half(planned: Plan) -> int:
+    """Return the half width of the widest kernel, pixels: that of one end of the depths in the corner."""
+    corner = [0.0], [planned.scene.sensor.corners_mm()[1]]
+    ends = (planned.vergences[0], planned.vergences[-1])
+    return max(int(planned.kernels(len(planned.colours) // 2, v).points(*corner).half_widths()[0]) for v in ends)
+
+
+def _placed_layer(planned: Plan, layer: DepthLayer, how: Forming) -> np.ndarray:
+    """Return the light of a layer with distortion and illumination, and behind the colours its opacity, twice.
+
+    The second is that part of it which hides.
+    """
+    both, vergence = np.stack([layer.opacity, layer.hiding], axis=-1), planned.vergences[0]
+    lit = _distort_and_shade(planned, layer.colours, vergence, how)
     if how.geometry:
-        weights = distort(weights, planned.sensor_map(planned.vergences[0]), planned.scene.sensor, order=1)
-    lit = _distort_and_shade(planned, picture, planned.vergences[0], how)
-    used = [k for k in range(weights.shape[-1]) if weights[..., k].any()]
-    layers = []
-    for k in used:
-        both = np.concatenate([lit * weights[..., k : k + 1], weights[..., k : k + 1]], axis=-1)
-        lattice = _with_middle_again(plan_lattice(planned, planned.vergences[k], watch))
-        layers.append(_cropped_blur(planned, both, lattice, how, watch))
-    return merge(layers, used)
+        both = distort(both, planned.sensor_map(vergence), planned.scene.sensor, order=1)
+    return np.concatenate([lit * both[..., :1], both], axis=-1)
 
 
 def _placed_and_lattice(
@@ -182,10 +200,10 @@ def plan_lattice(
     return build_lattice(kernels_at, shape, planned.counts, planned.mirrored, watch, beside)
 
 
-def _with_middle_again(lattice: Lattice) -> Lattice:
-    """Return a lattice with the middle channel repeated at the end, for a layer's weight alongside the picture."""
+def _with_middle_twice(lattice: Lattice) -> Lattice:
+    """Return a lattice with the middle channel twice more at the end, for what a layer covers and hides."""
     middle = lattice.channels // 2
-    lines = [[np.concatenate([k, k[middle : middle + 1]]) for k in line] for line in lattice.kernels]
+    lines = [[np.concatenate([k, k[[middle, middle]]]) for k in line] for line in lattice.kernels]
     return Lattice(lattice.row_nodes, lattice.column_nodes, lines)
 
 

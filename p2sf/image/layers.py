@@ -1,20 +1,70 @@
-"""Depth in layers: the share of each pixel in every layer, and the layers merged into one picture."""
+"""Depth in layers: what each shows and hides, far from edges of depth and beside them (handbook 10.1).
+
+The kernels of a surface that slopes from one depth node to the next are interpolated: its layers add up. At an edge a
+nearer layer hides what lies behind it, and where it is blurred, that part of the pupil which looks past it sees on. So
+beside edges a layer reaches on behind the nearer ones. No depth map can tell how: across a jump in depth a hidden
+pixel takes colour and depth of the nearest pixel in its row or column that is not hidden.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
-from p2sf.pixel_kernels.nodes import hats
 
-LEAST_COVERAGE = 1e-6  # keeps the quotient finite if no layer covers a pixel
+FAR = 2**30  # pixels, more than any picture has
+JUMP = 0.5  # of the distance between depth nodes, from one pixel to the next
+CONTINUED, HIDING = 2, 4  # half widths of kernels about an edge: beyond the first nothing is seen of what goes on there
 
 
-def layer_weights(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    """Return every pixel's share of each layer, (rows, columns, layers) float32, summing to 1.
+class DepthLayer(NamedTuple):
+    """A layer's number among the depth nodes, its colours (rows, columns, channels), its opacity (rows, columns).
 
-    Between two nodes the share is linear in 1/depth, so a pixel's kernel is interpolated; beyond them it is that of the
-    end. ``vergences`` increase: the farthest layer comes first. Raises RequestError for a map that does not fit.
+    ``hiding``: the part of the opacity that hides farther layers; the rest only adds up with theirs.
     """
+
+    number: int
+    colours: np.ndarray
+    opacity: np.ndarray
+    hiding: np.ndarray
+
+
+def depth_layers(values: np.ndarray, depth_mm: np.ndarray, vergences: np.ndarray, half: int) -> Iterator[DepthLayer]:
+    """Yield the layers of a picture, (rows, columns, channels), from near to far, but for those that show nothing.
+
+    ``vergences`` increase: the farthest layer is number 0. Between two nodes opacity is linear in 1/depth; beyond them
+    it is that of the end. ``half``: the largest half width of a kernel, pixels. Raises RequestError for a map that does
+    not fit.
+    """
+    flat, colours = _places(depth_mm, vergences, values.shape[:2]), values
+    place, continued, hiding = flat, _beside_jumps(flat, CONTINUED * half), _beside_jumps(flat, HIDING * half)
+    for number in range(len(vergences) - 1, -1, -1):
+        reaching_on = np.clip(place - (number - 1), 0, 1) if number else np.ones_like(place)
+        opacity = np.where(continued, reaching_on, np.clip(1 - np.abs(flat - number), 0, 1))
+        if opacity.any():
+            yield DepthLayer(number, colours, opacity, opacity * hiding)
+        nearest = _nearest_open(reaching_on >= 1)
+        jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
+        place = np.minimum(np.where(jumps, place[nearest], place), number - 1)
+        colours = np.where(jumps[..., None], colours[nearest], colours)
+
+
+def _beside_jumps(place: np.ndarray, reach: int) -> np.ndarray:
+    """Return which pixels are within ``reach`` rows and columns of a jump in depth, (rows, columns)."""
+    from scipy.ndimage import maximum_filter
+
+    jumps = np.zeros(place.shape, bool)
+    for axis in (0, 1):
+        found = np.abs(np.diff(place, axis=axis)) > JUMP
+        jumps |= np.pad(found, [(0, int(axis == other)) for other in (0, 1)])
+    near: np.ndarray = maximum_filter(jumps, 2 * reach + 1) if jumps.any() else jumps
+    return near
+
+
+def _places(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    """Return where pixels lie among the depth nodes, counted from 0, (rows, columns) float32."""
     if depth_mm.shape != tuple(shape):
         raise RequestError(
             "the depth map has the shape ({shape}), but the picture ({picture}); resize it",
@@ -25,25 +75,24 @@ def layer_weights(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int,
         raise RequestError(
             "the depth map holds depths that are not positive; give mm from the first vertex, inf allowed"
         )
-    flat = hats(np.asarray(vergences), vergence(depth_mm).ravel())
-    return np.moveaxis(flat.reshape(len(vergences), *shape), 0, -1).astype(np.float32)
+    place: np.ndarray = np.interp(vergence(depth_mm), vergences, np.arange(len(vergences)))
+    return place.astype(np.float32)
 
 
-def merge(layers: list[np.ndarray], numbers: list[int]) -> np.ndarray:
-    """Return one picture of blurred layers, far to near; each is (rows, columns, channels + 1), its coverage last.
+def _nearest_open(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return row and column of the nearest pixel along row or column that is not hidden; of itself where none is."""
+    rows, columns = np.ogrid[: hidden.shape[0], : hidden.shape[1]]
+    column, across = _nearest_in_row(hidden)
+    row, down = (found.T for found in _nearest_in_row(hidden.T))
+    none, sideways = np.minimum(across, down) == FAR, across <= down
+    return np.where(sideways | none, rows, row), np.where(sideways & ~none, column, columns)
 
-    ``numbers`` are the indices of the layers among all layers. A layer is hidden by the blurred coverage of nearer ones
-    except its direct neighbour, with which it shares the pixels between the two. The remaining light is divided by the
-    remaining coverage, so that a uniform object stays uniform.
-    """
-    light: np.ndarray = np.zeros_like(layers[0][..., :-1])
-    covered: np.ndarray = np.zeros_like(layers[0][..., -1:])
-    for position, (layer, number) in enumerate(zip(layers, numbers, strict=True)):
-        seen = np.ones_like(layer[..., -1:])
-        for nearer, other in zip(layers[position + 1 :], numbers[position + 1 :], strict=True):
-            if other > number + 1:
-                seen = seen * np.clip(1 - nearer[..., -1:], 0, 1)
-        light = light + seen * layer[..., :-1]
-        covered = covered + seen * layer[..., -1:]
-    picture: np.ndarray = light / np.maximum(covered, LEAST_COVERAGE)
-    return picture
+
+def _nearest_in_row(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the column of the nearest pixel of the same row that is not hidden, and how far it is; FAR for none."""
+    count = hidden.shape[1]
+    own = np.arange(count)
+    left = np.maximum.accumulate(np.where(hidden, -2 * FAR, own), 1)
+    right = np.minimum.accumulate(np.where(hidden, 2 * FAR, own)[:, ::-1], 1)[:, ::-1]
+    distances = np.minimum(own - left, FAR), np.minimum(right - own, FAR)
+    return np.where(distances[0] <= distances[1], left, right), np.minimum(*distances)

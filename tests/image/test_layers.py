@@ -4,14 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter
 
 from p2sf.image import Forming, form_image
-from p2sf.image.layers import layer_weights, merge
+from p2sf.image.layers import depth_layers
 from p2sf.image.lowrank import _spline
-from p2sf.image.preview import preview_plan
+from p2sf.image.preview import BY_RAYS, preview_plan
 from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels.nodes import hats
 from p2sf.scene import Channel, Scene, Sensor
 from p2sf.scene.planning.verify import planned_kernel
+from tests.support.tiers import in_tiers
+from tests.support.visibility import seen_through_pupil
 
 GREEN = (Channel("green", (540.0,), (1.0,)),)
 BLUR = Forming(geometry=False)
@@ -23,11 +27,33 @@ def planned(focus_mm: float, vergences: tuple[float, ...]):
     return replace(preview_plan(scene.camera(find_lens("double_gauss_28")), scene), vergences=vergences)
 
 
-def test_shares_are_linear_in_one_over_the_distance_and_the_ends_beyond_the_nodes():
+def test_layers_of_a_slope_add_up_and_those_beside_an_edge_reach_on():
+    """The same five pixels, far from an edge of depth and beside one."""
     nodes = np.array([0.0, 1e-4, 3e-4])
-    depth = np.array([[np.inf, 20000.0, 10000.0, 5000.0, 1000.0]])
-    shares = layer_weights(depth, nodes, (1, 5))[0]
-    assert shares == pytest.approx(np.array([[1, 0, 0], [0.5, 0.5, 0], [0, 1, 0], [0, 0.5, 0.5], [0, 0, 1]]), abs=1e-6)
+    depth = 1 / np.array([[1e-14, 0.4e-4, 0.8e-4, 1e-4, 2e-4, 3e-4]])
+    colours = np.arange(6.0).reshape(1, 6, 1)
+    near, middle, far = depth_layers(colours, depth, nodes, half=3)
+    assert (near.number, middle.number, far.number) == (2, 1, 0)
+    assert near.opacity[0] == pytest.approx([0, 0, 0, 0, 0.5, 1], abs=1e-6)
+    assert middle.opacity[0] == pytest.approx([0, 0.4, 0.8, 1, 0.5, 0], abs=1e-6)
+    assert near.opacity + middle.opacity + far.opacity == pytest.approx(np.ones((1, 6)), abs=1e-6)
+    assert not near.hiding.any() and (far.colours == colours).all()
+    depth[0, -1] = 1 / 0.5e-4  # a jump of one and a half nodes
+    _, middle, far = depth_layers(colours, depth, nodes, half=3)
+    assert middle.opacity[0] == pytest.approx([0, 0.4, 0.8, 1, 1, 0.5], abs=1e-6)
+    assert (middle.hiding == middle.opacity).all() and (far.opacity == 1).all()
+
+
+def test_what_is_hidden_takes_colour_and_depth_of_the_nearest_pixel_beside_it():
+    """A post of two pixels, before a wall on its left and the sky on its right; and a picture of one depth."""
+    depth = np.array([[2.0, 2.0, 1.0, 1.0, np.inf]]) * 1000
+    nodes = np.array([0.0, 1 / 2000, 1 / 1000])
+    near, middle, far = depth_layers(np.arange(5.0).reshape(1, 5, 1), depth, nodes, half=3)
+    assert near.opacity[0].tolist() == [0, 0, 1, 1, 0]
+    assert middle.opacity[0].tolist() == [1, 1, 1, 0, 0] and middle.colours[0, :, 0].tolist() == [0, 1, 1, 4, 4]
+    assert far.colours[0, :, 0].tolist() == [4, 4, 4, 4, 4]
+    (only,) = depth_layers(np.ones((2, 3, 1)), np.full((2, 3), 500.0), np.array([0.0, 1e-3]), half=3)
+    assert only.number == 1 and (only.opacity == 1).all() and not only.hiding.any()
 
 
 def test_a_point_between_two_depths_is_the_interpolated_kernel_of_the_plan():
@@ -58,11 +84,49 @@ def test_light_from_behind_does_not_spill_over_a_sharp_edge_in_front_but_a_blurr
     assert row[35] == pytest.approx(1, abs=0.02) and row[5] == pytest.approx(0, abs=0.02)
 
 
-def test_a_layer_hides_all_but_its_neighbour():
-    ones = np.ones((1, 1, 2), np.float32)  # light 1, coverage 1
-    dark = np.array([[[0.0, 1.0]]], np.float32)
-    assert merge([ones, dark], [0, 2])[0, 0, 0] == 0  # hidden
-    assert merge([ones, dark], [0, 1])[0, 0, 0] == pytest.approx(0.5)  # shares the pixel
+SHAPES = {"edge": lambda x: x < 20, "wire": lambda x: abs(x - 20) <= 1, "fence": lambda x: x % 12 < 3}
+NEAR_MM, BETWEEN_MM, FAR_MM = 2000.0, 3500.0, 8000.0
+KEPT = ("edge", NEAR_MM), ("edge", BETWEEN_MM), ("wire", FAR_MM)
+
+
+@pytest.mark.parametrize(
+    ("shape", "focus_mm"),
+    in_tiers([(shape, focus) for shape in SHAPES for focus in (NEAR_MM, BETWEEN_MM, FAR_MM)], KEPT),
+)
+def test_every_part_of_the_pupil_sees_what_lies_on_its_ray(shape, focus_mm):
+    """Rays of both depths, each looked up in the scene by itself.
+
+    With the focus between the two, each part of the pupil sees another part of both, and the mean of the products that
+    the rays form is not the product of the means.
+    """
+    scene = Scene(Sensor(41, 41, 20.0), GREEN, NEAR_MM, FAR_MM, focus_mm=focus_mm, f_number=4.0)
+    made = preview_plan(scene.camera(find_lens("double_gauss_28")), scene)
+    made = replace(made, recipe=BY_RAYS, counts=(1, 1), vergences=(1 / FAR_MM, 1 / NEAR_MM))
+    near = np.broadcast_to(SHAPES[shape](np.arange(41)), (41, 41))
+    texture = gaussian_filter(np.random.default_rng(3).normal(size=(41, 41)), 3)
+    picture = np.where(near, 0.7, 0.3) + 0.15 * texture / texture.std()
+    found = form_image(made, picture[..., None], np.where(near, NEAR_MM, FAR_MM), BLUR)[..., 0]
+    seen = seen_through_pupil(made, near, picture)
+    assert np.sqrt(np.mean((found - seen)[10:-10, 10:-10] ** 2)) < (0.03 if focus_mm == BETWEEN_MM else 0.01)
+
+
+@pytest.mark.parametrize("focus_mm", [NEAR_MM, 4000.0])
+def test_a_slanted_wall_has_no_seams(focus_mm):
+    """No part hides another: the light of the layers adds up, over what they cover, so that even walls stay even."""
+    scene = Scene(Sensor(41, 41, 20.0), GREEN, NEAR_MM, FAR_MM, focus_mm=focus_mm, f_number=8.0)
+    made = preview_plan(scene.camera(find_lens("double_gauss_28")), scene)
+    made = replace(made, counts=(1, 1), vergences=tuple(np.linspace(1 / FAR_MM, 1 / NEAR_MM, 7)))
+    wall = np.broadcast_to(1 / np.linspace(1 / NEAR_MM, 1 / FAR_MM, 41), (41, 41))
+    picture = 0.5 + gaussian_filter(np.random.default_rng(4).normal(size=(41, 41, 1)), (1, 1, 0))
+    shares = hats(np.array(made.vergences), 1 / wall.ravel()).reshape(7, 41, 41, 1)
+
+    def added(values: np.ndarray) -> np.ndarray:
+        layers = zip(made.vergences, shares, strict=True)
+        return sum(form_image(replace(made, vergences=(v,)), values * share, None, BLUR) for v, share in layers)
+
+    found, even = form_image(made, picture, wall, BLUR), added(np.ones_like(picture))
+    np.testing.assert_allclose(found, added(picture) / even, atol=1e-5)  # of float32 transforms
+    assert np.ptp(even) > 0.02
 
 
 def test_weights_between_nodes_add_up_to_one_and_are_straight_between_two():
