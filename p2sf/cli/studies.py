@@ -39,6 +39,14 @@ Keep = Annotated[
 Every = Annotated[bool, Parameter("--all", negative="", help="Every number of the listings, not their groups only.")]
 Sampling = Annotated[bool, Parameter(negative="", help="The error of the paper's FFT over NPUPIL and NPSF instead.")]
 
+Samplings = Annotated[
+    list[int] | None,
+    Several,
+    Parameter(
+        help="Points along a side of the pupil's grid of OpticStudio's Huygens sum, a plain and the paper's FFT."
+    ),
+]
+
 
 def tradeoff(
     lens: Named = None,
@@ -53,6 +61,7 @@ def tradeoff(
     quick: Quick = False,
     keep: Keep = None,
     sampling: Sampling = False,
+    samplings: Samplings = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -78,6 +87,7 @@ def tradeoff(
         fields_deg=fields_deg,
         wavelengths_nm=wavelengths_nm,
         pixels=pixels,
+        samplings=samplings or (),
         camera=Camera(**vars(camera)),
     )
     head, *lines = tradeoff.table(rows)

@@ -3,18 +3,27 @@
 Each takes the exact rays of this program; what differs is where in the pupil they lie and how they are summed.
 """
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import sqrt
+from time import perf_counter
 
 import numpy as np
 
+from p2sf.conventions import centred_axis
+from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
+from p2sf.messages import Message
 from p2sf.paraxial.pupils import pupils
+from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.result import Psf
+from p2sf.psf.seidel import fft_intensity as six_fft
 from p2sf.raytrace.pencil import Rays, displayed_opd, in_azimuth, on_sensor, pencil
 
 AIRY = 1.22  # of λF: the width by which the listings fall off, a first zero of Airy's disc
+BLOCK = 4096  # rays whose wavelets are summed at once
 FFT_BASE = 32  # the sampling whose pupil fills its grid
 
 
@@ -59,10 +68,13 @@ def huygens_amplitude(lens: Lens, source: Source, sampling: int, pixels: int, pi
     """
     grid = pupil_grid(sampling, sampling / 2 - 1.5)
     rays = grid_rays(lens, source, grid)
-    axis = (np.arange(pixels) - pixels // 2) * pixel_um
-    fx, fy = np.ravel(rays.fx), np.ravel(rays.fy)
-    wavelets = np.exp(2j * np.pi * (np.ravel(rays.phase) + np.outer(axis, fy)))
-    field = wavelets @ np.exp(2j * np.pi * np.outer(fx, axis)) / fx.size
+    axis = centred_axis(pixels, pixel_um)
+    fx, fy, phase = (np.ravel(part) for part in (rays.fx, rays.fy, rays.phase))
+    field = np.zeros((pixels, pixels), complex)
+    for first in range(0, fx.size, BLOCK):
+        some = slice(first, first + BLOCK)
+        wavelets = np.exp(2j * np.pi * (phase[some] + np.outer(axis, fy[some])))
+        field += wavelets @ np.exp(2j * np.pi * np.outer(fx[some], axis)) / fx.size
     fall = np.sinc(axis / (grid.steps * AIRY * exit_pupil_width_um(lens, source)))
     amplitude: np.ndarray = field * fall * fall[:, None]
     return amplitude
@@ -92,3 +104,77 @@ def fft_intensity(lens: Lens, source: Source, sampling: int) -> tuple[np.ndarray
     rim = pencil(seen, source, [0.0, 0.0], [1.0, -1.0])
     width = float(abs(np.diff(np.ravel(rim.ky))[0]))  # twice the sine of the cone
     return np.abs(field) ** 2, source.wavelength_um / width * 2 * radius / (2 * sampling)
+
+
+SMALLEST, LARGEST = 16, 1024  # points along a side of a grid
+Window = tuple[int, float]
+
+
+def _huygens_grid(lens: Lens, source: Source, sampling: int, window: Window) -> np.ndarray:
+    intensity: np.ndarray = np.abs(huygens_amplitude(lens, source, sampling, *window)) ** 2
+    return intensity
+
+
+def _plain_fft(lens: Lens, source: Source, sampling: int, window: Window) -> np.ndarray:
+    """Return the FFT's picture at the samples of a window by a cubic spline, 0 beyond what it covers."""
+    from scipy.interpolate import RectBivariateSpline
+
+    made, pitch = fft_intensity(lens, source, sampling)
+    own, wanted = centred_axis(len(made), pitch), centred_axis(*window)
+    covered = (own[0] <= wanted) & (wanted <= own[-1])
+    values = np.maximum(RectBivariateSpline(own, own, made)(wanted, wanted), 0.0)
+    return np.where(covered & covered[:, None], values, 0.0)
+
+
+def _paper_fft(lens: Lens, source: Source, sampling: int, window: Window) -> np.ndarray:
+    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    return six_fft(six, *window, sampling)
+
+
+PAPER = "the paper's FFT"
+SAMPLED: dict[str, Callable[[Lens, Source, int, Window], np.ndarray]] = {
+    "OpticStudio's Huygens": _huygens_grid,
+    "plain FFT": _plain_fft,
+    PAPER: _paper_fft,
+}
+"""Methods of study, by name: the intensity over a window from so many points along a side of their grid."""
+
+
+def sampled_ways(samplings: Sequence[int], pixels: int) -> Iterator[tuple[str, str]]:
+    """Yield names of `SAMPLED` and counts of points in words; the paper's FFT needs two points a sample."""
+    for name in SAMPLED:
+        yield from ((name, f"{count}²") for count in samplings if name != PAPER or count >= 2 * pixels)
+
+
+def check_sampling(sampling: int) -> None:
+    """Raise RequestError for a count of points along a side that is odd, too small or too large."""
+    if sampling % 2 or not SMALLEST <= sampling <= LARGEST:
+        raise RequestError(
+            "{parameter} has {value}; give even numbers from {least} to {most}",
+            parameter="samplings",
+            value=sampling,
+            least=SMALLEST,
+            most=LARGEST,
+        )
+
+
+def sampled_psf(name: str, sampling: int, lens: Lens, source: Source, window: Window) -> Psf:
+    """Return the PSF of one of `SAMPLED`, in the axes of the source's field.
+
+    Raises GeometryError where a ray of the grid does not reach the sensor.
+    """
+    started = perf_counter()
+    intensity = SAMPLED[name](lens, source, sampling, window)
+    return Psf(
+        values=intensity / intensity.sum(),
+        pixel_um=window[1],
+        wavelength_um=source.wavelength_um,
+        method=name,
+        strehl=float(intensity.max()),
+        energy=None,
+        numbers=6 if name == PAPER else 0,
+        rays=0 if name == PAPER else sampling**2,
+        sampling=Message("{count} × {count} points", count=sampling),
+        seconds=perf_counter() - started,
+        error=None,
+    )

@@ -26,6 +26,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import NAMES, REFERENCE, PsfOptions, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
+from p2sf.studies.other_sampling import SAMPLED, check_sampling, sampled_psf, sampled_ways
 from p2sf.studies.trade_plots import MARKERS
 from p2sf.threads import one_blas_thread, using_threads
 
@@ -79,6 +80,7 @@ def tradeoff(
     methods: str | Sequence[str] = NAMES,
     pixels: int = PIXELS,
     pixel_um: float | None = None,
+    samplings: ArrayLike = (),
     camera: Camera = AS_IN_FILE,
     aim: AimChoice | None = None,
 ) -> TradeoffTable:
@@ -98,6 +100,10 @@ def tradeoff(
         Samples along each side of the compared window.
     pixel_um : float, optional
         Distance between samples, µm; by default one that shows the whole PSF.
+    samplings : array_like of int, optional
+        Points along a side of the pupil's grid for OpticStudio's Huygens sum, a plain FFT of exact rays and the paper's
+        FFT, which are measured beside the methods; by default none. The first two fill the paraxial entrance pupil:
+        with ``aim="paraxial"`` the reference does so too, and their errors are those of sampling alone.
     camera, aim
         As for `render`; the stop "auto" is that at the first depth.
 
@@ -127,6 +133,9 @@ def tradeoff(
     usual = lens.reference_wavelength_um * NM_PER_UM
     waves = number_list("wavelengths_nm", usual if wavelengths_nm is None else wavelengths_nm).tolist()
     methods = (methods,) if isinstance(methods, str) else methods
+    counts = [int(count) for count in number_list("samplings", samplings)]
+    for count in counts:
+        check_sampling(count)
     first = Source(next(iter(depths), inf), wavelength_um=lens.reference_wavelength_um)
     lens = set_up_source(lens, first, camera).lens
     rows = TradeoffTable()
@@ -139,7 +148,8 @@ def tradeoff(
             # Untimed, since a first call loads libraries and tables; the reference has just had its own.
             for way in _ways(set(methods) - {REFERENCE}):
                 _point_of_trade(lens, source, window, reference, *way)
-        rows += [_row(lens, source, window, place, reference, *way) for way in _ways(methods)]
+        ways = *_ways(methods), *sampled_ways(counts, pixels)
+        rows += [_row(lens, source, window, place, reference, *way) for way in ways]
     return rows
 
 
@@ -191,6 +201,8 @@ def _row(
 def _point_of_trade(
     lens: Lens, source: Source, window: tuple[int, float], reference: Psf, method: str, quality: str
 ) -> Psf:
+    if method in SAMPLED:
+        return sampled_psf(method, int(quality.removesuffix("²")), lens, source, window)
     derived = method_of(method).of_reference
     return derived(reference) if derived else render(lens, source, method, *window, PsfOptions(quality))
 
@@ -269,6 +281,11 @@ def draw(handle: BinaryIO, rows: list[MethodCost], title: str = "") -> None:
             if some:
                 [line] = axes.plot(*_points(some), marker, color=f"C{NAMES.index(method)}", linestyle="none")
                 line.set(fillstyle=filled, label=f"{method}, {quality}")
+    for number, (method, line_style) in enumerate(zip(SAMPLED, ("-", "--", ":"), strict=True), len(NAMES)):
+        some = [row for row in rows if row.method == method]
+        if some:
+            label = f"{method}, {some[0].quality} to {some[-1].quality}"
+            axes.plot(*_points(some), marker=".", linestyle=line_style, color=f"C{number}", label=label)
     axes.plot(*_points(front(rows)), "-", color="0.5", linewidth=1, zorder=0, label="Pareto front")
     axes.set_title(title, loc="left", fontsize=9)
     axes.grid(alpha=0.3)
