@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lens import Placement
+from p2sf.lens import Placement, Toroid
 from p2sf.lens.lens import indices
 from p2sf.lensfile import load_lens
 from p2sf.lensfile.glass_lookup import GlassSources
@@ -133,8 +133,8 @@ def test_a_phase_of_coefficients_of_path_is_read():
             r"surface 3 \(corrector\) diffracts \(DiffractiveElement\) and not by a phase",
         ),
         (
-            lambda m: m["profile_dict"]["12"].update(__instance_type__=["m", "YToroid"]),
-            r"surface 1 \(primary\) has a shape \(YToroid\)",
+            lambda m: m["profile_dict"]["12"].update(__instance_type__=["m", "Spline"]),
+            r"surface 1 \(primary\) has a shape \(Spline\)",
         ),
         (
             lambda m: m["seq_model"]["attributes"]["ifcs"][1].update(__instance_type__=["m", "ThinLens"]),
@@ -149,6 +149,49 @@ def test_what_cannot_be_read_is_refused_by_surface(change, said):
     with pytest.raises(LensFileError, match=said) as caught:
         lens_of(change)
     assert caught.value.line
+
+
+TOROID = {"cv": 0.02, "cR": -0.01, "cc": -0.5, "coefs": [1e-4, 2e-6, 0.0]}
+
+
+@pytest.mark.parametrize(("kind", "turn"), [("YToroid", 0.0), ("XToroid", 90.0)])
+def test_a_toroid_is_a_curve_that_is_swept(kind, turn):
+    """Rays through lenses that ray-optics 0.9.8 saved with these numbers agree with its own to 1e-15 mm."""
+    profile = {"__instance_type__": ["rayoptics.elem.profiles", kind], "attributes": TOROID}
+    first = lens_of(lambda model: model["profile_dict"].update({"12": profile})).surfaces[0]
+    numbers = {"radius_x": -100.0, "radius_y": 50.0, "conic_y": -0.5, "coefficients": (1e-4, 2e-6)}
+    assert first.shape == Toroid(**numbers, turn_deg=turn) and first.radius == np.inf
+
+
+@pytest.mark.parametrize(("way", "sign"), [("transmit", -1.0), ("reflect", 1.0)])
+def test_a_plane_grating_turns_rays_as_in_ray_optics(way, sign):
+    """Whose positive order turns rays that pass away from the grating's normal, and others towards it (0.9.8)."""
+    numbers = {"_grating_lpmm": 50.0, "order": 2, "grating_normal": {"__ndarray__": [0.6, 0.8, 0.0]}}
+    element = {"__instance_type__": ["rayoptics.oprops.doe", "DiffractionGrating"], "attributes": numbers}
+
+    def ruled(model, cv):
+        surface(model, 3).update(phase_element=element, interact_mode=way)
+        number = str(surface(model, 3)["profile_id"])
+        plane = {"__instance_type__": ["rayoptics.elem.profiles", "Spherical"], "attributes": {"cv": cv}}
+        model["profile_dict"].update({number: plane})
+
+    found = lens_of(lambda model: ruled(model, 0.0)).surfaces[2].diffraction
+    assert (found.lines_per_mm, found.order) == (50.0, 2 * sign)
+    _, (across, up) = found.phase_and_gradient(0.0, 0.0)
+    assert across / up == pytest.approx(0.75, rel=1e-14) and np.sign(up) == sign
+    with pytest.raises(LensFileError, match=r"surface 3.* grating on a curved surface"):
+        lens_of(lambda model: ruled(model, 0.01))
+
+
+def test_newer_files_have_an_underscore_before_some_names():
+    def renamed(model):
+        view = model["optical_spec"]["attributes"]["field_of_view"]["attributes"]
+        for each in (*(f["attributes"] for f in view["fields"]), view):
+            for name in ("x", "y", "value", "key"):
+                if name in each:
+                    each[f"_{name}"] = each.pop(name)
+
+    assert lens_of(renamed) == lens_of(lambda model: None)
 
 
 def test_a_thin_lens_is_an_ideal_one_of_its_power():

@@ -1,7 +1,7 @@
 """Write a lens as a CODE V .seq file."""
 
 from functools import reduce
-from math import exp, isfinite, pi
+from math import exp, inf, isfinite, pi
 from typing import NamedTuple
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
@@ -26,7 +26,9 @@ from p2sf.paraxial.pupils import stop_rim
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
-ANY_WAVELENGTH_NM = 50.0, 50_000.0
+ANY_WAVELENGTH_NM = 50.0, 400.0, 600.0, 1000.0, 50_000.0
+LINES_NM = 404.6561, 486.1327, 587.5618, 656.2725, 852.11  # h, F, d, C, s
+FEWEST_SAMPLES = 4
 FREEFORM_TYPES: dict[type[Shape], str] = {XYPolynomial: "XYP", ZernikeStandardSag: "ZRN", ZernikeFringeSag: "ZFR"}
 LETTERS = {power: letter for letter, power in ORDERS.items()}
 
@@ -268,6 +270,18 @@ def _makers_name(glass: CatalogueGlass) -> str:
     return f"{name.replace('-', '')}_{maker}" if same else ""
 
 
+def _sampled(lens: Lens, medium: Medium) -> list[float]:
+    """Return where the indices of a private glass are stated, nm: at the lens's wavelengths, and at others if few.
+
+    Programs that lay a cubic through them need four.
+    """
+    if isinstance(medium, ConstantIndex):
+        return list(ANY_WAVELENGTH_NM)
+    low, high = medium.range_um or (0.0, inf)
+    more = [nm for nm in LINES_NM if low <= nm / NM_PER_UM <= high and len(lens.wavelengths_nm) < FEWEST_SAMPLES]
+    return sorted({*lens.wavelengths_nm, *more})
+
+
 def _catalogue(lens: Lens, private: dict[Medium, str]) -> list[str]:
     """Return the private catalogue: every glass with its own wavelengths, nm, and its indices there."""
     lines = []
@@ -275,7 +289,7 @@ def _catalogue(lens: Lens, private: dict[Medium, str]) -> list[str]:
         if isinstance(medium, TabulatedIndex):
             waves = [wave * NM_PER_UM for wave in medium.wavelengths_um]
         else:
-            waves = list(ANY_WAVELENGTH_NM) if isinstance(medium, ConstantIndex) else sorted(lens.wavelengths_nm)
+            waves = _sampled(lens, medium)
         numbers = " ".join(digits(medium.index(wave / NM_PER_UM)) for wave in waves)
         lines += [f"PWL {' '.join(map(digits, waves))}", f"'{name}' {numbers}"]
     return ["PRV", *lines, "END"] if lines else []

@@ -5,12 +5,14 @@ interface is the object and the last the image; profiles stand in a table of the
 """
 
 import json
-from math import inf, pi
+from math import atan2, degrees, inf, pi
 from typing import Any
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.glass.media import MIRROR
+from p2sf.lens.anamorphic import Toroid
+from p2sf.lens.grating import Grating, Phase
 from p2sf.lens.lens import Lens
 from p2sf.lens.shapes import Diffraction
 from p2sf.lens.tilts import Breaks, decentred_surface
@@ -37,6 +39,7 @@ FIELDS: dict[tuple[str, str], RawFieldKind] = {
 }
 DECENTRES = {"decenter": "", "reverse": "REV", "dec and return": "DAR", "bend": "BEN"}
 PROFILES = ("Spherical", "Conic", "EvenPolynomial", "RadialPolynomial")
+TOROIDS = {"YToroid": 0.0, "XToroid": 90.0}  # with their turn about the axis, degrees
 DAMAGED = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError)
 
 
@@ -103,14 +106,21 @@ def _surface(
     values = _inside(interface)
     surface = RawSurface(number, 1, str(values.get("label", ""))[:60], thickness=float(gap["thi"]))
     surface.before, surface.after = _breaks(surface, values.get("decenter"), source)
+    reflects = values.get("interact_mode") == "reflect"
     if _kind(interface) == "ThinLens":
         power = float(values["_power"])
         surface.ideal_focal_length = 1 / power if power else inf
     else:
         if values.get("phase_element"):
-            surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source)
+            surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source, reflects)
         _shape(surface, _profile(values, model), source)
-    reflects = values.get("interact_mode") == "reflect"
+        if isinstance(surface.diffraction, Grating) and surface.curvature:
+            raise source.error(
+                "{surface} is a grating on a curved surface, whose lines are evenly spaced along the surface in "
+                "ray-optics, and across the axis here; only plane gratings are read",
+                1,
+                surface=surface.name,
+            )
     surface.glass = RawGlass(medium=MIRROR, line=1) if reflects else _glass(gap["medium"])
     rim = values.get("max_aperture") or inf
     for aperture in values.get("clear_apertures", ()):
@@ -149,9 +159,19 @@ def _three(array: Any) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: LensText) -> Diffraction:
-    """Return the phase 2π/λ·Σ cⱼr²ʲ of an element whose coefficients are a path at its reference wavelength."""
+def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: LensText, reflects: bool) -> Phase:
+    """Return the phase 2π/λ·Σ cⱼr²ʲ of an element whose coefficients are a path at its reference wavelength.
+
+    A grating has lines across its normal; a positive order turns rays that pass away from the normal, and rays that it
+    reflects towards it.
+    """
     values = _inside(element)
+    if _kind(element) == "DiffractionGrating":
+        x, y, z = _three(values.get("grating_normal"))
+        if (x or y) and not z:
+            lines = float(_stated(values, "grating_lpmm")) * unit_mm
+            order = float(values.get("order", 1)) * (1 if reflects else -1)
+            return Grating(lines, order, degrees(atan2(-x, y)))
     if _kind(element) != "DiffractiveElement" or values.get("phase_fct_name") != "radial_phase_fct":
         raise source.error(
             "{surface} diffracts ({kind}) and not by a phase in powers of r²; only such phases are read",
@@ -172,19 +192,36 @@ def _profile(values: dict[str, Any], model: dict[str, Any]) -> Any:
 def _shape(surface: RawSurface, profile: Any, source: LensText) -> None:
     """Give a surface its profile; ``ec`` is 1 + K, ``coefs`` those of r, r², … or of r², r⁴, …."""
     kind, values = _kind(profile), _inside(profile)
-    if kind not in PROFILES:
+    if kind not in (*PROFILES, *TOROIDS):
         raise source.error(
             "{surface} has a shape ({kind}) that is not round or not known; only {known} are read",
             1,
             surface=surface.name,
             kind=kind,
-            known=PROFILES,
+            known=(*PROFILES, *TOROIDS),
         )
+    if kind in TOROIDS:
+        surface.shape = _toroid(values, TOROIDS[kind])
+        return
     surface.curvature = float(values["cv"])
     surface.conic = float(values["ec"]) - 1 if "ec" in values else float(values.get("cc", 0.0))
     step = 2 if kind == "EvenPolynomial" else 1
     terms = enumerate(map(float, values.get("coefs", ())), 1)
     surface.aspheric = {step * place: value for place, value in terms if value}
+
+
+def _toroid(values: dict[str, Any], turn_deg: float) -> Toroid:
+    """Return the toroid of a curve ``cv``, ``cc`` and ``coefs``, of y², y⁴, …, swept with the curvature ``cR``."""
+    curve, sweep = float(values["cv"]), float(values.get("cR", 0.0))
+    terms = [float(value) for value in values.get("coefs", ())]
+    used = max((count for count, term in enumerate(terms, 1) if term), default=0)
+    return Toroid(
+        radius_x=1 / sweep if sweep else inf,
+        radius_y=1 / curve if curve else inf,
+        conic_y=float(values["ec"]) - 1 if "ec" in values else float(values.get("cc", 0.0)),
+        coefficients=tuple(terms[:used]),
+        turn_deg=turn_deg,
+    )
 
 
 def _glass(medium: Any) -> RawGlass | None:
@@ -199,15 +236,21 @@ def _glass(medium: Any) -> RawGlass | None:
     return RawGlass(str(values["gname"]), (kind.removesuffix("Glass").upper(),), line=1)
 
 
+def _stated(values: dict[str, Any], name: str) -> Any:
+    """Return an attribute, which some versions of ray-optics write with an underscore; KeyError."""
+    return values[name] if name in values else values[f"_{name}"]
+
+
 def _conditions(raw: RawLens, conditions: dict[str, Any]) -> None:
     """Read aperture, fields and wavelengths; fields may be stated as fractions of the largest."""
     pupil, view, light = (_inside(conditions[name]) for name in ("pupil", "field_of_view", "spectral_region"))
-    *_, side, name = pupil["_key"] if "_key" in pupil else pupil["key"]
-    raw.aperture = (APERTURES[side, name], abs(float(pupil["value"])))
-    *_, side, name = view["key"] if "key" in view else view["_key"]
+    *_, side, name = _stated(pupil, "key")
+    raw.aperture = (APERTURES[side, name], abs(float(_stated(pupil, "value"))))
+    *_, side, name = _stated(view, "key")
     raw.field_kind = FIELDS[side, name]
-    scale = float(view["value"]) if view.get("is_relative") else 1.0
-    raw.fields = [(scale * float(_inside(f)["x"]), scale * float(_inside(f)["y"])) for f in view["fields"]]
+    scale = float(_stated(view, "value")) if view.get("is_relative") else 1.0
+    places = (_inside(each) for each in view["fields"])
+    raw.fields = [(scale * float(_stated(at, "x")), scale * float(_stated(at, "y"))) for at in places]
     raw.wavelengths_um = [float(nm) / NM_PER_UM for nm in light["wavelengths"]]
     raw.weights = [float(weight) for weight in light.get("spectral_wts", ())]
     raw.primary = int(light["reference_wvl"])

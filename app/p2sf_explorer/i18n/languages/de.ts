@@ -2518,5 +2518,6 @@
 <message><source>thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>{depth}, field {field}, {wavelength:.1f} nm, {speed}</source><translation>{depth}, Feld {field}, {wavelength:.1f} nm, {speed}</translation></message>
 <message><source>{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}</source><translation>{parameter} ist {path}, die Endung "{ending}" ist unbekannt; wählen aus {endings}</translation></message>
+<message><source>{surface} is a grating on a curved surface, whose lines are evenly spaced along the surface in ray-optics, and across the axis here; only plane gratings are read</source><translation>{surface} ist ein Gitter auf einer gekrümmten Fläche, dessen Linien bei ray-optics entlang der Fläche gleich weit auseinanderliegen, hier aber quer zur Achse; nur ebene Gitter werden gelesen</translation></message>
 </context>
 </TS>
