@@ -11,6 +11,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.agf import Catalogue, read_agf
 from p2sf.lensfile.importing import FORMATS, import_lens, recognise
 from p2sf.lensfile.source_text import read_source
+from p2sf.lensfile.stated import stated_in
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number
@@ -24,6 +25,7 @@ class FileVerdict:
     """What became of one file: first-order data where it is read, the refusal with its surface and line where not.
 
     ``focal_length`` in mm and ``f_number`` are those of the reference wavelength; None where the lens has none.
+    ``stated_focal_length``: what the file or a title in it states, mm.
     """
 
     file: str
@@ -31,6 +33,7 @@ class FileVerdict:
     opens: bool
     focal_length: float | None = None
     f_number: float | None = None
+    stated_focal_length: float | None = None
     notes: int = 0
     surface: int | None = None
     line: int | None = None
@@ -45,9 +48,23 @@ def list_folder(folder: Path, accept_substitutes: bool, catalogues: Sequence[Pat
     if as_json:
         return print_json({"folder": str(folder), "files": [_record(row) for row in found], "opens": opened})
     title = f"{folder}: {opened} of {len(found)} lens files open"
-    columns = ("file", "format", "opens", "focal length, mm", "f-number", "notes", "surface", "line", "why not")
+    columns = (
+        "file",
+        "format",
+        "opens",
+        "focal length, mm",
+        "stated",
+        "f-number",
+        "notes",
+        "surface",
+        "line",
+        "why not",
+    )
     rows = [
-        (r.file, r.format, "yes" if r.opens else "no", r.focal_length, r.f_number, r.notes, r.surface, r.line, r.reason)
+        (
+            *(r.file, r.format, "yes" if r.opens else "no", r.focal_length, r.stated_focal_length),
+            *(r.f_number, r.notes, r.surface, r.line, r.reason),
+        )
         for r in found
     ]
     return print_table(title, columns, [tuple("" if cell is None else cell for cell in row) for row in rows])
@@ -88,7 +105,8 @@ def verdict(path: Path, name: str, accept_substitutes: bool, catalogues: Sequenc
     lens, count = found.lens, len(found.report.notes)
     wavelength = lens.reference_wavelength_um
     focal_length = float(cardinal_points(lens, wavelength).effective_focal_length)
-    return FileVerdict(name, found.report.format, True, focal_length, _f_number(lens), count)
+    stated = stated_in(found.report, "focal_length")
+    return FileVerdict(name, found.report.format, True, focal_length, _f_number(lens), stated, count)
 
 
 def _f_number(lens: Lens) -> float | None:

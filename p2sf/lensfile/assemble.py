@@ -64,7 +64,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     own = {each.kind for each in raw.stated}
     compare([*raw.stated, *(each for each in in_remarks(source) if each.kind not in own)], lens, notes)
     _note_vignetting(lens, raw, notes)
-    lens = _with_curved_sensor(lens, raw, notes)
+    lens = _with_line(lambda: _with_curved_sensor(lens, raw, notes), raw, source, raw.image.line if raw.image else None)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
 
 

@@ -8,7 +8,7 @@ from typing import Literal
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.report import Notebook
+from p2sf.lensfile.report import ImportReport, Notebook
 from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
@@ -78,6 +78,13 @@ def compare(stated: list[Stated], lens: Lens, notes: Notebook) -> None:
             found=abs(found),
             off=off,
         )
+
+
+def stated_in(report: ImportReport, kind: StatedKind) -> float | None:
+    """Return the number that the file of a report states, None where it states none."""
+    found = (note.message.values for note in report.notes if note.message.values.get("what") == WORDS[kind])
+    value = next((values["stated"] for values in found), None)
+    return value if isinstance(value, float) else None
 
 
 def _of_lens(kind: StatedKind, lens: Lens) -> float | None:

@@ -39,6 +39,7 @@ def test_every_lens_file_has_its_verdict(capsys, folder):
     lens = load_lens(FOLDER / "doublet.seq")
     efl = float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length)
     assert rows["deeper/b.seq"]["focal_length"] == efl and rows["deeper/b.seq"]["f_number"] == pytest.approx(efl / 20)
+    assert rows["deeper/b.seq"]["stated_focal_length"] is None
     assert rows["deeper/b.seq"]["notes"] > 0 and rows["deeper/b.seq"]["reason"] is None
     refused = rows["a.zmx"]
     assert (refused["opens"], refused["format"], refused["surface"]) == (False, "Zemax", 3)

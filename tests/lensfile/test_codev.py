@@ -199,6 +199,17 @@ def test_a_private_glass_without_one_index_per_wavelength_is_refused():
         read(PRIVATE, ("1.48 1.49 1.50&", "1.48 1.49&"))
 
 
+def test_a_solve_for_a_curvature_leaves_the_stored_one():
+    plain, solved = read(DOUBLET).lens, read(DOUBLET, ("SI ", "CUY UMY -0.1\nSI ")).lens
+    assert solved == plain
+
+
+def test_an_image_that_is_too_curved_is_refused_by_its_line():
+    with pytest.raises(LensFileError) as caught:
+        read(DOUBLET, ("SI    0.0", "SI    1e-320"))
+    assert caught.value.line
+
+
 def test_a_bare_name_that_several_makers_sell_is_decided_and_said():
     """F2 of Schott, Hoya and Hikari is CDGM's F4; CDGM's own F2 has nd 1.61293 and vd 36.96."""
     found = read(DOUBLET, ("NSF5_SCHOTT", "F2"))

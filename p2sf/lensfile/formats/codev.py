@@ -356,6 +356,10 @@ def _label(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) ->
 
 
 def _radius(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    """Read a radius or a curvature; a solve for it (CUY UMY −0.1) leaves the one that is stored."""
+    if command.words and command.words[0].isalpha():
+        reading.notes.add("ignored", REASON["SOL"])
+        return
     surface.curvature = to_curvature(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
     reading.surfaces_by_number.pop(id(surface), None)
 

@@ -297,8 +297,10 @@ def _asphere(reading: TableReading, row: dict[str, str], line: int) -> None:
     value = _reader(row, line, reading.source)
     surface.conic = value("conic")
     scale = value("normalization_radius") if row.get("normalization", "").lower() == "normalized" else 1.0
-    if scale <= 0:
-        raise reading.source.error("normalization radius {radius:g} is not positive; correct it", line, radius=scale)
+    if not 1e-6 < scale < 1e6:
+        raise reading.source.error(
+            "normalization radius {radius:g} is not that of a lens; correct it", line, radius=scale
+        )
     surface.aspheric = {power: term / scale**power for power, term in _terms(row, value).items()}
 
 

@@ -2147,7 +2147,7 @@
 <message><source>half field, °</source><translation>halbes Feld, °</translation></message>
 <message><source>is an ideal lens for one magnification</source><translation>ist eine ideale Linse für einen einzigen Abbildungsmaßstab</translation></message>
 <message><source>its rim is square; a round one of the same half-width is used instead</source><translation>ihr Rand ist quadratisch; stattdessen wird ein runder derselben halben Breite benutzt</translation></message>
-<message><source>normalization radius {radius:g} is not positive; correct it</source><translation>Normierungsradius {radius:g} ist nicht positiv; berichtigen</translation></message>
+<message><source>normalization radius {radius:g} is not that of a lens; correct it</source><translation>Normierungsradius {radius:g} ist nicht der eines Objektivs; berichtigen</translation></message>
 <message><source>row</source><translation>Zeile</translation></message>
 <message><source>scale</source><translation>Maßstab</translation></message>
 <message><source>surface {surface} diffracts, which is not read of this format</source><translation>Fläche {surface} beugt, was aus diesem Format nicht gelesen wird</translation></message>
