@@ -153,6 +153,19 @@ def test_a_folded_mirror_of_ray_optics_web():
     assert found.lens.fields_deg == pytest.approx((0, 0.35, 0.5)) and found.lens.reference_wavelength_nm == 546.073
 
 
+def test_cylinders_of_renderers_and_toroids_of_optiland():
+    """A circle of the radius across the axis along which the cylinder is straight; z = R − √((R − g(y))² − x²)."""
+    x, y = 2.0, 3.0
+    for name, across in (("CYLINDER_Y", x), ("CYLINDER_X", y)):
+        lens = read("sections.fx", ("AIR          SPHERICAL", f"AIR          {name}")).lens
+        assert float(lens.surfaces[3].sag(x, y)) == pytest.approx(20.3 - np.sqrt(20.3**2 - across**2), rel=1e-12)
+    old = '"StandardGeometry"'
+    new = '"ToroidalGeometry", "radius_x": 50.0, "radius_y": -80.0, "conic_yz": -0.5, "coeffs_poly_y": [0.0, 1e-5]'
+    curve = -(y**2) / 80 / (1 + np.sqrt(1 - 0.5 * y**2 / 80**2)) + 1e-5 * y**4
+    sag = float(read("optiland.json", (old, new)).lens.surfaces[1].sag(x, y))
+    assert sag == pytest.approx(50 - np.sqrt((50 - curve) ** 2 - x**2), rel=1e-12)
+
+
 def test_the_object_of_a_patent():
     """Marginal rays of NA 0.1 at the image of a relay of two lenses, 97 mm before the first: by a paraxial trace."""
     lens = lens_of("patent.json")
@@ -235,7 +248,7 @@ REFUSED = {
     ],
     "patent.json": [(('"stop_surface": 3', '"stop_surface": 9'), "the stop is on the object or the image")],
     "sections.fx": [
-        (("AIR          ASPHERICAL", "AIR          CYLINDER_Y"), "surface 2 has type CYLINDER_Y"),
+        (("AIR          ASPHERICAL", "AIR          CONE"), "surface 2 has type CONE"),
         (("1: k=0.5", "9: k=0.5"), 'aspherical data of "9"'),
         (("-436    6 ", "-436    x "), '"x" is not a number'),
     ],

@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass, field
 from math import inf
 
+from p2sf.lens.anamorphic import Toroid
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.configurations import Configuration, assemble_all
@@ -21,7 +22,8 @@ from p2sf.lensfile.stated import StatedKind
 from p2sf.messages import Message
 
 COLUMNS = ("radius", "thickness", "ior", "housing-radius", "abbe-no", "material", "geometry")
-GEOMETRIES = ("SPHERICAL", "ASPHERICAL", "PLANAR")
+CYLINDERS = ("CYLINDER_X", "CYLINDER_Y")  # by the axis along which they are straight
+GEOMETRIES = ("SPHERICAL", "ASPHERICAL", "PLANAR", *CYLINDERS)
 STATED: dict[str, StatedKind] = {"focal length": "focal_length", "maximum f number": "f_number"}
 MAKERS = ("SCHOTT", "OHARA", "HOYA", "HIKARI", "SUMITA", "CDGM", "CORNING", "LZOS")
 ZOOMS = 3  # short, mid, long
@@ -105,7 +107,11 @@ def _surface(reading: FxReading, code: str, line: int) -> None:
             known=GEOMETRIES,
         )
     radius, index = values["radius"], values["ior"]
-    surface.curvature = 1 / radius if radius and geometry != "PLANAR" else 0.0
+    if geometry in CYLINDERS:
+        along_x = geometry == CYLINDERS[0]
+        surface.shape = Toroid(radius_y=radius or inf) if along_x else Toroid(radius_x=radius or inf)
+    elif radius and geometry != "PLANAR":
+        surface.curvature = 1 / radius
     surface.thickness = values["thickness"]
     surface.semi_diameter = values["housing-radius"] if values["housing-radius"] > 0 else inf
     if not radius and geometry != "PLANAR" and index in (0, 1):

@@ -8,6 +8,7 @@ from pathlib import PureWindowsPath
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.glass.media import MIRROR
+from p2sf.lens.anamorphic import Toroid
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
@@ -33,6 +34,7 @@ FIELDS: dict[str, RawFieldKind] = {
     "realimageheightfield": "real_image_height",
 }
 POWERS = {"Plane": 0, "StandardGeometry": 0, "Standard": 0, "EvenAsphere": 2, "OddAsphere": 1}  # of r, a step
+TOROID = "ToroidalGeometry"  # a biconic is the sum of two curves there, and refused
 UNITS_UM = {"um": 1.0, "nm": 1 / NM_PER_UM, "mm": 1e3}
 PLACED = ("x", "y", "rx", "ry", "rz")
 
@@ -66,9 +68,9 @@ def _refuse_tilt(part: JsonPart) -> None:
 def _surface(part: JsonPart, thickness: float) -> RawSurface:
     geometry = part.part("geometry")
     kind = geometry.text("type")
-    if kind not in POWERS:
+    if kind not in (*POWERS, TOROID):
         part.refuse(
-            "surface {surface} has type {kind}, which is not read; only {known} are", kind=kind, known=tuple(POWERS)
+            "surface {surface} has type {kind}, which is not read; only {known} are", kind=kind, known=(*POWERS, TOROID)
         )
     _refuse_tilt(part)
     surface = RawSurface(part.surface or 1, part.line, part.text("comment")[:60], thickness=thickness)
@@ -77,6 +79,10 @@ def _surface(part: JsonPart, thickness: float) -> RawSurface:
         surface.ideal_focal_length = (part if "f" in part.values else acts).number("f", "focal_length")
     elif acts.text("type") not in ("", "RefractiveReflectiveModel"):
         part.refuse("surface {surface} has type {kind}, which is not read", kind=acts.text("type"))
+    elif kind == TOROID:
+        x, y = (1 / c if (c := geometry.curvature(name)) else inf for name in ("radius_x", "radius_y"))
+        conic, alphas = geometry.number("conic_yz", default=0.0), tuple(geometry.numbers("coeffs_poly_y"))
+        surface.shape = Toroid(radius_x=x, radius_y=y, conic_y=conic, coefficients=alphas)
     elif kind != "Plane":
         surface.curvature = geometry.curvature("radius")
         surface.conic = geometry.number("conic", default=0.0)
