@@ -9,7 +9,7 @@ HIGHEST = 0.9  # share of the highest sampled frequency beyond which a sufficien
 QUIET = 0.02  # of its root mean square at most
 
 
-def enlarge(values: np.ndarray, samples: int = LARGEST) -> np.ndarray:
+def enlarge(values: np.ndarray, samples: int = LARGEST, coarse: bool = False) -> np.ndarray:
     """Return a picture on a finer grid over the same square for display; nonnegative values stay nonnegative.
 
     If samples are as close as λ/(4 NA), the cosine series through them, mirrored at the edges, is the light itself
@@ -22,6 +22,9 @@ def enlarge(values: np.ndarray, samples: int = LARGEST) -> np.ndarray:
         Shape (n, n); each sample is at the centre of its pixel.
     samples : int
         Samples a side of the result; no fewer than n are returned.
+    coarse : bool
+        Whether samples are known to be farther apart than λ/(4 NA), whatever their spectrum looks like: cosines would
+        ring in the faint light about a bright line.
 
     Returns
     -------
@@ -32,7 +35,7 @@ def enlarge(values: np.ndarray, samples: int = LARGEST) -> np.ndarray:
     if samples <= count:
         return values
     values = np.asarray(values, np.float32)
-    matrix = (cosine_matrix if is_band_limited(values) else cubic_matrix)(count, samples)
+    matrix = (cubic_matrix if coarse or not is_band_limited(values) else cosine_matrix)(count, samples)
     finer: np.ndarray = matrix @ values @ matrix.T
     return finer if values.min() < 0 else np.maximum(finer, 0, out=finer)
 

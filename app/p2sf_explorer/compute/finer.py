@@ -76,9 +76,14 @@ def answer(request: PsfRequest, stopped: Callable[[], bool], tell: Callable[[flo
     return replace(psf, values=psf.values.astype(np.float32))
 
 
-def smooth(values: np.ndarray, times: int = TIMES) -> np.ndarray:
-    """Return samples on a finer grid, as they are painted: the light between them."""
-    return enlarge(values, min(times * values.shape[-1], LARGEST))
+def smooth(values: np.ndarray, times: int = TIMES, coarse: bool = False) -> np.ndarray:
+    """Return samples on a finer grid, as they are painted: the light between them; ``coarse`` as for `enlarge`."""
+    return enlarge(values, min(times * values.shape[-1], LARGEST), coarse)
+
+
+def is_coarse(pitch_um: float, airy_um: float) -> bool:
+    """Return whether samples are farther apart than λ/(4 NA), of an Airy radius."""
+    return pitch_um > ROUNDING * CRITICAL * airy_um
 
 
 def fade(values: np.ndarray) -> np.ndarray:

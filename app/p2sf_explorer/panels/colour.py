@@ -11,6 +11,7 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, Samples, value_of
 from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.compute.finer import is_coarse
 from p2sf_explorer.compute.framing import frame_of, light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels, smooth_colours
@@ -126,7 +127,9 @@ class ColourPanel:
         start = -(count // 2 + 0.5) * step
         rect, luminance = (start, start, count * step, count * step), found.psf.xyz[..., 1]
         seen = Samples(luminance / (float(luminance.max()) or 1.0), rect, tr("luminance, peak = 1"))
-        self.picture.show_pixels(pixels(smooth_colours(found.psf), self._scale), rect, seen)
+        self.picture.show_pixels(
+            pixels(smooth_colours(found.psf, is_coarse(step, self._airy_um)), self._scale), rect, seen
+        )
         frame = frame_of(light_circle(luminance, step, self._airy_um))
         self.picture.set_view((frame.x_um, frame.y_um), frame.half_um)
         self.spectrum.show_colours(found)

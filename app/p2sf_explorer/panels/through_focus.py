@@ -29,6 +29,7 @@ TIP = (
 STRIP_TIP = "Drag the line or click, or use the left and right arrow keys: the sensor follows."
 NEAR_PX = 9.0
 MOST_ROWS = 4
+ENDS = 0.6  # steps of the strip before its first and behind its last place
 SIDES: dict[int, int] = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
 
 
@@ -42,7 +43,7 @@ class StripChart(TilesChart):
         self.left_axis = False
         self.sensor_um = 0.0
         self._held = False
-        self._strip: tuple[list[Tile | None], float] | None = None
+        self._strip: tuple[list[Tile | None], np.ndarray] | None = None
         self.setAccessibleName(tr("Sensor position"))
         self.setToolTip(tr(STRIP_TIP))
 
@@ -50,12 +51,15 @@ class StripChart(TilesChart):
         """Return whether a press moves the sensor."""
         return self.area.contains(point)
 
-    def show_strip(self, tiles: list[Tile | None], step: float) -> None:
-        """Show a tile at every ``step`` of sensor shift, larger ones staggered in rows where the chart is tall."""
-        self._strip = tiles, step
-        steps = self.area.height() * self.per_pixel() / step  # that a tile as high as the chart covers
+    def show_strip(self, tiles: list[Tile | None], shifts: np.ndarray) -> None:
+        """Show a tile at every one of even sensor shifts, larger ones staggered in rows where the chart is tall."""
+        self._strip = tiles, shifts
+        step, area = float(shifts[1] - shifts[0]), self.area
+        steps = area.height() * (len(shifts) + 2 * ENDS - 1) / area.width()  # that a tile as high as the chart covers
         rows = max(1, min(MOST_ROWS, int(steps**0.5)))
         placed = (each and replace(each, y=1 - (k % rows + 0.5) / rows) for k, each in enumerate(tiles))
+        air = max(ENDS, rows / 2) * step  # so that the first and the last tile are whole
+        self.set_range((float(shifts[0]) - air, float(shifts[-1]) + air), (0.0, 1.0))
         self.show_tiles(placed, rows * step, rows)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -148,15 +152,13 @@ class ThroughFocusPanel:
     def _paint(self, asked: Strip, found: Focused) -> str:
         self.found = asked, found
         shifts = np.array(asked.shifts_um)
-        step = shifts[1] - shifts[0]
-        self.chart.set_range((float(shifts[0] - 0.6 * step), float(shifts[-1] + 0.6 * step)), (0.0, 1.0))
         top = np.nanmax(np.abs(found.light)) if np.isfinite(found.light).any() else 1.0
         shown = crop(found.light)
         pictures = found.light[:, shown, shown]
         light = pictures / (top or 1.0)
         low, self.chart.colours = (-1.0, DIFFERENCE_MAP) if asked.less else (0.0, BRIGHTNESS)
         tiles = [tile(values, float(at), 0.5, self._scale, low) for values, at in zip(light, shifts, strict=True)]
-        self.chart.show_strip(tiles, step)
+        self.chart.show_strip(tiles, shifts)
         heads = (
             tr("sensor shift {shift} µm: share of the perfect peak", shift=with_sign(float(at), 1)) for at in shifts
         )

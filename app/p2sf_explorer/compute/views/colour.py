@@ -106,9 +106,10 @@ def hues(wavelength_um: np.ndarray) -> np.ndarray:
     return srgb_from_linear(rgb / np.maximum(rgb.max(-1, keepdims=True), 1e-12))
 
 
-def smooth_colours(found: ColourPsf) -> ColourPsf:
-    """Return a picture on finer samples, as it is painted."""
-    return replace(found, xyz=np.stack([smooth(found.xyz[..., channel]) for channel in range(3)], axis=-1))
+def smooth_colours(found: ColourPsf, coarse: bool) -> ColourPsf:
+    """Return a picture on finer samples, as it is painted; ``coarse`` as for `p2sf.psf.enlarge.enlarge`."""
+    finer = [smooth(found.xyz[..., channel], coarse=coarse) for channel in range(3)]
+    return replace(found, xyz=np.stack(finer, axis=-1))
 
 
 def pixels(found: ColourPsf, scale: str) -> np.ndarray:
