@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from p2sf.lens.misalignment import displaced
     from p2sf.lens.placement import Placement
     from p2sf.lens.source import Source
+    from p2sf.lensfile.writing import write_lens
     from p2sf.measure.fitting.point_fit import PointFit
     from p2sf.measure.single_psf import fit_psf
     from p2sf.metrics.measures import Energy, LineSpread, Mtf
@@ -124,6 +125,7 @@ __all__ = [
     "widget",
     "with_absorption",
     "with_mask",
+    "write_lens",
     "write_psf",
     "zernike",
 ]
@@ -185,6 +187,7 @@ _ELSEWHERE = {
     "widget": "p2sf.notebook_widget",
     "with_absorption": "p2sf.lens.lens",
     "with_mask": "p2sf.lens.lens",
+    "write_lens": "p2sf.lensfile.writing",
     "write_psf": "p2sf.io.psf_files",
 }
 

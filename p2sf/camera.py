@@ -255,21 +255,25 @@ class Camera(Settings):
 
     def source(
         self,
-        depth_mm: float = inf,
+        depth_mm: float | None = None,
         field_deg: float | tuple[float, float] = 0.0,
         wavelength_nm: float | None = None,
     ) -> Source:
-        """Return a point source, by default at infinity, on the axis, of the lens's middle wavelength.
+        """Return a point source, by default at the distance in focus, on the axis, of the lens's middle wavelength.
+
+        Where `focus_mm` is not stated that distance is infinity.
 
         ``field_deg``: the angle of its chief ray, degrees, or the angles (x, y). RequestError for what cannot be.
         """
         if wavelength_nm is None:
             wavelength_nm = self.its_lens.reference_wavelength_um * NM_PER_UM
+        if depth_mm is None:
+            depth_mm = inf if self.focus_mm is None else self.focus_mm
         return Source(depth_mm, field_deg=field_deg, wavelength_nm=wavelength_nm)
 
     def psf(
         self,
-        depth_mm: float = inf,
+        depth_mm: float | None = None,
         *,
         field_deg: float | tuple[float, float] = 0.0,
         wavelength_nm: float | None = None,
@@ -444,7 +448,7 @@ class Camera(Settings):
         """
         from p2sf import tolerances
 
-        source = self.source((self.focus_mm or inf) if depth_mm is None else depth_mm, 0.0, wavelength_nm)
+        source = self.source(depth_mm, 0.0, wavelength_nm)
         return tolerances(set_up_source(self.its_lens, source, self.settings).lens, source, limits, **how)
 
 

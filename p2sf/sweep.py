@@ -343,8 +343,8 @@ def _point(camera: Camera, values: Mapping[str, Any]) -> SweepPoint:
     plain = {name: np.asarray(value).item() for name, value in values.items()}
     moved = {name: plain.pop(name) for name in tuple(plain) if name not in OF_THE_SOURCE}
     across, up = plain.pop("field_x_deg", 0.0), plain.pop("field_deg", 0.0)
-    source = camera.source(**plain, field_deg=(across, up))
-    return SweepPoint(camera.its_lens, source, replace(camera.settings, **moved))
+    own = replace(camera, **moved)
+    return SweepPoint(camera.its_lens, own.source(**plain, field_deg=(across, up)), own.settings)
 
 
 def _psf(

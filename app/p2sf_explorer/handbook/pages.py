@@ -19,6 +19,8 @@ PAGES = {
     "export": "Export",
     "measure": "Measure a lens",
     "camera": "A camera in Python",
+    "build": "Build a lens in Python",
+    "gallery": "Gallery",
     "notebook": "In a notebook",
     "theory": "Theory",
     "numerics": "Numerical accuracy",

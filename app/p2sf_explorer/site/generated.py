@@ -45,13 +45,14 @@ def navigation() -> list[dict[str, object]]:
     lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
     how_to = [
         entry(f"{name}.md")
-        for name in ("import", "lens_files", "export", "measure", "camera", "notebook", "plans", "window", "panels")
+        for name in ("import", "lens_files", "export", "measure", "camera", "build", "notebook", "plans", "window", "panels")
     ]
     return [
         {"P2SF Explorer": "index.md"},
         entry("find.md"),
         entry("install.md"),
         entry("tutorial.md"),
+        entry("gallery.md"),
         {"How to": [*how_to,
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
         ]},
