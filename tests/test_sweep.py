@@ -78,7 +78,9 @@ def test_wavefronts_are_those_of_a_loop():
 
 def test_angles_along_x_are_those_of_a_source():
     found = CAMERA.sweep(field_x_deg=[0.0, 3.0], field_deg=4.0, wavelength_nm=550).mtf(20)
-    one = p2sf.mtf(CAMERA.lens, p2sf.Source(3000, field_deg=(3, 4), wavelength_nm=550), frequency_per_mm=20, focus_mm=3000)
+    one = p2sf.mtf(
+        CAMERA.lens, p2sf.Source(3000, field_deg=(3, 4), wavelength_nm=550), frequency_per_mm=20, focus_mm=3000
+    )
     assert found["tangential"].shape == (2,) and found["tangential"][1] == one.tangential[0]
 
 

@@ -8,6 +8,7 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import Any
 
+from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
@@ -44,10 +45,27 @@ MOST_ISET_TERMS = 20
 SPECTRUM_NM = tuple(range(400, 701, 10))
 
 
-def write_lens(lens: Lens, path: str | os.PathLike) -> None:
-    """Write a lens as .toml, .zmx, .seq or ISET .json; LensFileError for another ending or what the format cannot hold.
+@check_arguments
+def write_lens(lens: Lens, path: str | os.PathLike[str]) -> None:
+    """Write a lens as a file of P2SF, Zemax, CODE V or ISET.
 
-    Glasses from AGF catalogues go into a small catalogue of their own beside a .zmx, with the same stem.
+    Parameters
+    ----------
+    lens : Lens
+        The lens.
+    path : str or path
+        A name that ends in .toml, .zmx, .seq or .json, which says the format. Glasses from AGF catalogues go into a
+        small catalogue of their own beside a .zmx, with the same stem.
+
+    Raises
+    ------
+    LensFileError
+        For another ending, and for what the format cannot hold.
+
+    Examples
+    --------
+    >>> import p2sf
+    >>> p2sf.write_lens(p2sf.load_lens("tessar"), "tessar.zmx")  # doctest: +SKIP
     """
     ending = Path(path).suffix.lower()
     writers: dict[str, Callable[[Lens], str]] = {

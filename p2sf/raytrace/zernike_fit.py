@@ -53,6 +53,10 @@ class ZernikeFit:
     clear: float
     rays: int
 
+    def __repr__(self) -> str:
+        terms, strehl = f"{len(self.terms)} terms, {self.basis}", f"Strehl ratio by Maréchal {self.marechal:.3g}"
+        return f"<ZernikeFit: {terms}, RMS {self.rms:.4g} waves, residual {self.residual:.2g}, {strehl}>"
+
     @property
     def order(self) -> ZernikeOrder:
         """Return `basis` by its former name, with a DeprecationWarning."""

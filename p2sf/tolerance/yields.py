@@ -7,6 +7,7 @@ from math import isfinite
 
 import numpy as np
 
+from p2sf.arguments import check_arguments
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -77,6 +78,7 @@ class ToleranceStudy:
         return f"<ToleranceStudy of {self.known.lens.name}: {shares}>"
 
 
+@check_arguments
 def tolerances(
     lens: Lens,
     source: Source,

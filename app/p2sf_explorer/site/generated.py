@@ -8,6 +8,8 @@ from p2sf.cli import command_line_markdown
 from p2sf_explorer.handbook.pages import PAGES
 from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
 from p2sf_explorer.lessons.lesson import Lesson, Step, shipped_lessons
+from p2sf_explorer.site.notebooks import SHOWN as NOTEBOOKS
+from p2sf_explorer.site.notebooks import notebook_text
 
 ROOT = Path(__file__).parents[3]
 # Where the files that pages link to in the sources stand on the site.
@@ -23,7 +25,9 @@ MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", 
 
 def pages() -> dict[str, str]:
     """Return the Markdown of every generated page by its path on the site."""
-    return {
+    lessons = {f"lessons/{lesson.name}.md": lesson_page(lesson) for lesson in shipped_lessons()}
+    notebooks = {f"examples/{name}.md": notebook_text(name) for name in NOTEBOOKS}
+    own = {
         "index.md": _with_moved_links("README.md"),
         "contributing.md": _with_moved_links("CONTRIBUTING.md"),
         "changelog.md": _with_moved_links("CHANGELOG.md"),
@@ -31,7 +35,8 @@ def pages() -> dict[str, str]:
         "api.md": library_page(),
         "lessons/index.md": lessons_page(),
         "lessons/format.md": (LESSONS / "README.md").read_text(encoding="utf-8"),
-    } | {f"lessons/{lesson.name}.md": lesson_page(lesson) for lesson in shipped_lessons()}
+    }
+    return own | lessons | notebooks
 
 
 def navigation() -> list[dict[str, object]]:
@@ -45,14 +50,25 @@ def navigation() -> list[dict[str, object]]:
     lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
     how_to = [
         entry(f"{name}.md")
-        for name in ("import", "lens_files", "export", "measure", "camera", "build", "notebook", "plans", "window", "panels")
+        for name in (
+            "import",
+            "lens_files",
+            "export",
+            "measure",
+            "camera",
+            "build",
+            "notebook",
+            "plans",
+            "window",
+            "panels",
+        )
     ]
     return [
         {"P2SF Explorer": "index.md"},
         entry("find.md"),
         entry("install.md"),
         entry("tutorial.md"),
-        entry("gallery.md"),
+        {"Examples": [entry("gallery.md"), {"A camera and its figures": "examples/camera.md"}]},
         {"How to": [*how_to,
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
         ]},

@@ -12,6 +12,7 @@ from mkdocs.structure.pages import Page
 from p2sf_explorer.handbook.pages import FOLDER, with_formulas
 from p2sf_explorer.site.generated import navigation, pages
 from p2sf_explorer.site.links import link_faults
+from p2sf_explorer.site.notebooks import SHOWN, notebook_page
 from p2sf_explorer.site.pictures import MADE, WINDOW, example_pictures, lesson_states, window_pictures
 
 WORKER = Path(__file__).parent / "iframe-worker.js"
@@ -26,10 +27,15 @@ def on_config(config: Any) -> Any:
 
 def on_files(files: Files, config: Any) -> Files:
     """Add the generated pages and every picture that is made."""
-    for path, text in pages().items():
+    texts = pages()
+    made: dict[str, bytes] = {}
+    for name in SHOWN:
+        texts[f"examples/{name}.md"], pictures = notebook_page(name)
+        made |= {f"made/{path}": content for path, content in pictures.items()}
+    for path, text in texts.items():
         files.append(File.generated(config, path, content=text))
     files.append(File.generated(config, "javascripts/iframe-worker.js", content=WORKER.read_text(encoding="utf-8")))
-    made = {f"made/{name}": content for name, content in window_pictures(WINDOW | lesson_states())}
+    made |= {f"made/{name}": content for name, content in window_pictures(WINDOW | lesson_states())}
     for page in sorted(FOLDER.glob("*.md")):
         text = page.read_text(encoding="utf-8")
         if MADE.search(text):

@@ -79,6 +79,11 @@ class PointFit:
     warnings: tuple[Message, ...] = ()
     computed: bool = False
 
+    def __repr__(self) -> str:
+        rows = zip(self.names, self.numbers, self.errors, strict=False)
+        found = ", ".join(f"{name} {value:.4g} ± {error:.1g}" for name, value, error in rows)
+        return f"<PointFit: {found}; R² {np.min(self.r2):.5g}>"
+
     @property
     def reliable(self) -> bool:
         """Return whether enough is explained for the numbers to mean anything: beyond, they may be of any minimum."""

@@ -1,10 +1,12 @@
 """The example notebooks run from top to bottom, and what they assert holds."""
 
 import json
+import re
 
 import pytest
 
 from p2sf_explorer.handbook.pages import FOLDER
+from p2sf_explorer.site.notebooks import SHOWN, notebook_page
 
 pytestmark = pytest.mark.slow
 
@@ -20,6 +22,14 @@ def test_a_notebook_runs(path, tmp_path, monkeypatch):
     nbclient.NotebookClient(
         nbformat.read(path, as_version=4), timeout=60, resources={"metadata": {"path": str(tmp_path)}}
     ).execute()
+
+
+def test_a_notebook_is_a_page_with_what_it_draws(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    for name in SHOWN:
+        text, pictures = notebook_page(name)
+        assert len(pictures) >= 4 and all(picture.startswith(b"\x89PNG") for picture in pictures.values())
+        assert set(re.findall(r"\.\./made/([\w.]+)", text)) == set(pictures) and "```text" in text
 
 
 def test_there_are_four_and_none_holds_results():

@@ -3,6 +3,8 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>Build a lens in Python</source><translation>Ein Objektiv in Python bauen</translation></message>
+<message><source>Gallery</source><translation>Galerie</translation></message>
 <message><source>What the stage shows; right-click to choose the parts of this line</source><translation>Was die Bühne zeigt; Rechtsklick wählt die Teile dieser Zeile</translation></message>
 <message><source> ({count} fr.)</source><translation> ({count} Ringe)</translation></message>
 <message><source>"{entry}" sets nothing; write entries such as field_deg 10, tab mtf</source><translation>"{entry}" stellt nichts ein; Einträge schreiben wie field_deg 10, tab mtf</translation></message>
