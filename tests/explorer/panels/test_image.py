@@ -34,9 +34,11 @@ from p2sf_explorer.compute.views.image import (
     by_rays,
     coarse,
     fine_enough,
+    in_few_pixels,
     local_psf,
     moved_in,
     no_plan,
+    on_stage,
     pixels,
     question,
     scene_of,
@@ -409,3 +411,21 @@ def test_a_photo_that_is_missing_leaves_the_button_to_choose_another(window, ima
     assert image_panel.show_box.currentData() == window.store.state.photo.show
     at = image_panel.open.mapTo(window, image_panel.open.rect().center())
     assert window.childAt(at) is image_panel.open
+
+
+def test_the_picture_has_the_pixels_of_the_stage_as_far_as_the_field_goes():
+    """The coarse picture shows the same part of the field in few pixels; the sensor stays within the field."""
+    asked = question(compute.live(default_state("cooke_triplet"), "preview"))
+    assert on_stage(asked, (200, 300)) is asked and on_stage(asked, (230, 400)) == asked
+    larger = on_stage(asked, (650, 900))
+    assert larger.shape == (520, 780) and larger.pixel_um == asked.pixel_um
+    few = in_few_pixels(larger)
+    assert few.shape == (ROWS, COLUMNS)
+    assert few.pixel_um * COLUMNS == pytest.approx(larger.pixel_um * larger.shape[1])
+    small = question(compute.live(default_state("phone_f28"), "preview"))
+    found = on_stage(small, (1200, 1800))
+    assert found.shape == (ROWS, COLUMNS), "12 mm are more than its field"
+    scene_of(found)
+    every = replace(asked, pixel_um=None)
+    assert on_stage(every, (700, 1000)).shape == (624, 936)
+    assert on_stage(replace(asked, show="taken"), (1200, 1800)).shape == (ROWS, COLUMNS)

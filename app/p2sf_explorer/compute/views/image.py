@@ -14,7 +14,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
-from p2sf.errors import GeometryError, RequestError
+from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
 from p2sf.image.deblur import photo_noise, psnr, wiener, with_one_kernel
@@ -128,6 +128,7 @@ def frame_notes(photo: str, shape: tuple[int, int]) -> tuple[Message, Message] |
 
 
 ROWS, COLUMNS = 208, 312
+ENLARGED = (1, 1.5, 2, 2.5, 3, 4, 5)  # times so many, where the panel has room for them
 MOST_SAMPLES = 24  # of λ/2NA across a pixel: a plan of larger pixels takes minutes, and they hide what it is about
 TOO_WIDE, TOO_LARGE = Message("No plan: these PSFs are too wide"), Message("No plan: these pixels hide the PSF")
 UNMEASURED = {
@@ -209,6 +210,31 @@ def question(live: Live) -> ImageRequest:
     return ImageRequest(setup.lens, optics.depth_mm, *what, centre, optics.clip, shape or (ROWS, COLUMNS))
 
 
+def on_stage(request: ImageRequest, room: tuple[int, int]) -> ImageRequest:
+    """Return the request with a pixel for each pixel of a room, (rows, columns), in steps, as far as the field goes.
+
+    A photo that the lens took, or of which every pixel is wanted, keeps its own.
+    """
+    if request.show == TAKEN or request.shape != (ROWS, COLUMNS):
+        return request
+    fits = [times for times in ENLARGED if all(times * n <= most for n, most in zip(request.shape, room, strict=True))]
+    for times in reversed(fits):
+        larger = replace(request, shape=(round(times * ROWS), round(times * COLUMNS)))
+        if request.pixel_um is None or _has_room(larger):
+            return larger
+    return request
+
+
+def _has_room(request: ImageRequest) -> bool:
+    """Return whether the field of the lens holds a sensor about the field point; a lost ray is no room."""
+    half_mm = hypot(*request.shape) / 2 * (request.pixel_um or 0.0) / UM_PER_MM
+    try:
+        reach = rim_mm(request.lens, request.depth_mm, float(channels_of(request.lens)[1].wavelengths_um[1]))
+    except P2SFError:
+        return False
+    return abs(request.centre_mm) + half_mm <= CORNER * reach
+
+
 def _known_shape(shape_of: Callable[[str], tuple[int, int]], photo: str) -> tuple[int, int] | None:
     """Return the shape of a photo; None where it cannot be read, which is said where its pixels are asked for.
 
@@ -246,7 +272,7 @@ def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     begun, watch = perf_counter(), watch or Progress()
     if request.show == TAKEN:
         return _sharpen(request, watch, begun, quick=True)
-    small = replace(request, shape=small_shape(request.shape))
+    small = in_few_pixels(request)
     coarse_plan = unmeasured_plan(small)
     why_not = no_plan(coarse_plan if small == request else unmeasured_plan(request))
     rays: Notes = ((Message("Rays"), RAY_NOTE),) if by_rays(coarse_plan) else ()
@@ -259,6 +285,13 @@ def unmeasured_plan(request: ImageRequest) -> Plan:
     """Return the plan of a coarse picture; GeometryError."""
     scene = scene_of(request)
     return preview_plan(scene.camera(request.lens), scene)
+
+
+def in_few_pixels(request: ImageRequest) -> ImageRequest:
+    """Return the request for the same part of the field in the usual number of pixels."""
+    shape = small_shape(request.shape)
+    pitch = request.pixel_um and request.pixel_um * request.shape[1] / shape[1]
+    return replace(request, shape=shape, pixel_um=pitch)
 
 
 def small_shape(shape: tuple[int, int]) -> tuple[int, int]:

@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QFileDialog, QLabel
 
 from p2sf.errors import P2SFError
@@ -21,6 +21,7 @@ from p2sf_explorer.compute.views.image import (
     coarse,
     fine_enough,
     local_psf,
+    on_stage,
     pixels,
     planned_picture,
     same_optics,
@@ -44,6 +45,7 @@ TIP = (
     "distortion and falling light included."
 )
 PIXELS = {"4.0": "4 µm pixels", "8.0": "8 µm pixels", "16.0": "16 µm pixels", "32.0": "32 µm pixels", "": "whole field"}
+RESIZED_MS = 300  # after the last change of the panel's size, the picture is made for its new pixels
 FULL = "full"  # the choice of every pixel of the photo
 LOOKS = {"split": "split", "side": "side by side", "blink": "blink"}
 SHOWS: dict[str, tuple[str, tuple[str, str]]] = {
@@ -77,6 +79,7 @@ class ImagePanel:
         self.overlay = Overlay(self.split_view)
         self._lay_out()
         self._connect()
+        self._live: Live | None = None
         self._asked: ImageRequest | None = None
         self._answer: ImageResult | None = None
         self._planned: ImageResult | None = None  # the last that was made by a plan
@@ -112,13 +115,17 @@ class ImagePanel:
         self.split_view.released.connect(store.end)
         self.split_view.moved.connect(lambda part: store.update(photo_split=part))
         self.split_view.looked.connect(self._look)
+        self._resized = QTimer(self.widget, singleShot=True, interval=RESIZED_MS)
+        self._resized.timeout.connect(self._on_resized)
+        self.split_view.resized.connect(self._resized.start)
         self.drop = PhotoDrop(self.widget)
         self.drop.photo.connect(lambda path: store.update(photo_source=path))
         self.drop.refused.connect(store.refused)
 
     def show(self, live: Live) -> None:
         """Follow the state; ask the worker for a picture when anything it depends on has changed."""
-        asked: ImageRequest = live.views["image"]
+        self._live = live
+        asked = on_stage(live.views["image"], self.split_view.room())
         state = live.state
         self._settled = live.quality == "settled"
         self._show_choices(state)
@@ -131,6 +138,10 @@ class ImagePanel:
         elif self._settled:
             self._refine()
         self._show_readout()
+
+    def _on_resized(self) -> None:
+        if self._live and self._live.quality == "settled":
+            self.show(self._live)
 
     def _show_choices(self, state: State) -> None:
         if self.photo.findData(state.photo.source) < 0:

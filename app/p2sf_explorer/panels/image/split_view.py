@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, QTimer, Signal
-from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.chart import image_of
@@ -96,6 +96,7 @@ class SplitView(QWidget):
     looked = Signal(float, float)
     taken = Signal()
     released = Signal()
+    resized = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -115,6 +116,16 @@ class SplitView(QWidget):
         self._blink = QTimer(self, interval=BLINK_MS)
         self._blink.timeout.connect(self._turn)
         self._theme: Tokens = LIGHT
+
+    def room(self) -> tuple[int, int]:
+        """Return the rows and columns of pixels of the screen that there are."""
+        ratio = self.devicePixelRatioF()
+        return int(ratio * self.height()), int(ratio * self.width())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Tell of other room."""
+        super().resizeEvent(event)
+        self.resized.emit()
 
     def sizeHint(self) -> QSize:
         """Return a size that shows every pixel."""
