@@ -66,8 +66,9 @@ class Caption(QWidget):
             self.updateGeometry()
         if parts != self._parts or not moving:
             self._parts = parts
-            self.setAccessibleName(self.text)
             self.update()
+        if not moving:  # a reader is told of what is at rest
+            self.setAccessibleName(self.text)
 
     def restyle(self, theme: Tokens, screen_height: int = 0) -> None:
         """Take the colours and the scale of a theme; ``screen_height`` of the screen that a hall looks at."""
