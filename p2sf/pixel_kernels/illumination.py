@@ -37,6 +37,17 @@ def light_collected(lens: Lens, source: Source, clip: bool = False) -> float:
     return float(nodes.share * mean / (1 + source.field_slope**2) ** 1.5)
 
 
+@lru_cache(maxsize=1024)
+def light_passed(lens: Lens, source: Source, clip: bool = False) -> float:
+    """Return the share of the energy of the rays that arrive which surfaces and media pass, 1 where nothing takes any.
+
+    It is a mean over the open pupil by the light that enters. Raises GeometryError where all rays are lost.
+    """
+    rays = rays_through(lens, source, _open_nodes(lens, source, clip)).arrived
+    entering = rays.share * rays.launch * np.square(rays.mask)
+    return float((entering * rays.transmission).sum() / entering.sum())
+
+
 def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
     """Return nodes over what mask, rims and lost rays leave open."""
     if lens.mask.clear and not (clip and holes_of(lens)):

@@ -41,11 +41,17 @@ OF = (
     ("lateral", "lateral colour"),
     ("distortion", "distortion of colours"),
     ("illumination", "relative illumination"),
+    ("transmission", "transmission over the field"),
+    ("transmission_of_colours", "transmission of colours"),
 )
 FURTHER = "#cc79a7", "#a6761d", "#56b4e9", "#7570b3", "#009e73", "#e6ab02", "#e7298a", "#66a61e", "#999999"
 HUES = ("text", "marginal", "chief", "third", *FURTHER)  # the first of what belongs to none
 MOST = 2 * MOST_FIELDS
-FROM_ZERO = {"contrast": 1.04, "relative illumination, %": 104.0}  # axes that begin there, and where they end
+FROM_ZERO = {
+    "contrast": 1.04,
+    "relative illumination, %": 104.0,
+    "transmission, %": 104.0,
+}  # axes that begin there, and where they end
 HINTS = {"contrast": "thick tangential, fine sagittal", "distortion, %": "thick exact rays, fine third order"}
 
 
@@ -81,7 +87,7 @@ class OverlaysPanel:
         view: CurveOverlay | OverlayRequest = live.views["curves"]
         self.frequencies.setVisible(live.state.curves.of in ("field", "focus"))
         self.frequencies.show_frequencies(live.state.curves.frequencies_per_mm or USUAL_PER_MM)
-        self.fields.setVisible(live.state.curves.of == "fields")
+        self.fields.setVisible(live.state.curves.of in ("fields", "transmission_of_colours"))
         self.fields.show_fields(compared_fields(live.state))
         if isinstance(view, CurveOverlay):
             self.asking.forget()
@@ -120,6 +126,8 @@ class OverlaysPanel:
             return
         optics, bottom = self._live.state.optics, self.found[1].axes[0]
         place = {"field, °": abs(optics.field_deg), "sensor shift, µm": optics.sensor_shift_um}.get(bottom)
+        if bottom == "wavelength, nm":
+            place = optics.wavelength_nm
         if place is None:
             place = UM_PER_MM / (2 * self._live.state.display.pixel_um)
             text = " " + tr("Nyquist {f}", f=f"{place:.3g}")

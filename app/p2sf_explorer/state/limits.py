@@ -37,7 +37,17 @@ CHOICES = {
     "database_rule": ("table1", "linear"),
     "accuracy_plot": ("here", "bytes", "time"),
     "exactness_measure": ("r2", "mtf", "r80", "time"),
-    "curves_of": ("fields", "colours", "field", "focus", "lateral", "distortion", "illumination"),
+    "curves_of": (
+        "fields",
+        "colours",
+        "field",
+        "focus",
+        "lateral",
+        "distortion",
+        "illumination",
+        "transmission",
+        "transmission_of_colours",
+    ),
 }
 MOST_LISTED = 5  # values of a list
 MOST_FIELDS = 12  # of curves and of the table of figures

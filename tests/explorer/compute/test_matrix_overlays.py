@@ -1,12 +1,18 @@
 """Curves over fields, colours and sensor positions against single pictures, plain formulas and the library."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import p2sf
 from p2sf.conventions import degrees_from_slope, slope_from_degrees
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.lens.transmission import Transmission
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.metrics.perfect import circle_contrast
+from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
@@ -197,3 +203,36 @@ def test_lenses_without_rims_say_so():
     found = worked(change(default_state("achromat_f6"), curves_of="illumination"))
     stated = any(np.isfinite(surface.semi_diameter) for surface in lens.surfaces)
     assert np.isfinite(lines(found)["rims clip"]).all() == stated and (found.missing is None) == stated
+
+
+def coated(vertex: float, per_area: float) -> Lens:
+    """Return a triplet whose first surface passes vertex + per_area·h²."""
+    lens = p2sf.load_lens("cooke_triplet")
+    first = replace(lens.surfaces[0], transmission=Transmission(vertex, per_area))
+    return replace(lens, surfaces=(first, *lens.surfaces[1:]))
+
+
+def test_an_even_coating_passes_the_same_at_every_field_and_colour():
+    lens = coated(0.9, 0.0)
+    for of in ("transmission", "transmission_of_colours"):
+        found = worked(change(default_state("coated", lens_to_toml(lens)), curves_of=of))
+        assert found.missing is None
+        for values in lines(found).values():
+            assert values == pytest.approx(90.0, abs=1e-9)
+
+
+def test_a_coating_that_fades_outwards_is_the_mean_over_the_beam():
+    """On the axis t₀ + t₂·⟨h²⟩, and ⟨h²⟩ = h_rim²/2 of an evenly filled circle, to the curvature of the surface."""
+    lens = coated(0.9, -1e-3)
+    found = worked(change(default_state("coated", lens_to_toml(lens)), curves_of="transmission"))
+    rim = float(pupils(lens, 0.55).entrance_diameter) / 2
+    for values in lines(found).values():
+        assert values[0] == pytest.approx(100 * (0.9 - 1e-3 * rim**2 / 2), abs=0.05)
+        assert values[-1] < values[0]  # a beam off the axis meets the surface farther out
+
+
+def test_a_lens_that_takes_no_light_says_so():
+    found = worked(TRIPLET, curves_of="transmission")
+    assert found.missing is not None
+    for values in lines(found).values():
+        assert values == pytest.approx(100.0, abs=1e-12)

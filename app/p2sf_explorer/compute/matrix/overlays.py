@@ -8,12 +8,13 @@ import numpy as np
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees, vergence
 from p2sf.errors import P2SFError
-from p2sf.lens.lens import Lens
+from p2sf.lens.lens import Lens, lens_range_um
+from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
 from p2sf.metrics.measures import COLOURS, PupilPart, mtf_of
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import pupils
-from p2sf.pixel_kernels.illumination import relative_illumination
+from p2sf.pixel_kernels.illumination import light_passed, relative_illumination
 from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.psf.polychromatic import bands_through, chief_shifts_um
 from p2sf.raytrace.field_curves import heights
@@ -109,7 +110,11 @@ def overlay_request(live: Live) -> OverlayRequest:
     if view.of == "colours":
         shown = change(state, spectrum=live.state.display.spectrum)
         return OverlayRequest("colours", shown, lens, BANDS[quality], wavelengths=waves)
-    fields = tuple(np.linspace(0.0, widest, (FIELDS if view.of == "illumination" else RAYS)[quality]).tolist())
+    if view.of == "transmission_of_colours":
+        some = compared_fields(live.state)
+        return OverlayRequest(view.of, change(state, field_deg=0.0), lens, RAYS[quality], some, wavelengths=waves)
+    of_light = view.of in ("illumination", "transmission")
+    fields = tuple(np.linspace(0.0, widest, (FIELDS if of_light else RAYS)[quality]).tolist())
     return OverlayRequest(view.of, change(state, field_deg=0.0), lens, len(fields), fields, wavelengths=waves)
 
 
@@ -319,6 +324,53 @@ def light_curves(
     return CurveOverlay(np.array(request.fields), lines, axes, (STOP_ALONE, RIMS, PINHOLE), missing=missing)
 
 
+TAKES_NOTHING = Message("no surface states a transmission, and the absorption of the glasses is off")
+VISIBLE_NM = 380.0, 780.0
+
+
+def transmission(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
+    """Yield what surfaces and media pass of the light of each wavelength over the field, from the axis outwards."""
+    setup, names = paraxial_setup(request.state), wave_names(request)
+    waves = [nm / NM_PER_UM for nm in request.wavelengths]
+    slopes = slope_from_degrees(np.array(request.fields)).tolist()
+    places = [[replace(setup.source, field_slope=s, wavelength_um=wave) for s in slopes] for wave in waves]
+    yield from passed_curves(request, places, (np.array(request.fields), names, "field, °"))
+
+
+def transmission_of_colours(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay]]:
+    """Yield what surfaces and media pass of the light of each field over the wavelengths that all glasses know."""
+    setup = paraxial_setup(request.state)
+    names = tuple(Message("{angle}°", angle=Number(f"{angle:.4g}")) for angle in request.fields)
+    low, high = lens_range_um(setup.lens) or (0.0, np.inf)
+    ends = max(VISIBLE_NM[0], NM_PER_UM * low), min(VISIBLE_NM[1], NM_PER_UM * high)
+    waves = np.linspace(*(ends if ends[0] < ends[1] else (NM_PER_UM * low, NM_PER_UM * high)), request.count)
+    slopes = slope_from_degrees(np.array(request.fields)).tolist()
+    places = [[replace(setup.source, field_slope=s, wavelength_um=nm / NM_PER_UM) for nm in waves] for s in slopes]
+    yield from passed_curves(request, places, (waves, names, "wavelength, nm"))
+
+
+def passed_curves(
+    request: OverlayRequest,
+    places: list[list[Source]],
+    drawn: tuple[np.ndarray, tuple[Message, ...], str],
+) -> Iterator[tuple[float, CurveOverlay]]:
+    """Yield a curve for each row of sources, in per cent; ``drawn``: places along them, their names, the lower axis."""
+    lens, clip, (x, names, bottom) = paraxial_setup(request.state).lens, request.state.optics.clip, drawn
+    takes = any(lens.absorbs) or any(surface.transmission for surface in lens.surfaces)
+    missing = None if takes else TAKES_NOTHING
+    found = np.full((len(places), len(x)), np.nan)
+    for number, (row, column) in enumerate(np.ndindex(found.shape), 1):
+        try:
+            found[row, column] = 100 * light_passed(lens, places[row][column], clip)
+        except P2SFError as error:  # a field that no light reaches, or a lens without rims
+            missing = error.message
+        if number % len(x) == 0:
+            lines = tuple(
+                Line(name, values, hue) for hue, (name, values) in enumerate(zip(names, found, strict=True), 1)
+            )
+            yield number / found.size, CurveOverlay(x, lines, (bottom, "transmission, %"), names, missing=missing)
+
+
 AT_A_TIME: dict[str, Callable[[OverlayRequest], CurveOverlay]] = {"lateral": lateral_colour, "distortion": distortion}
 GROWING: dict[str, Callable[[OverlayRequest], Iterator[tuple[float, CurveOverlay]]]] = {
     "fields": of_fields,
@@ -326,4 +378,6 @@ GROWING: dict[str, Callable[[OverlayRequest], Iterator[tuple[float, CurveOverlay
     "field": over_field,
     "focus": through_focus,
     "illumination": illumination,
+    "transmission": transmission,
+    "transmission_of_colours": transmission_of_colours,
 }

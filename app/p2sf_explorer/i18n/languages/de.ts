@@ -1561,6 +1561,10 @@
 <message><source>refused</source><translation>abgelehnt</translation></message>
 <message><source>relative L2 error</source><translation>relativer L2-Fehler</translation></message>
 <message><source>relative error of R80</source><translation>relativer Fehler von R80</translation></message>
+<message><source>no surface states a transmission, and the absorption of the glasses is off</source><translation>keine Fläche nennt eine Durchlässigkeit, und die Absorption der Gläser ist aus</translation></message>
+<message><source>transmission of colours</source><translation>Durchlässigkeit der Farben</translation></message>
+<message><source>transmission over the field</source><translation>Durchlässigkeit über dem Feld</translation></message>
+<message><source>transmission, %</source><translation>Durchlässigkeit, %</translation></message>
 <message><source>relative illumination</source><translation>relative Beleuchtungsstärke</translation></message>
 <message><source>relative illumination, %</source><translation>relative Beleuchtungsstärke, %</translation></message>
 <message><source>rim</source><translation>Rand</translation></message>
