@@ -65,7 +65,7 @@ class NamedArrays(Mapping[str, np.ndarray]):
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return a dataset of xarray, with coordinates and units. Raises ExportError without xarray."""
-        xarray_module = _imported("xarray")
+        xarray_module = _import_module("xarray")
         coords, arrays = (
             {name: (dims, values, unit_of(name)) for name, (dims, values) in part.items()}
             for part in (self.coords, self.arrays)
@@ -78,7 +78,7 @@ class NamedArrays(Mapping[str, np.ndarray]):
 
         What has fewer axes stands in every row; a place without a coordinate is its number.
         """
-        pandas = _imported("pandas")
+        pandas = _import_module("pandas")
         sizes = {name: self.sizes[name] for dims, _ in self.arrays.values() for name in dims}
         places = [self.coords[name][1] if name in self.coords else np.arange(size) for name, size in sizes.items()]
         beside = {name: part for name, part in self.coords.items() if name not in sizes}
@@ -121,7 +121,7 @@ def unit_of(name: str) -> dict[str, str]:
     return {"units": unit} if unit else {}
 
 
-def _imported(name: str) -> Any:
+def _import_module(name: str) -> Any:
     from importlib import import_module
 
     try:

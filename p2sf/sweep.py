@@ -149,7 +149,7 @@ class Sweep:
         found = self._over(partial(_psf_of, **asked))
         _warn(found)
         axis = centred_axis(pixels, pitch)
-        made = self._named(found, {"psf": along("y_um", axis) | along("x_um", axis), "energy": NOTHING})
+        made = self._name_axes(found, {"psf": along("y_um", axis) | along("x_um", axis), "energy": NOTHING})
         return NamedArrays(made.arrays, made.coords | along("pixel_um", np.array(pitch)))
 
     def to_xarray(self, method: "Method" = "auto", **how: Any) -> "xarray.Dataset":
@@ -163,7 +163,7 @@ class Sweep:
         """
         asked = how | {"method": method, "pixels": pixels, "pixel_um": self._pixel_um(pixels, how.get("pixel_um"))}
         found = self._over(partial(_strehl_of, **asked))
-        return self._named(found, dict.fromkeys(("strehl", "peak_x_um", "peak_y_um", "energy"), NOTHING))
+        return self._name_axes(found, dict.fromkeys(("strehl", "peak_x_um", "peak_y_um", "energy"), NOTHING))
 
     def mtf(
         self, frequency_per_mm: ArrayLike, method: "PupilMethod" = "traced", *, turn_deg: float = 0.0, **how: Any
@@ -175,7 +175,7 @@ class Sweep:
         frequency = _axis("frequency_per_mm", frequency_per_mm)
         how |= {"frequency_per_mm": frequency, "method": method, "turn_deg": turn_deg}
         names = "tangential", "sagittal", "perfect_tangential", "perfect_sagittal"
-        return self._named(
+        return self._name_axes(
             self._over(partial(_mtf_of, **how)), dict.fromkeys(names, along("frequency_per_mm", frequency))
         )
 
@@ -187,7 +187,7 @@ class Sweep:
         radius = _axis("radius_um", radius_um)
         found = self._over(partial(_energy_of, radius_um=radius, method=method, **how))
         of_all = dict.fromkeys(("radius_50_um", "radius_80_um", "rms_um", "centroid_um"), NOTHING)
-        return self._named(found, {"fraction": along("radius_um", radius), **of_all})
+        return self._name_axes(found, {"fraction": along("radius_um", radius), **of_all})
 
     def line_spread(self, position_um: ArrayLike, method: "PupilMethod" = "traced", **how: Any) -> NamedArrays:
         """Return what `p2sf.line_spread` does: images of lines and of edges at distances from the centroid, µm.
@@ -196,7 +196,7 @@ class Sweep:
         """
         position = _axis("position_um", position_um)
         found = self._over(partial(_lines_of, position_um=position, method=method, **how))
-        return self._named(
+        return self._name_axes(
             found, dict.fromkeys(("line_x", "line_y", "edge_x", "edge_y"), along("position_um", position))
         )
 
@@ -210,12 +210,12 @@ class Sweep:
         found = self._over(partial(_performance_of, frequency_per_mm=frequency, clip=clip))
         names = "rms_waves", "strehl", "radius_80_um", "distortion", "illumination", "lateral_colour_um"
         contrasts = dict.fromkeys(("tangential", "sagittal"), along("frequency_per_mm", frequency))
-        return self._named(found, dict.fromkeys(names[:2], NOTHING) | contrasts | dict.fromkeys(names[2:], NOTHING))
+        return self._name_axes(found, dict.fromkeys(names[:2], NOTHING) | contrasts | dict.fromkeys(names[2:], NOTHING))
 
     def coefficients(self) -> NamedArrays:
         """Return what `p2sf.coefficients` does, ``w40`` … ``wd`` in waves, ``na``, and the image's place, mm."""
         found = self._over(_six_of)
-        return self._named(found, dict.fromkeys((*SIX, "na", "image_distance_mm", "image_height_mm"), NOTHING))
+        return self._name_axes(found, dict.fromkeys((*SIX, "na", "image_distance_mm", "image_height_mm"), NOTHING))
 
     def zernike(self, basis: "ZernikeOrder" = "noll", terms: int = 37, *, clip: bool = False) -> NamedArrays:
         """Return what `p2sf.zernike` does: ``waves`` (…, term), ``rms_waves``, ``share``, ``rms``, ``marechal``."""
@@ -225,14 +225,14 @@ class Sweep:
         found = self._over(partial(_zernike_of, basis=basis, terms=terms, clip=clip))
         behind = along("term", np.array([term.number for term in known]))
         own = dict.fromkeys(("waves", "rms_waves", "share"), behind)
-        made = self._named(found, own | dict.fromkeys(("rms", "marechal", "residual"), NOTHING))
+        made = self._name_axes(found, own | dict.fromkeys(("rms", "marechal", "residual"), NOTHING))
         names = {"name": (("term",), np.array([term.name for term in known]))}
         return NamedArrays(made.arrays, made.coords | names)
 
     def choose_method(self, min_r2: float = 0.99, *, clip: bool = False) -> NamedArrays:
         """Return what `p2sf.choose_method` does: ``method``, its ``predicted_error`` (1 − R²) and its ``numbers``."""
         found = self._over(partial(_choice_of, min_r2=min_r2, clip=clip))
-        return self._named(found, dict.fromkeys(("method", "predicted_error", "numbers"), NOTHING))
+        return self._name_axes(found, dict.fromkeys(("method", "predicted_error", "numbers"), NOTHING))
 
     def __repr__(self) -> str:
         sizes = " × ".join(f"{name} {size}" for name, size in self.sizes.items()) or "one point"
@@ -273,7 +273,7 @@ class Sweep:
                 take(one)
         return found
 
-    def _named(self, found: list[Figures], own: Mapping[str, NamedAxes]) -> NamedArrays:
+    def _name_axes(self, found: list[Figures], own: Mapping[str, NamedAxes]) -> NamedArrays:
         """Return the figures of all points, each with the axes that it has behind those of the sweep."""
         arrays: dict[str, tuple[Dims, np.ndarray]] = {}
         coords = {k: part for name, values in self.axes.items() for k, part in along(name, np.asarray(values)).items()}
@@ -299,7 +299,7 @@ class SweepPoint:
         return set_up_source(self.lens, self.source, self.camera)
 
     @cached_property
-    def _kept(self) -> dict[tuple[Any, ...], "tuple[list[PupilPart], str]"]:
+    def _parts_by_request(self) -> dict[tuple[Any, ...], "tuple[list[PupilPart], str]"]:
         return {}
 
     def parts(
@@ -310,11 +310,11 @@ class SweepPoint:
         from p2sf.metrics.measures import parts_of
 
         key = method, clip, spectrum, turn_deg
-        if key not in self._kept:
+        if key not in self._parts_by_request:
             wanted = None if spectrum is None else spectrum_of(spectrum)
             setup = self.setup
-            self._kept[key] = parts_of(setup.lens, setup.source, method, clip, wanted, turn_deg, **how)
-        return self._kept[key]
+            self._parts_by_request[key] = parts_of(setup.lens, setup.source, method, clip, wanted, turn_deg, **how)
+        return self._parts_by_request[key]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return SweepPoint, (self.lens, self.source, self.camera)

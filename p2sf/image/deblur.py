@@ -55,7 +55,7 @@ def wiener(
     out, watch = np.zeros((len(planes), *values.shape[:2]), np.float32), watch or Progress()
     watch.expect(len(by_row) * len(by_column))
 
-    def sharpened(node: tuple[int, int]) -> tuple[slice, slice, np.ndarray]:
+    def sharpen_patch(node: tuple[int, int]) -> tuple[slice, slice, np.ndarray]:
         down, right = by_row[node[0]], by_column[node[1]]
         rows, columns = support(down), support(right)
         patch = planes[:, rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
@@ -68,7 +68,7 @@ def wiener(
         out[:, rows, columns] += found
         watch.advance()
 
-    for_each(sharpened, product(range(len(by_row)), range(len(by_column))), take, threads)
+    for_each(sharpen_patch, product(range(len(by_row)), range(len(by_column))), take, threads)
     return np.moveaxis(out, 0, -1)
 
 

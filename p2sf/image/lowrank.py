@@ -83,13 +83,13 @@ def _tiles_blur(plane: np.ndarray, part: LowRank, border: int) -> Callable[[Corn
     maps = [_spline(n, np.arange(p) - border) for n, p in ((part.row_nodes, rows), (part.column_nodes, columns))]
     fast, spectra = _spectra(part, min(TILE, rows), min(TILE, columns))
 
-    def blurred(corner: Corner) -> tuple[Corner, np.ndarray]:
+    def blur_at(corner: Corner) -> tuple[Corner, np.ndarray]:
         down, right = (slice(start, start + TILE) for start in corner)
         tile = plane[down, right]
         height, width = (n + size - 1 for n in tile.shape)
         return corner, _blur_tile(tile, part, (maps[0][down], maps[1][right]), fast, spectra)[:height, :width]
 
-    return blurred
+    return blur_at
 
 
 def _adding(out: np.ndarray, watch: Progress) -> Callable[[tuple[Corner, np.ndarray]], None]:

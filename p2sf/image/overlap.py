@@ -30,7 +30,7 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
     watch = watch or Progress()
     watch.expect(len(jobs))
 
-    def convolved(job: tuple[int, int]) -> tuple[int, int, np.ndarray]:
+    def convolve_patch(job: tuple[int, int]) -> tuple[int, int, np.ndarray]:
         a, b = job
         rows, columns = support(by_row[a]), support(by_column[b])
         weight = np.outer(by_row[a][rows], by_column[b][columns]).astype(np.float32)
@@ -42,7 +42,7 @@ def overlap_add(values: np.ndarray, lattice: Lattice, watch: Progress | None = N
         _add(out, *patch)
         watch.advance()
 
-    for_each(convolved, jobs, take)
+    for_each(convolve_patch, jobs, take)
     return np.moveaxis(out, 0, -1)
 
 

@@ -23,7 +23,7 @@ from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Conic, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Alternatives, Message
-from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
+from p2sf.pupil.domain import PupilDomain, domain_of
 from p2sf.pupil.mask import CLEAR, PupilMask
 
 if TYPE_CHECKING:
@@ -410,7 +410,7 @@ class Lens:
     @cached_property
     def pupil_domain(self) -> PupilDomain:
         """Return the part of the pupil that determines the rest: half of it, or all if the lens is misaligned."""
-        return WHOLE if self.misaligned else HALF
+        return domain_of(not self.misaligned)
 
     @cached_property
     def absorbs(self) -> tuple[bool, ...]:

@@ -228,7 +228,7 @@ def match_target(found_mm: np.ndarray, target: Target, expected: np.ndarray, kno
     best.sort(key=lambda one: one.oddity(step))
     ways = {one.which.tobytes() for one in best}
     first = best[0]
-    places = _plane(_seen(w, first.mirrored) * (first.a / abs(first.a) if known_scale else first.a))
+    places = _plane(_mirror(w, first.mirrored) * (first.a / abs(first.a) if known_scale else first.a))
     axis = float(first.b.real), float(first.b.imag)
     turned = degrees(np.angle(first.a))
     shape = abs(first.a), turned, first.mirrored, first.k, first.rms
@@ -259,7 +259,7 @@ class _Placing:
         return self.mirrored + abs(np.angle(self.a)) / (np.pi / 4) + abs(self.b / self.a) / step
 
 
-def _seen(w: np.ndarray, mirrored: bool | np.ndarray) -> np.ndarray:
+def _mirror(w: np.ndarray, mirrored: bool | np.ndarray) -> np.ndarray:
     """Return places of a target as they are seen; twice mirrored, they are as they were."""
     return np.where(mirrored, -w.conj(), w)
 
@@ -286,7 +286,7 @@ def _best_first(z: np.ndarray, w: np.ndarray, step: float, known_scale: bool) ->
     k, other = np.repeat(near[:, 0], near.shape[1] - 1), near[:, 1:].ravel()
     ways = []
     for mirrored in (False, True):
-        places = _seen(w, mirrored)
+        places = _mirror(w, mirrored)
         for p, q in ends:
             a = (z[q] - z[p]) / (places[other] - places[k])
             ways.append(np.stack([a, z[p] - a * places[k], np.full(a.size, mirrored)], 1))
@@ -313,7 +313,7 @@ def _best_first(z: np.ndarray, w: np.ndarray, step: float, known_scale: bool) ->
 def _counts(every: np.ndarray, z: np.ndarray, tree: "KDTree", step: float) -> np.ndarray:
     """Return how many points of a target have one of a picture near, for many ways to lay it, (ways,)."""
     a, b, mirrored = every[:, :1], every[:, 1:2], every[:, 2:].real
-    distance, which = tree.query(_plane(_seen((z - b) / a, mirrored)), distance_upper_bound=NEAR * step)
+    distance, which = tree.query(_plane(_mirror((z - b) / a, mirrored)), distance_upper_bound=NEAR * step)
     found = np.sort(np.where(np.isfinite(distance), which, -1), axis=1)
     count: np.ndarray = (found[:, 1:] != found[:, :-1]).sum(1) + (found[:, 0] >= 0)
     return count
@@ -321,7 +321,7 @@ def _counts(every: np.ndarray, z: np.ndarray, tree: "KDTree", step: float) -> np
 
 def _refine(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, mirrored: bool) -> _Placing:
     """Return a placing fitted to all points that lie ``near`` one of the target, in turns with which these are."""
-    places = _seen(w, mirrored)
+    places = _mirror(w, mirrored)
     square, k, before = np.abs(places) ** 2 / (np.abs(places) ** 2).max(), 0.0, None
     for _ in range(STEPS):
         which = _assign(z, a * places * (1 + k * square) + b, near * abs(a))

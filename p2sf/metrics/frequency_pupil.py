@@ -334,7 +334,7 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         _check_reach(lens, source)
     end = WHOLE_PUPIL if whole else PupilAtRims(lens, source, clip)
 
-    def traced(sampling: RayCounts) -> PupilSamples:
+    def trace_rays(sampling: RayCounts) -> PupilSamples:
         columns, rim = end.columns(sampling.counts, domain)
         rays = pencil(lens, source, *columns[:2])
         if whole and not rays.passed.all():
@@ -344,7 +344,7 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         columns = np.stack([*columns, rays.amplitude, rays.phase, *frequencies])[:, kept]
         return _samples(columns, int(kept[-rim:].sum()), domain, end.disc(sampling.counts))
 
-    found = replace(_settle(traced, ORDERS), edges=end.edges)
+    found = replace(_settle(trace_rays, ORDERS), edges=end.edges)
     found = behind_mask(found, mask_seen(lens, source), float(source.wavelength_um))
     return with_spot(found, lens, source, clip, turn_deg)
 
@@ -421,14 +421,14 @@ def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0, end: PupilEnd = WHO
     """Return the pupil that a fit describes, axes as `pupil_of_rays`. Raises GeometryError where its map folds."""
     domain = found.level.basis.domain.turned(turn_deg)
 
-    def evaluated(sampling: RayCounts) -> PupilSamples:
+    def evaluate_fit(sampling: RayCounts) -> PupilSamples:
         columns, rim = end.columns(sampling.counts, domain)
         phase, fx, fy = found.at(*columns[:2])
         weight = found.amplitude_at(*columns[:2])
         table = np.stack([*columns, weight, phase, *rotate_frequencies(fx, fy, turn_deg)])
         return _samples(table, rim, domain, end.disc(sampling.counts))
 
-    known = replace(_settle(evaluated, ORDERS), rays=found.rays, edges=end.edges)
+    known = replace(_settle(evaluate_fit, ORDERS), rays=found.rays, edges=end.edges)
     known = replace(known, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
     return behind_mask(known, found.mask, found.wavelength_um)
 
@@ -442,14 +442,14 @@ def pupil_of_coefficients(
     """
     domain, scale = end.domain.turned(turn_deg), -float(six.reduced_slope) / float(six.wavelength_um)
 
-    def evaluated(sampling: RayCounts) -> PupilSamples:
+    def evaluate_six(sampling: RayCounts) -> PupilSamples:
         columns, rim = end.columns(sampling.counts, domain)
         xi, eta, _ = columns
         phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
         table = np.stack([*columns, one, phase, *rotate_frequencies(scale * xi, scale * eta, turn_deg)])
         return _samples(table, rim, domain, end.disc(sampling.counts))
 
-    found = replace(_settle(evaluated, (EXACT,)), rays=2, edges=end.edges)
+    found = replace(_settle(evaluate_six, (EXACT,)), rays=2, edges=end.edges)
     return behind_mask(found, mask, -float(six.wavelength_um))
 
 

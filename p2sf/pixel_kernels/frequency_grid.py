@@ -188,7 +188,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     amplitude = fits.amplitude @ at.values.fy[: fits.amplitude.shape[-1]]
     fx, eta = fits.fx @ at.values.fx, np.broadcast_to(at.nodes.eta, phase.shape)
     clear = np.asarray((rims > NEARLY_CLEAR).all(1)) if rims.shape[1] else np.ones(phase.shape, bool)
-    fx, fy = _centred(fx, clear, level.basis.fx), _centred(fy, clear, level.basis.fy)
+    fx, fy = _centre_frequencies(fx, clear, level.basis.fx), _centre_frequencies(fy, clear, level.basis.fy)
     radius = 1.02 * np.where(clear, np.hypot(fx, fy), 0.0).max(1)
     u, v = fx / radius[:, None], fy / radius[:, None]
     share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))[:, None]
@@ -214,7 +214,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     return PupilStack(basis, radius, *forms, *sizes, "fitted", level.numbers), excess
 
 
-def _centred(frequency: np.ndarray, clear: np.ndarray, terms: Terms) -> np.ndarray:
+def _centre_frequencies(frequency: np.ndarray, clear: np.ndarray, terms: Terms) -> np.ndarray:
     """Return the frequencies of each pupil, (pupils, points), less the middle of the least and the greatest.
 
     Where the constant is none of their ``terms``, they are about 0 as they are.

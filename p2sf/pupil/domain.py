@@ -210,6 +210,11 @@ class WholeDisc(PupilDomain):
 HALF, WHOLE = PupilDomain(), WholeDisc()
 
 
+def domain_of(symmetric: bool) -> PupilDomain:
+    """Return the domain of a pupil that is symmetric about η, or of one that is not."""
+    return HALF if symmetric else WHOLE
+
+
 def _steps(ends: tuple[float, ...], count: int) -> np.ndarray:
     """Return directions from end to end, at even steps between neighbours, some ``count`` to half a turn."""
     arcs = ((low, high, max(2, round(count * (high - low) / np.pi))) for low, high in pairwise(ends))

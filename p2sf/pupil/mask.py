@@ -18,7 +18,7 @@ from p2sf.arguments import check_fields, real_array
 from p2sf.conventions import FloatOrArray, write_protect
 from p2sf.errors import RequestError
 from p2sf.parameters import LONGEST_PATH_UM, MASK_PARAMETERS, check_between, check_finite, check_values
-from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
+from p2sf.pupil.domain import PupilDomain, domain_of
 from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
 
 if TYPE_CHECKING:
@@ -282,7 +282,7 @@ class PupilMask:
     @property
     def domain(self) -> PupilDomain:
         """Return the part of the disc that determines the whole mask."""
-        return HALF if self.even else WHOLE
+        return domain_of(self.even)
 
     @cached_property
     def round(self) -> bool:

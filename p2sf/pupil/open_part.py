@@ -35,15 +35,15 @@ class StarCurve:
 
     @cached_property
     def _polar(self) -> tuple[np.ndarray, np.ndarray]:
-        return self._seen(self.xi, self.eta)
+        return self._polar_about_middle(self.xi, self.eta)
 
-    def _seen(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _polar_about_middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         across, up = xi - self.middle[0], eta - self.middle[1]
         return np.arctan2(across, up), np.hypot(across, up)
 
     def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return how far beyond the curve points of any shape lie, over its distance from the middle there."""
-        angle, distance = self._seen(xi, eta)
+        angle, distance = self._polar_about_middle(xi, eta)
         excess: np.ndarray = distance / np.interp(angle, *self._polar, period=2 * pi) - 1
         return excess
 

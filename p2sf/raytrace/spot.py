@@ -79,7 +79,9 @@ class Landing:
         """Return x and y of the light's centroid, (…,); 0 where they are nothing but rounding."""
         share = np.where(self.light != 0, self.light, 0.0)
         x, y = (np.where(self.light != 0, place, 0.0) for place in (self.x_um, self.y_um))
-        return self._rounded(self.domain.mean_across(share, x), x), self._rounded((share * y).sum(-1), y)
+        return self._without_rounding(self.domain.mean_across(share, x), x), self._without_rounding(
+            (share * y).sum(-1), y
+        )
 
     @property
     def rms_um(self) -> tuple[np.ndarray, np.ndarray]:
@@ -96,7 +98,7 @@ class Landing:
         centre_x, centre_y = self.centroid_um
         return self.x_um - centre_x[..., None], self.y_um - centre_y[..., None]
 
-    def _rounded(self, mean: np.ndarray, place: np.ndarray) -> np.ndarray:
+    def _without_rounding(self, mean: np.ndarray, place: np.ndarray) -> np.ndarray:
         return np.where(np.abs(mean) > self.rounding * np.abs(place).max(-1), mean, 0.0)
 
 

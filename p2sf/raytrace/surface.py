@@ -155,7 +155,7 @@ def _conic_step(
     np.subtract(beam.r, g, out=g)
     square = g * g
     square -= f * (curvature * (index * index + (conic * beam.r * beam.r if conic else 0.0)))
-    along = _signed(np.sqrt(square), index)
+    along = _along_light(np.sqrt(square), index)
     g += along
     f /= g
     return f, along, square
@@ -260,14 +260,14 @@ def refract(beam: Beam, normal: Normal | None, before: FloatOrArray, after: Floa
     """Bend every ray by Snell's law, n'K' = nK + (n'cosI' − n·cosI)·unit normal (Welford 1986, eq. 4.36)."""
     gain = (after - before) * (after + before)
     if normal is None:
-        _signed(_root(beam, beam.r * beam.r, gain, number, out=beam.r), after)
+        _along_light(_root(beam, beam.r * beam.r, gain, number, out=beam.r), after)
         return
     if normal.square is None:
-        push = _signed(_root(beam, normal.along_square, gain, number), after)
+        push = _along_light(_root(beam, normal.along_square, gain, number), after)
         push -= normal.along
     else:
         length = np.sqrt(normal.square)
-        push = _signed(_root(beam, normal.along_square / normal.square, gain, number), after)
+        push = _along_light(_root(beam, normal.along_square / normal.square, gain, number), after)
         push = (push - normal.along / length) / length
     if normal.axial is None:
         beam.r += push
@@ -296,7 +296,7 @@ def diffract(beam: Beam, normal: Normal | None, diffraction: Phase, after: Float
     gain = after * after - (beam.ray * beam.ray).sum(0)
     length = np.sqrt(length_square)
     root = _root(beam, along * along / length_square, gain, number, why=Status.EVANESCENT)
-    push = (_signed(root, after) - along / length) / length
+    push = (_along_light(root, after) - along / length) / length
     beam.r += push * axial
     beam.ray[:2] -= push * steep
 
@@ -312,7 +312,7 @@ def _complete_normal(beam: Beam, normal: Normal | None) -> tuple[np.ndarray, Flo
     return steep, axial, 1.0 if normal.square is None else normal.square
 
 
-def _signed(values: np.ndarray, index: FloatOrArray) -> np.ndarray:
+def _along_light(values: np.ndarray, index: FloatOrArray) -> np.ndarray:
     """Return ``values``, changed in sign in place where light runs to the left."""
     return values if _forwards(index) else np.negative(values, out=values)
 

@@ -48,12 +48,12 @@ class ToleranceStudy:
     @property
     def yields(self) -> dict[str, float]:
         """Return the share of builds that keep each limit in all fields, and "all" of them."""
-        return {name: share_of(kept)[0] for name, kept in self._kept.items()}
+        return {name: share_of(kept)[0] for name, kept in self._within_limits.items()}
 
     @property
     def errors(self) -> dict[str, float]:
         """Return one standard error of each yield."""
-        return {name: share_of(kept)[1] for name, kept in self._kept.items()}
+        return {name: share_of(kept)[1] for name, kept in self._within_limits.items()}
 
     @property
     def values(self) -> dict[str, np.ndarray]:
@@ -68,7 +68,7 @@ class ToleranceStudy:
         return sorted(pairs, key=lambda pair: -pair[1])
 
     @property
-    def _kept(self) -> dict[str, np.ndarray]:
+    def _within_limits(self) -> dict[str, np.ndarray]:
         worst = self.values
         kept = {name: within_limit(worst[name], _criterion(name)[0], limit) for name, limit in self.limits.items()}
         return kept | {ALL: np.logical_and.reduce(list(kept.values()))}

@@ -16,9 +16,9 @@ def caption(live: Live) -> Parts:
     found = {
         "lens": live.setup.lens.title or live.setup.lens.name,
         "field": field_text(state),
-        "depth": _written(DEPTH, live),
-        "f_number": _written(F_NUMBER, live),
-        "wavelength": _written(WAVELENGTH, live).replace(".0 nm", " nm"),
+        "depth": _text_of(DEPTH, live),
+        "f_number": _text_of(F_NUMBER, live),
+        "wavelength": _text_of(WAVELENGTH, live).replace(".0 nm", " nm"),
         "rms": f"RMS {significant(live.pupil.rms, 2)} λ",
         "strehl": "" if live.psf.strehl is None else f"Strehl {significant(float(live.psf.strehl), 2)}",
     }
@@ -31,5 +31,5 @@ def field_text(state: State) -> str:
     return f"({aside}, {up})" if state.optics.field_x_deg else up
 
 
-def _written(quantity: Quantity, live: Live) -> str:
+def _text_of(quantity: Quantity, live: Live) -> str:
     return quantity.write(quantity.shown(live.state, ranges(live.setup.prescription)))

@@ -44,7 +44,7 @@ class MapChart(TilesChart):
     @property
     def free(self) -> bool:
         """Return whether each point of the map has a field of its own, and a press goes there."""
-        return self.asked is not None and not self.asked.symmetric
+        return self.asked is not None and not self.asked.domain.symmetric
 
     def takes(self, point: QPointF) -> bool:
         """Return whether a press chooses a picture, or a field."""

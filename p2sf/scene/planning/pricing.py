@@ -23,7 +23,7 @@ def mirrored(lens: Lens, scene: Scene) -> bool:
 def computed_counts(counts: tuple[int, int], mirrored: bool) -> tuple[int, int]:
     """Return the number of kernel nodes computed along rows and columns; if ``mirrored``, a quarter of all."""
     rows, columns = counts
-    return (ceil(rows / 2), ceil(columns / 2)) if mirrored else counts
+    return ceil(rows / (1 + mirrored)), ceil(columns / (1 + mirrored))
 
 
 def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: tuple[int, int], layers: int) -> Work:

@@ -37,23 +37,23 @@ class ExactPsfs:
     """Exact PSFs of a space by the `traced` method, each computed once; ``seconds`` counts the CPU time of each."""
 
     space: LensSpace
-    _known: dict[tuple[float, ...], np.ndarray] = field(default_factory=dict)
+    _pictures: dict[tuple[float, ...], np.ndarray] = field(default_factory=dict)
     _spent: float = 0.0
 
     def at(self, points: SpacePoints) -> np.ndarray:
         """Return unit-sum pictures, (n, pixels, pixels)."""
         keys = [tuple(place) for place in np.round(points.cube, KEY_DIGITS).tolist()]
         for key, source in zip(keys, points.sources(), strict=True):
-            if key not in self._known:
+            if key not in self._pictures:
                 started = process_time()
-                self._known[key] = traced_picture(self.space, source).astype(np.float32)
+                self._pictures[key] = traced_picture(self.space, source).astype(np.float32)
                 self._spent += process_time() - started
-        return np.stack([self._known[key] for key in keys])
+        return np.stack([self._pictures[key] for key in keys])
 
     @property
     def seconds(self) -> float:
         """Return the mean CPU time of one exact PSF."""
-        return self._spent / max(1, len(self._known))
+        return self._spent / max(1, len(self._pictures))
 
 
 def traced_picture(space: LensSpace, source: Source) -> np.ndarray:

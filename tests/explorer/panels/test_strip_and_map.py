@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from p2sf.conventions import degrees_from_slope
+from p2sf.pupil.domain import HALF
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.sampled import in_window, optics
@@ -197,7 +198,7 @@ def test_a_place_of_a_map_without_symmetry_shows_its_own_field_as_it_lies_on_the
     values = in_window(change(question.state, field_deg=field_y, field_x_deg=field_x), question.window, False).values
     sensor = field_map.rotate_picture(values, np.deg2rad(90.0)) if field_x else values
     assert found[at] == pytest.approx(sensor / values.max(), abs=1e-6)
-    symmetric = replace(question, symmetric=True)
+    symmetric = replace(question, domain=HALF)
     assert np.abs(worked(symmetric, field_map)[0][2, 6] - found[2, 6]).max() > 1e-2, "and no other field's"
 
 

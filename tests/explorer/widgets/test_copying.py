@@ -31,7 +31,7 @@ def test_a_heat_map_is_copied_as_a_grid_with_its_places(window):
     psf = window.panels["psf"].psf_shown(window.live)
     count = psf.values.shape[0]
     grid = np.array([[float(cell) for cell in row] for row in rows[1 : count + 1]])
-    assert grid[:, 1:] == pytest.approx(psf.values / psf.values.max(), abs=1e-7)
+    np.testing.assert_allclose(grid[:, 1:], psf.values / psf.values.max(), rtol=1e-6, atol=1e-7)
     assert grid[:, 0] == pytest.approx(psf.x_um, abs=1e-5)
     assert [float(cell) for cell in rows[0][1:]] == pytest.approx(psf.x_um, abs=1e-5)
 
@@ -85,7 +85,7 @@ def test_small_pictures_are_copied_as_one_grid_each(window, qtbot, key):
     assert len(heads) == len(kept) > 5
     for at, picture in zip(heads, kept, strict=True):
         grid = np.array([[float(cell or "nan") for cell in row] for row in rows[at + 1 : at + 1 + asked.window[0]]])
-        assert grid[:, 1:] == pytest.approx(picture, rel=1e-6, abs=1e-9, nan_ok=True)
+        np.testing.assert_allclose(grid[:, 1:], picture, rtol=1e-6, atol=1e-9)
         assert grid[:, 0] == pytest.approx([float(cell) for cell in rows[at][1:]])
         assert grid[1, 0] - grid[0, 0] == pytest.approx(asked.window[1])
 

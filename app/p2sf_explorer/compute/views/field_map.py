@@ -11,6 +11,7 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.pupil.domain import HALF, PupilDomain, domain_of
 from p2sf.tolerance.nodal import third_order
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import WINDOWS
@@ -31,23 +32,20 @@ MOST_OF = 0.8  # of the widest window: the rest of the worst corner is cut
 class FieldMapRequest:
     """Everything the map depends on: ``state`` of any field, the slope at the corner, and each picture's window.
 
-    ``symmetric``: fields of one distance from the axis share a picture, turned about the axis. ``nodes``: of "coma"
-    and "astigmatism", the places x and y where these vanish to third order, 1 from the middle to the corner.
+    ``domain``: HALF where fields of one distance from the axis share a picture, turned about the axis. ``nodes``: of
+    "coma" and "astigmatism", the places x and y where these vanish to third order, 1 from the middle to the corner.
     """
 
     state: State
     corner_slope: float
     window: tuple[int, float]
     six: bool
-    symmetric: bool = True
+    domain: PupilDomain = HALF
     nodes: tuple[tuple[str, float, float], ...] = ()
 
     def field_of(self, place: np.ndarray) -> tuple[float, float]:
         """Return the field along x and along y, degrees, whose picture stands at a place, as `places` has it."""
-        if self.symmetric:
-            place = np.array([0.0, np.round(np.hypot(*place), 9)])
-        x, y = degrees_from_slope(np.asarray(place) * self.corner_slope).tolist()
-        return x, y
+        return self.domain.field(*degrees_from_slope(np.asarray(place) * self.corner_slope).tolist())
 
 
 def field_map(live: Live) -> FieldMapRequest:
@@ -63,7 +61,8 @@ def field_map(live: Live) -> FieldMapRequest:
     )
     bent = s.lens.misaligned and not six
     nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if bent else ()
-    return FieldMapRequest(state, corner, (pixels, wide / pixels), six, s.lens.mask.round and not bent, nodes)
+    domain = domain_of(s.lens.mask.round and not bent)
+    return FieldMapRequest(state, corner, (pixels, wide / pixels), six, domain, nodes)
 
 
 @lru_cache(maxsize=8)
