@@ -17,7 +17,7 @@ from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number
 
 # Endings of lens files only; other files are lenses where they bear a format's mark.
-CERTAIN = (".zmx", ".seq", ".roa", ".len", ".fx")
+CERTAIN = (".zmx", ".zar", ".zos", ".seq", ".roa", ".len", ".fx")
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def lens_files(folder: Path) -> list[Path]:
     """Return the lens files of a folder and the folders in it, sorted; RequestError for what is no folder."""
     if not folder.is_dir():
         raise RequestError("{path} is not a folder; name one for {parameter}", path=str(folder), parameter="list")
-    endings = {known.ending for known in FORMATS}
+    endings = {*CERTAIN, ".zip", *(known.ending for known in FORMATS)}
     found = (path for path in folder.rglob("*") if path.suffix.lower() in endings and path.is_file())
     return sorted((path for path in found if path.suffix.lower() in CERTAIN or _marked(path)), key=_alphabetical)
 
@@ -89,7 +89,8 @@ def _marked(path: Path) -> bool:
         source = read_source(path)
     except LensFileError:
         return False
-    return any(known.mark.search(source.text) for known in FORMATS if known.ending == path.suffix.lower())
+    ending = Path(source.path).suffix.lower()  # of the lens inside an archive
+    return any(known.mark.search(source.text) for known in FORMATS if known.ending == ending)
 
 
 def verdict(path: Path, name: str, accept_substitutes: bool, catalogues: Sequence[Catalogue]) -> FileVerdict:

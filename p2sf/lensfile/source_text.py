@@ -63,7 +63,10 @@ def _text(data: bytes, path: str) -> LensText:
     text, encoding = decode(data)
     if "\0" in text:
         line = text[: text.index("\0")].count("\n") + 1
-        raise LensFileError("the file is not text but binary; give the lens as a text file", path, line)
+        told = "the file is not text but binary; give the lens as a text file"
+        if path.lower().endswith(".zos"):
+            told = "a .zos file is in a form of OpticStudio's own; open it there and save it as .zmx or .zar"
+        raise LensFileError(told, path, line)
     source = LensText(path, encoding, text)
     _check_lines(source)
     return source

@@ -8,6 +8,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.lensfile import load_lens
 from p2sf.paraxial.first_order import cardinal_points
+from tests.long.damaged_files import zar_of, zip_of
 from tests.support.lenses.lens_files import FOLDER, text_of
 
 
@@ -61,6 +62,17 @@ def test_glasses_of_a_catalogue_and_substitutes_count(capsys, folder):
     more = json.loads(listed(capsys, folder, "--json", "--agf", FOLDER / "own.agf")[1])["opens"]
     most = json.loads(listed(capsys, folder, "--json", "--agf", FOLDER / "own.agf", "--accept-substitutes")[1])["opens"]
     assert (plain, more, most) == (2, 3, 4)
+
+
+def test_archives_are_listed_with_their_lenses(capsys, tmp_path):
+    (tmp_path / "a.zar").write_bytes(zar_of("doublet.zmx"))
+    (tmp_path / "b.zip").write_bytes(zip_of("doublet.seq"))
+    (tmp_path / "c.zip").write_bytes(zip_of("own.agf"))
+    (tmp_path / "d.zos").write_bytes(b"ZOS\0\1\2")
+    record = json.loads(listed(capsys, tmp_path, "--json")[1])
+    assert [row["file"] for row in record["files"]] == ["a.zar", "b.zip", "d.zos"]  # a zip without a lens is none
+    assert [row["format"] for row in record["files"]] == ["Zemax", "CODE V", ""] and record["opens"] == 2
+    assert "save it as .zmx" in record["files"][2]["reason"]
 
 
 def test_what_is_no_folder_and_an_output_are_refused(capsys, folder):

@@ -4,8 +4,10 @@
 prints what came of them.
 """
 
+import io
 import random
 import sys
+import zipfile
 from collections import Counter
 from pathlib import Path
 
@@ -17,8 +19,31 @@ from p2sf.lensfile.source_text import source_of
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from tests.support.lenses.lens_files import FILES, FOLDER
 
+
+def zar_of(name: str) -> bytes:
+    """Return a .zar archive of one file: version, size, name, data at their places."""
+    body = (FOLDER / name).read_bytes()
+    head = bytearray(0x14C)
+    head[:2], head[0x0C:0x10], head[0x20 : 0x20 + len(name)] = (
+        b"\xea\x00",
+        len(body).to_bytes(4, "little"),
+        name.encode(),
+    )
+    return bytes(head) + body
+
+
+def zip_of(*names: str) -> bytes:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        for name in names:
+            archive.write(FOLDER / name, name)
+    return packed.getvalue()
+
+
 SAMPLES = {
     **{name: (FOLDER / name).read_bytes() for name in (*FILES, "own.agf")},
+    "doublet.zar": zar_of("doublet.zmx"),
+    "doublet.zip": zip_of("doublet.zmx", "own.agf"),
     "tessar.toml": (Path(__file__).parents[2] / "lenses" / "tessar.toml").read_bytes(),
 }
 NUMBERS = (

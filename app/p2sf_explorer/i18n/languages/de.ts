@@ -2178,6 +2178,7 @@
 <message><source>{name} is {found}; write a number</source><translation>{name} ist {found}; eine Zahl schreiben</translation></message>
 <message><source>{surface} has type {kind}, which is not read; only {known} are</source><translation>{surface} ist von der Art {kind}, die nicht gelesen wird; nur {known} werden gelesen</translation></message>
 <message><source>{what}: the file states {stated:.6g}, its surfaces give {found:.6g} ({off:+.2%})</source><translation>{what}: die Datei nennt {stated:.6g}, ihre Flächen ergeben {found:.6g} ({off:+.2%})</translation></message>
+<message><source>a .zos file is in a form of OpticStudio's own; open it there and save it as .zmx or .zar</source><translation>eine .zos-Datei hat eine eigene Form von OpticStudio; dort öffnen und als .zmx oder .zar speichern</translation></message>
 <message><source>{glass} replaced by {substitute}; the file does not tell the index it wants</source><translation>{glass} ersetzt durch {substitute}; die Datei nennt den gewünschten Index nicht</translation></message>
 <message><source>{glass} shares its name with another maker's glass of this lens; save as TOML</source><translation>{glass} heißt wie das Glas eines anderen Herstellers in diesem Objektiv; als TOML speichern</translation></message>
 <message><source>{keyword} is of number {number}, which does not exist; correct it</source><translation>{keyword} betrifft Nummer {number}, die es nicht gibt; berichtigen</translation></message>
