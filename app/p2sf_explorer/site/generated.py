@@ -10,6 +10,7 @@ from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
 from p2sf_explorer.lessons.lesson import Lesson, Step, shipped_lessons
 from p2sf_explorer.site.notebooks import SHOWN as NOTEBOOKS
 from p2sf_explorer.site.notebooks import notebook_text
+from p2sf_explorer.site.python_beside import with_python
 
 ROOT = Path(__file__).parents[3]
 # Where the files that pages link to in the sources stand on the site.
@@ -92,7 +93,7 @@ def library_page() -> str:
 def command_line_page() -> str:
     """Return the help of every command, without the list of them that the site puts beside every page."""
     text = re.sub(r"^## Table of Contents.*?(?=^\*\*)", "", command_line_markdown(), flags=re.MULTILINE | re.DOTALL)
-    return text.replace("# p2sf", "# Command line", 1)
+    return with_python(text.replace("# p2sf", "# Command line", 1))
 
 
 def lessons_page() -> str:
