@@ -13,6 +13,7 @@ from p2sf.camera import Camera
 from p2sf.conventions import centred_axis
 from p2sf.errors import ExportError, P2SFError, P2SFWarning
 from p2sf.named_arrays import NamedArrays
+from tests.benchmarks import sweep as sweep_benchmark
 
 CAMERA = Camera("double_gauss_28", focus_mm=3000, pixel_um=4.0)
 DEPTHS, FIELDS, WAVES, STOPS = [2500.0, inf], [0.0, 9.0, 14.0], [450.0, 620.0], [4.0, 8.0]
@@ -222,3 +223,8 @@ def test_a_missing_library_is_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "xarray", None)
     with pytest.raises(ExportError):
         SWEEP.coefficients().to_xarray()
+
+
+def test_the_benchmark_finds_the_same_bits():
+    axes = {"depth_mm": np.array([3000.0]), "field_deg": np.array([0.0, 9.0]), "wavelength_nm": np.array([550.0])}
+    assert sweep_benchmark.main(axes, rounds=1) > 0

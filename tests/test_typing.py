@@ -15,18 +15,18 @@ SCRIPT = ROOT / "tests" / "support" / "typed_script.py"
 WRONG = "import p2sf\n\np2sf.rendr\np2sf.render(p2sf.load_lens('tessar'), tolerance=0.9)\n"
 
 
-def checked(path: Path) -> str:
+def type_report(path: Path) -> str:
     done = subprocess.run([sys.executable, "-m", "mypy", "--strict", path], cwd=ROOT, capture_output=True, text=True)
     return done.stdout
 
 
 def test_a_script_that_uses_what_is_public_is_clean():
-    assert "no issues" in checked(SCRIPT)
+    assert "no issues" in type_report(SCRIPT)
 
 
 def test_a_checker_finds_names_that_there_are_not(tmp_path):
     (tmp_path / "wrong.py").write_text(WRONG)
-    found = checked(tmp_path / "wrong.py")
+    found = type_report(tmp_path / "wrong.py")
     assert '"rendr"' in found and '"tolerance"' in found
 
 
