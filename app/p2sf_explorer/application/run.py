@@ -2,6 +2,7 @@
 
 import sys
 
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
@@ -13,6 +14,7 @@ from p2sf_explorer.application.registration import ICON, NAME
 from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
 from p2sf_explorer.state.state import State
+from p2sf_explorer.window.start_screen import first_start
 from p2sf_explorer.window.window import MainWindow
 
 
@@ -28,7 +30,8 @@ def run_application(asked: State | None) -> int:
         window.fit_screen()
         keepers[:] = [SessionKeeper(window, window.store, lambda: window.floating.open, geometry)]
         offer_rescued(window.store, window.edge.add, window)
-        window.teaching.offer_once()
+        if asked is None and first_start():
+            QTimer.singleShot(0, window.show_start)
         return window
 
     switch = LanguageSwitch(state, made, application)

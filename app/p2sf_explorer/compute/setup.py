@@ -187,13 +187,22 @@ def _read_edited(text: str) -> Lens:
 
 def title(name: str) -> str:
     """Return how a chooser names a lens: its file's title, read without looking up its glasses; else its name."""
+    return _file_entry(name, "title") or name
+
+
+def character(name: str) -> str:
+    """Return the line of a lens file that says what is peculiar to it; "" where there is none."""
+    return _file_entry(name, "character")
+
+
+def _file_entry(name: str, key: str) -> str:
     from p2sf.lensfile.library import lenses_folder
 
     path = Path(name) if Path(name).is_file() else lenses_folder() / f"{name}.toml"
     try:
-        return str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", name))
+        return str(tomllib.loads(path.read_text(encoding="utf-8")).get(key, ""))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
-        return name
+        return ""
 
 
 def shipped_names() -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from p2sf.messages import Message
 from p2sf.tolerance.errors_of_build import Kind
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.build_errors import BuildError
-from p2sf_explorer.state.limits import ADDED, PLAIN
+from p2sf_explorer.state.limits import ADDED, LISTED, PLAIN
 from p2sf_explorer.state.state import ENTRIES, State, change, entry
 from p2sf_explorer.state.state_files import present_name
 from p2sf_explorer.state.terms import TERMS
@@ -60,7 +60,8 @@ def _value(name: str, word: str) -> object:
     if isinstance(known[name], bool):
         return TRUTH.get(word, word)
     if isinstance(known[name], tuple):
-        return () if word == "none" else tuple(word.split("+"))
+        parts = () if word == "none" else tuple(word.split("+"))
+        return tuple(map(float, parts)) if name in LISTED else parts
     if isinstance(known[name], str) or name == "lens_text":
         return word
     try:

@@ -1,21 +1,22 @@
-"""Lessons in the window: begin, go on, reveal, leave; the first start offers the first one."""
+"""Lessons in the window: begin, go on, reveal, leave, make, list."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import Protocol
 
 from PySide6.QtCore import QEvent, QObject, QTimer
-from PySide6.QtWidgets import QBoxLayout, QLabel, QSplitter, QWidget
+from PySide6.QtWidgets import QLabel, QSplitter, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.charts.theme import SPACE
-from p2sf_explorer.files import recent
+from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.i18n.language import current_language
-from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
+from p2sf_explorer.lessons.lesson_list import LessonList, content
+from p2sf_explorer.lessons.lesson_maker import LessonMaker
 from p2sf_explorer.lessons.lesson_panel import LessonPanel
-from p2sf_explorer.lessons.offer import Offer
 from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
@@ -23,7 +24,6 @@ from p2sf_explorer.widgets.command import Command
 
 SLIDER_SHARE = 0.38  # of the column's height for the sliders below the page of a lesson, at least
 PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to all that they need
-OFFER = "New here? The first lesson takes three minutes and shows what this window does."
 
 
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
@@ -45,23 +45,22 @@ class SliderColumn(Protocol):
 class LessonRoom:
     """The parts of the window that a lesson uses.
 
-    The page of the lesson stands in the ``column`` above the ``sliders``; ``offers`` is the layout in which the first
-    lesson is offered, under the bar.
+    The page of the lesson stands in the ``column`` above the ``sliders``.
     """
 
     column: QSplitter
-    offers: QBoxLayout
     sliders: SliderColumn
 
 
 class LessonController(QObject):
     """Owns the page of the lesson, made when the first one begins; the state says which lesson and step are on."""
 
-    def __init__(self, store: Store, window: QWidget, room: LessonRoom) -> None:
+    def __init__(self, store: Store, window: QWidget, room: LessonRoom, theme: Callable[[], Tokens]) -> None:
         super().__init__(window)
-        self.store, self._window, self._room = store, window, room
+        self.store, self._window, self._room, self._theme = store, window, room, theme
+        self.list: LessonList | None = None
+        self.maker: LessonMaker | None = None
         self.panel: LessonPanel | None = None
-        self.offer: Offer | None = None
         self._lessons: dict[str, Lesson] = {}
         self._told_untranslated = False
         room.column.installEventFilter(self)
@@ -73,11 +72,47 @@ class LessonController(QObject):
     def commands(self) -> tuple[Command, ...]:
         """Return what can be done with lessons."""
         return (
+            Command("List of lessons…", self.open_list, ("Shift+F3",), "Lessons"),
+            Command("Make a lesson of this…", self.make, (), "Lessons"),
             Command("Begin or leave a lesson", self.toggle, ("F3",), "Lessons"),
             Command("Next step of the lesson", lambda: self.move(1), ("Alt+Right",), "Lessons"),
             Command("Previous step of the lesson", lambda: self.move(-1), ("Alt+Left",), "Lessons"),
             Command("Show the answer", self.reveal, ("Alt+Down",), "Lessons"),
         )
+
+    def listed(self) -> tuple[Command, ...]:
+        """Return a command for each lesson, found by all its words."""
+        return tuple(
+            Command(lesson.title, partial(self.begin, name), (), "Lesson", content(lesson), worded=True)
+            for name, lesson in self.lessons().items()
+        )
+
+    def open_list(self) -> None:
+        """Open the list of lessons with their pictures."""
+        if self.list is None:
+            self.list = LessonList(self.lessons, self._window)
+            self.list.chosen.connect(self.begin)
+        self.list.open_with(self._theme())
+
+    def make(self) -> None:
+        """Open the dialog that makes a lesson of what is on screen."""
+        if self.maker is None:
+            self.maker = LessonMaker(self.store, own_folder, self._window)
+            self.maker.made.connect(self.open_made)
+        self.maker.begin()
+
+    def open_made(self, path: str) -> None:
+        """Begin a lesson that has just been written."""
+        self._lessons = {}
+        if self.panel:
+            self.panel.list_lessons(tuple(self.lessons().values()))
+        self.begin(Path(path).stem)
+        self.store.said.emit(Message("Saved {name}", name=Path(path).name))
+
+    def stop(self) -> None:
+        """End what works for the lists."""
+        if self.list:
+            self.list.stop()
 
     def lessons(self) -> dict[str, Lesson]:
         """Return the lessons by name; the banner tells of a bad file, and the others open."""
@@ -131,8 +166,6 @@ class LessonController(QObject):
             self.store.said.emit(NOTHING_BEFORE)
 
     def _go(self, name: str, number: int) -> None:
-        if self.offer:
-            self.offer.hide()
         try:
             self.store.replace(self.lessons()[name].state(number, self.store.state))
         except P2SFError as error:
@@ -203,20 +236,3 @@ class LessonController(QObject):
                     part.style().polish(part)
                 if wanted:
                     self._room.sliders.reveal(key)
-
-    def offer_once(self) -> None:
-        """Offer the first lesson in a line under the bar, at the first start only."""
-        path = recent.recent_path().with_name("lesson_offered")
-        if path.exists() or self.store.state.lesson.name:
-            return
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.touch()
-        except OSError:
-            return
-        self.offer = Offer(
-            tr(OFFER), "Start", "Begin the first lesson (F3)", "No, thanks", "Do not ask again", self._window
-        )
-        self.offer.accept.clicked.connect(self.toggle)
-        self._room.offers.insertWidget(1, self.offer)
-        self.offer.show()

@@ -26,8 +26,8 @@ class LessonPanel(QFrame):
         self._column, self.progress = QVBoxLayout(self), StepBar()
         self.setObjectName("card")
         self.setAccessibleName(tr("Lesson"))
-        numbered = tuple((lesson.name, f"{k}  {lesson.title}") for k, lesson in enumerate(lessons, 1))
-        self.choice = chooser(numbered, "Choose a lesson", self)
+        self.choice = chooser((), "Choose a lesson", self)
+        self.list_lessons(lessons)
         self.choice.setSizeAdjustPolicy(self.choice.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.exit = tool("Exit", "End the lesson and restore everything as it was before (F3)")
         self.title, self.count = wrapped_label("title"), wrapped_label("muted")
@@ -47,6 +47,12 @@ class LessonPanel(QFrame):
         self._lay_out()
         self._connect()
         self.hide()
+
+    def list_lessons(self, lessons: tuple[Lesson, ...]) -> None:
+        """Offer these lessons."""
+        self.choice.clear()
+        for number, lesson in enumerate(lessons, 1):
+            self.choice.addItem(f"{number}  {lesson.title}", lesson.name)
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()

@@ -8,10 +8,10 @@ from PySide6.QtGui import QImage, QPainter, QPalette
 from PySide6.QtWidgets import QWidget
 
 from p2sf.errors import P2SFError
-from p2sf.messages import Message
+from p2sf.messages import Message, Number
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write_film
-from p2sf_explorer.playback.sweep import Moment, changes, sweep
+from p2sf_explorer.playback.sweep import TITLES, Moment, SliderSweep, changes, sweep
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.store import Store
@@ -131,8 +131,15 @@ def files_message(paths: tuple[Path, ...]) -> Message:
 def moments_of_sweep(state: State) -> tuple[Moment, ...]:
     """Return the frames of the state's sweep, once, with B following where it is linked."""
     way, count = sweep(state), max(2, round(FRAMES_PER_S * state.playback.seconds))
-    moved = (changes(state, way.value(number / (count - 1))) for number in range(count))
-    return tuple(Moment(change(state, **with_links(state, each))) for each in moved)
+    values = [way.value(number / (count - 1)) for number in range(count)]
+    return tuple(
+        Moment(change(state, **with_links(state, changes(state, value))), moving_value(way, value)) for value in values
+    )
+
+
+def moving_value(way: SliderSweep, value: float) -> Message:
+    """Return the words below a frame: the slider's name and its value."""
+    return Message("{name}: {value}", name=Message(TITLES[way.key]), value=Number(way.write(value)))
 
 
 def picture_of(widget: QWidget, caption: str = "") -> QImage:

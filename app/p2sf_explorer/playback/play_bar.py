@@ -122,8 +122,8 @@ class PlayBar(QFrame):
         """Return what can be done by name or key."""
         return (
             Command("Play or pause the last slider", self.toggle, ("Ctrl+Space",), "Sweep"),
-            Command("Save the sweep as a film…", self.ask_film, ("Ctrl+Shift+E",), "Sweep"),
-            Command("Save a film of random builds…", self.ask_film_of_builds, (), "Sweep"),
+            Command("Film of the sweep…", self.ask_film, ("Ctrl+Shift+E",), "Sweep"),
+            Command("Film of random builds…", self.ask_film_of_builds, (), "Sweep"),
         )
 
     def toggle(self) -> None:

@@ -122,6 +122,11 @@ class Store(QObject):
         return next((state for state in reversed(self._states[: self._at + 1]) if wanted(state)), None)
 
     @property
+    def history(self) -> list[State]:
+        """Return the steps of undo from the first, the present state last."""
+        return self._states[: self._at + 1]
+
+    @property
     def previous(self) -> State | None:
         """Return the state that `undo` would give back, None where there is none."""
         return self._states[self._at - 1] if self.can_undo else None

@@ -13,6 +13,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QFrame,
+    QHBoxLayout,
     QLabel,
     QListView,
     QPushButton,
@@ -31,7 +32,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.widgets.card import paint_chevron
 from p2sf_explorer.widgets.thumbnail import paint_lens
-from p2sf_explorer.window.lens_cards import LensCard, lens_card
+from p2sf_explorer.window.lens_cards import FILTERS, LensCard, lens_card, lens_tags
 
 NAME = Qt.ItemDataRole.UserRole
 WIDE, NARROW = 560, 110
@@ -130,11 +131,37 @@ class Gallery(QFrame):
             tr("Find a lens with the arrow keys or its first letters; Enter opens it. Your own files: Ctrl+O."), self
         )
         hint.setObjectName("muted")
+        self.filters = {tag: self._filter(tag, words) for tag, words in FILTERS.items()}
+        chosen = QHBoxLayout()
+        for button in self.filters.values():
+            chosen.addWidget(button)
+        chosen.addStretch(1)
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 8, 8, 8)
+        column.addLayout(chosen)
         column.addWidget(self.list, 1)
         column.addWidget(hint)
         self.cards.arrived.connect(self.list.viewport().update)
+
+    def _filter(self, tag: str, words: str) -> QPushButton:
+        button = QPushButton(tr(words), self)
+        button.setObjectName("segment")
+        button.setCheckable(True)
+        button.setToolTip(tr("Show only such lenses; press again for all"))
+        button.clicked.connect(lambda on: self._show_only(tag if on else ""))
+        return button
+
+    def _show_only(self, tag: str) -> None:
+        """Show the lenses that have a tag, all for ""."""
+        model = self.list.model()
+        for row in range(model.rowCount()):
+            self.list.setRowHidden(row, bool(tag) and tag not in lens_tags(model.index(row, 0).data(NAME)))
+        for name, button in self.filters.items():
+            button.setChecked(name == tag)
+        shown = [row for row in range(model.rowCount()) if not self.list.isRowHidden(row)]
+        if shown and self.list.isRowHidden(self.list.currentIndex().row()):
+            self.list.setCurrentIndex(model.index(shown[0], 0))
+        self.list.doItemsLayout()
 
     @staticmethod
     def _model() -> QStandardItemModel:
@@ -158,6 +185,7 @@ class Gallery(QFrame):
         size = QSize(wide, high).boundedTo(QSize(room.width() - 16, room.height() - 16))
         corner = QPoint(min(place.x(), room.right() - size.width()), min(place.y(), room.bottom() - size.height()))
         self.setGeometry(QRect(corner, size))
+        self._show_only("")
         model = self.list.model()
         found = model.match(model.index(0, 0), NAME, name, 1, Qt.MatchFlag.MatchExactly)
         self.list.setCurrentIndex(found[0] if found else model.index(0, 0))

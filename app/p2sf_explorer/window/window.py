@@ -61,6 +61,7 @@ from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
 from p2sf_explorer.window.presentation import LARGER, LARGER_BESIDE, Presentation
 from p2sf_explorer.window.second_side import SecondSide
 from p2sf_explorer.window.stage import PanelRoom, ShareSplitter
+from p2sf_explorer.window.start_screen import Beginnings, StartScreen
 from p2sf_explorer.window.tabs import Tabs
 from p2sf_explorer.window.view import View, next_stop
 from p2sf_explorer.window.workspace_bar import WorkspaceBar, Workspaces
@@ -122,8 +123,8 @@ class MainWindow(QMainWindow):
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
-        self.lesson_room = LessonRoom(self.left_parts, self.column, self.controls)
-        self.teaching = LessonController(self.store, self, self.lesson_room)
+        self.lesson_room = LessonRoom(self.left_parts, self.controls)
+        self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme)
         access = PanelAccess(
             live=lambda: self.live,
             theme=lambda: self._theme,
@@ -145,6 +146,8 @@ class MainWindow(QMainWindow):
         for part in (self.sharing, self.compare, self.play, self.teaching, *own):
             for command in part.commands():
                 self.commands.add(command)
+        self.commands.sources.append(self.teaching.listed)
+        self.commands.fill_menu()
         self.sharing.fill(self.top.snapshot.menu())
 
     def _connect(self) -> None:
@@ -193,6 +196,18 @@ class MainWindow(QMainWindow):
         self.edge = StageEdge(self.room.stage, (self.play, self.compare, self.banner), body)
         self.setCentralWidget(body)
         self.resize(*FIRST_SIZE)
+
+    def show_start(self) -> StartScreen:
+        """Show the four ways to begin."""
+        ways = Beginnings(
+            look=self.top.lens.open_gallery,
+            teach=self.teaching.open_list,
+            open=self.commands.ask_open,
+            measure=lambda: self.take_stage("measured"),
+        )
+        shown = StartScreen(ways, self._theme, self)
+        shown.begin()
+        return shown
 
     def fit_screen(self) -> None:
         """Take the first size, at the present scale of type, as far as the screen has room for it and its frame."""
@@ -517,6 +532,7 @@ class MainWindow(QMainWindow):
         self.presentation.stop()
         self.play.stop()
         self.commands.stop()
+        self.teaching.stop()
         self.top.tolerance.stop()
         self.measuring.stop()
         self.deferred.stop()

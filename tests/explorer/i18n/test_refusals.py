@@ -20,7 +20,7 @@ BROKEN = "SURF 0\n  DISZ INFINITY\nSURF 1\n  STOP\n  CURV abc\n"
         "field angle",  # handed on by two functions
         "Play or pause (Space on a slider)",  # the tip of a button made by a method
         "the PSF",  # the words of a choice
-        "Save the sweep as a film…",  # a command
+        "Film of the sweep…",  # a command
         "coma",  # of a loop over a constant
         "Lens",  # a group of panels
         "a radius of 0 with an index is a plane",  # a method of another object, its name used elsewhere

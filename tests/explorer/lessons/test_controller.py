@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
-from p2sf_explorer.charts.theme import SPACE
+from p2sf_explorer.charts.theme import LIGHT, SPACE
 from p2sf_explorer.lessons.controller import NOTHING_BEFORE, SLIDER_SHARE, LessonController
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.lessons.lesson_panel import rich
@@ -168,26 +168,11 @@ def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching
 def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, qtbot, monkeypatch, tmp_path):
     (tmp_path / "99_bad.md").write_text("no lesson", encoding="utf-8")
     monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
-    made = LessonController(window.store, window, window.lesson_room)
+    made = LessonController(window.store, window, window.lesson_room, lambda: LIGHT)
     assert len(made.lessons()) == len(shipped_lessons())
     qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text())
     window.store.changed.disconnect(made.follow)
     window.banner.hide()
-
-
-def test_the_first_start_offers_a_lesson_and_the_second_does_not(window, qtbot, teaching, own_memory):
-    teaching.offer_once()
-    offer = teaching.offer
-    assert offer.isVisible()
-    qtbot.mouseClick(offer.accept, Qt.MouseButton.LeftButton)
-    assert window.store.state.lesson.name == FIRST.name and not offer.isVisible()
-    teaching.leave()
-    again = LessonController(window.store, window, window.lesson_room)
-    again.offer_once()
-    assert again.offer is None
-    window.store.changed.disconnect(again.follow)
-    offer.deleteLater()
-    teaching.offer = None
 
 
 def test_the_bar_has_a_part_for_each_step_and_is_filled_up_to_the_present_one(window, panel):

@@ -5,6 +5,44 @@
 <name>p2sf</name>
 <message><source>Build a lens in Python</source><translation>Ein Objektiv in Python bauen</translation></message>
 <message><source>Gallery</source><translation>Galerie</translation></message>
+<message><source>Add a step for every step of undo of this lens, up to what is on screen</source><translation>Für jeden Schritt, den Rückgängig kennt, einen Schritt mit diesem Objektiv anfügen, bis zu dem, was zu sehen ist</translation></message>
+<message><source>Add a step that shows what is on screen now</source><translation>Einen Schritt anfügen, der zeigt, was jetzt zu sehen ist</translation></message>
+<message><source>Add the steps of undo</source><translation>Schritte von Rückgängig anfügen</translation></message>
+<message><source>Add what is on screen</source><translation>Anfügen, was zu sehen ist</translation></message>
+<message><source>Begin with the window as it is (Esc); this does not come again</source><translation>Mit dem Fenster anfangen, wie es ist (Esc); diese Frage kommt nicht wieder</translation></message>
+<message><source>Choose among lenses from the singlet to the zoom</source><translation>Unter Objektiven wählen, von der Einzellinse bis zum Zoom</translation></message>
+<message><source>Drag depth, field and wavelength; the picture follows. Where do you want to begin?</source><translation>Abstand, Feld und Wellenlänge ziehen, und das Bild folgt. Wo soll es losgehen?</translation></message>
+<message><source>Each step keeps what is on screen: go on in the window, and add the next step here. What you write is Markdown.</source><translation>Jeder Schritt behält, was zu sehen ist: im Fenster weitergehen und hier den nächsten Schritt anfügen. Geschrieben wird in Markdown.</translation></message>
+<message><source>Field {field}</source><translation>Feld {field}</translation></message>
+<message><source>Film of random builds…</source><translation>Film von zufällig gebauten Objektiven …</translation></message>
+<message><source>Film of the sweep…</source><translation>Film des Durchlaufs …</translation></message>
+<message><source>Find a command, a panel, a lens, a lesson or a preset</source><translation>Einen Befehl, eine Tafel, ein Objektiv, eine Lektion oder ein Beispiel finden</translation></message>
+<message><source>Heading</source><translation>Überschrift</translation></message>
+<message><source>How the light of a point spreads, live</source><translation>Wie sich das Licht eines Punktes verteilt, live</translation></message>
+<message><source>In one sentence</source><translation>In einem Satz</translation></message>
+<message><source>Lessons with pictures, three minutes each</source><translation>Lektionen mit Bildern, je drei Minuten</translation></message>
+<message><source>List of lessons…</source><translation>Liste der Lektionen …</translation></message>
+<message><source>Look at a lens</source><translation>Ein Objektiv ansehen</translation></message>
+<message><source>Made on {date}</source><translation>Erstellt am {date}</translation></message>
+<message><source>Make a lesson of this</source><translation>Daraus eine Lektion machen</translation></message>
+<message><source>Make a lesson of this…</source><translation>Daraus eine Lektion machen …</translation></message>
+<message><source>Measure a photo</source><translation>Ein Foto messen</translation></message>
+<message><source>Mirrors</source><translation>Spiegel</translation></message>
+<message><source>No lesson has these words; try fewer.</source><translation>Keine Lektion enthält diese Wörter; weniger versuchen.</translation></message>
+<message><source>Open my lens file</source><translation>Eigene Objektivdatei öffnen</translation></message>
+<message><source>Phone</source><translation>Telefon</translation></message>
+<message><source>Remove the chosen step</source><translation>Den gewählten Schritt entfernen</translation></message>
+<message><source>Remove the step</source><translation>Schritt entfernen</translation></message>
+<message><source>Save and open</source><translation>Speichern und öffnen</translation></message>
+<message><source>Search titles and texts</source><translation>Titel und Texte durchsuchen</translation></message>
+<message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
+<message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
+<message><source>Skip</source><translation>Überspringen</translation></message>
+<message><source>Steps of the lesson</source><translation>Schritte der Lektion</translation></message>
+<message><source>Telephoto</source><translation>Teleobjektiv</translation></message>
+<message><source>Text</source><translation>Text</translation></message>
+<message><source>Title</source><translation>Titel</translation></message>
+<message><source>Wavefronts from a photograph of points</source><translation>Wellenfronten aus der Aufnahme von Punkten</translation></message>
 <message><source>What the stage shows; right-click to choose the parts of this line</source><translation>Was die Bühne zeigt; Rechtsklick wählt die Teile dieser Zeile</translation></message>
 <message><source> ({count} fr.)</source><translation> ({count} Ringe)</translation></message>
 <message><source>"{entry}" sets nothing; write entries such as field_deg 10, tab mtf</source><translation>"{entry}" stellt nichts ein; Einträge schreiben wie field_deg 10, tab mtf</translation></message>
@@ -102,7 +140,6 @@
 <message><source>Back to the lens's own coefficients: nothing added, muted or solo</source><translation>Zurück zu den Koeffizienten des Objektivs: nichts hinzugefügt, stumm oder solo</translation></message>
 <message><source>Back to the tabs</source><translation>Zurück zu den Reitern</translation></message>
 <message><source>Begin or leave a lesson</source><translation>Lektion beginnen oder verlassen</translation></message>
-<message><source>Begin the first lesson (F3)</source><translation>Die erste Lektion beginnen (F3)</translation></message>
 <message><source>Bending X</source><translation>Durchbiegung X</translation></message>
 <message><source>Bending: the shape factor X = (c₁ + c₂)/(c₁ − c₂) of the selected element; its thin-lens power does not change. 0 is equiconvex or equiconcave, ±1 has one plane side. Select an element in the layout or in the table.</source><translation>Durchbiegung: der Formfaktor X = (c₁ + c₂)/(c₁ − c₂) des gewählten Elements; seine Brechkraft als dünne Linse bleibt. 0 ist gleichseitig bikonvex oder bikonkav, bei ±1 ist eine Seite eben. Wählen Sie ein Element im Schnittbild oder in der Tabelle.</translation></message>
 <message><source>Best-form singlet f/6, 20 mm</source><translation>Einzellinse bester Form f/6, 20 mm</translation></message>
@@ -194,7 +231,6 @@
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
 <message><source>Distance to the next vertex, mm; the last one to the sensor.</source><translation>Abstand zum nächsten Scheitel, mm; der letzte zum Sensor.</translation></message>
 <message><source>Distances with units, ∞ included: 500 mm; 2 m; ∞. A range, evenly spaced in 1/distance: 1 m:∞:4</source><translation>Abstände mit ihren Einheiten, auch ∞: 500 mm; 2 m; ∞. Eine Reihe, gleichmäßig in 1/Abstand: 1 m:∞:4</translation></message>
-<message><source>Do not ask again</source><translation>Nicht mehr fragen</translation></message>
 <message><source>Double Gauss, 28 degree field, f/3, 100 mm</source><translation>Doppel-Gauß, 28 Grad Feld, f/3, 100 mm</translation></message>
 <message><source>Drag a slider: lens, pupil and PSF follow. Hover over a name for its definition.</source><translation>Einen Regler ziehen: Objektiv, Pupille und PSF folgen. Über einem Namen steht seine Definition.</translation></message>
 <message><source>Drag or use the arrow keys to turn the surface; a double-click goes back</source><translation>Ziehen oder die Pfeiltasten drehen die Fläche; ein Doppelklick führt zurück</translation></message>
@@ -248,7 +284,6 @@
 <message><source>Files</source><translation>Dateien</translation></message>
 <message><source>Fill factor</source><translation>Füllfaktor</translation></message>
 <message><source>Film…</source><translation>Film …</translation></message>
-<message><source>Find a command, a panel, a lens or a preset</source><translation>Befehl, Ansicht, Objektiv oder Vorgabe finden</translation></message>
 <message><source>Find a command…</source><translation>Befehl finden …</translation></message>
 <message><source>Find a lens with the arrow keys or its first letters; Enter opens it. Your own files: Ctrl+O.</source><translation>Pfeiltasten oder die ersten Buchstaben finden ein Objektiv, Enter öffnet es. Eigene Dateien: Strg+O.</translation></message>
 <message><source>Find it in two minutes</source><translation>In zwei Minuten gefunden</translation></message>
@@ -295,6 +330,9 @@
 <message><source>Show A, B, A − B, A | B in turn</source><translation>A, B, A − B, A | B der Reihe nach zeigen</translation></message>
 <message><source>Try a sample</source><translation>Ein Beispiel versuchen</translation></message>
 <message><source>What-if: coefficients altered by hand; of the lens itself remain: {panels}.</source><translation>Was wäre wenn: Koeffizienten von Hand geändert; die des Objektivs selbst bleiben: {panels}.</translation></message>
+<message><source>Write the lesson, and begin it in the window</source><translation>Die Lektion schreiben und im Fenster beginnen</translation></message>
+<message><source>Zemax, CODE V, OSLO, a table …</source><translation>Zemax, CODE V, OSLO, eine Tabelle …</translation></message>
+<message><source>Zooms</source><translation>Zoomt</translation></message>
 <message><source>higher peak</source><translation>höhere Spitze</translation></message>
 <message><source>internal transmittance</source><translation>Reintransmissionsgrad</translation></message>
 <message><source>internal transmittance {share:g} of {thickness:g} mm at {wavelength:g} µm; give a share from 0 to 1, a positive thickness and a positive wavelength</source><translation>Reintransmissionsgrad {share:g} von {thickness:g} mm bei {wavelength:g} µm; einen Anteil von 0 bis 1, eine positive Dicke und eine positive Wellenlänge angeben</translation></message>
@@ -392,7 +430,6 @@
 <message><source>NA = n′|u′|, image-space slope of the marginal ray.</source><translation>NA = n′|u′|, bildseitige Steigung des Randstrahls.</translation></message>
 <message><source>Name of the workspace:</source><translation>Name des Arbeitsbereichs:</translation></message>
 <message><source>Navarro wide-angle schematic eye, 543 nm</source><translation>Schematisches Weitwinkelauge nach Navarro, 543 nm</translation></message>
-<message><source>New here? The first lesson takes three minutes and shows what this window does.</source><translation>Neu hier? Die erste Lektion dauert drei Minuten und zeigt, wozu das Fenster da ist.</translation></message>
 <message><source>Next</source><translation>Weiter</translation></message>
 <message><source>Next lesson</source><translation>Nächste Lektion</translation></message>
 <message><source>Next step of the lesson</source><translation>Nächster Schritt der Lektion</translation></message>
@@ -590,7 +627,6 @@
 <message><source>R² ≥ {value:g}</source><translation>R² ≥ {value:g}</translation></message>
 <message><source>Sampling</source><translation>Abtastung</translation></message>
 <message><source>Save a film</source><translation>Film speichern</translation></message>
-<message><source>Save a film of random builds…</source><translation>Film von zufällig gebauten Objektiven speichern …</translation></message>
 <message><source>Save a film of the first forty of these builds: layout, PSF, and where each stands in the yield</source><translation>Einen Film der ersten vierzig dieser Exemplare speichern: Aufbau, PSF und wo jedes in der Ausbeute steht</translation></message>
 <message><source>Save a snapshot</source><translation>Schnappschuss speichern</translation></message>
 <message><source>Save as…</source><translation>Speichern als …</translation></message>
@@ -606,7 +642,6 @@
 <message><source>Save the picture</source><translation>Das Bild speichern</translation></message>
 <message><source>Save the picture as PNG or TIFF, the state beside it</source><translation>Das Bild als PNG oder TIFF speichern, daneben den Zustand</translation></message>
 <message><source>Save the report</source><translation>Bericht speichern</translation></message>
-<message><source>Save the sweep as a film…</source><translation>Durchlauf als Film speichern …</translation></message>
 <message><source>Save the sweep from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
 <message><source>Save the view as a picture, or the scene as glTF or OBJ</source><translation>Die Ansicht als Bild oder die Szene als glTF oder OBJ speichern</translation></message>
 <message><source>Save the workspace</source><translation>Arbeitsbereich speichern</translation></message>
@@ -661,7 +696,6 @@
 <message><source>Spot</source><translation>Spot</translation></message>
 <message><source>Spot diagram</source><translation>Spotdiagramm</translation></message>
 <message><source>Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction.</source><translation>Spotdiagramm: wo exakte, über die Pupille gleichmäßig verteilte Strahlen auf den Sensor treffen; ohne Beugung.</translation></message>
-<message><source>Start</source><translation>Beginnen</translation></message>
 <message><source>State only…</source><translation>Nur Zustand …</translation></message>
 <message><source>Steps</source><translation>Schritte</translation></message>
 <message><source>Stop</source><translation>Blende</translation></message>
@@ -895,6 +929,8 @@
 <message><source>surface {surface} {reason}, for which there are no Seidel sums and no six coefficients; choose the method fitted, traced or huygens</source><translation>Fläche {surface} {reason}, wofür es keine Seidelsummen und keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen</translation></message>
 <message><source>surface {surface}: a file that ends in {ending} cannot express {what}; save as TOML</source><translation>Fläche {surface}: {what} lässt sich in einer Datei mit der Endung {ending} nicht ausdrücken; als TOML speichern</translation></message>
 <message><source>surface {surface}: transmission {vertex:g} with {slope:g} per mm²; give a share from 0 to 1 and a finite number</source><translation>Fläche {surface}: Durchlässigkeit {vertex:g} mit {slope:g} je mm²; einen Anteil von 0 bis 1 und eine endliche Zahl angeben</translation></message>
+<message><source>the lesson has no step; add what is on screen</source><translation>die Lektion hat keinen Schritt; anfügen, was zu sehen ist</translation></message>
+<message><source>the lesson has no title; give it one</source><translation>die Lektion hat keinen Titel; einen angeben</translation></message>
 <message><source>the medium behind surface {surface} absorbs light along paths of different lengths</source><translation>das Medium hinter Fläche {surface} absorbiert Licht auf verschieden langen Wegen</translation></message>
 <message><source>the centre of the obscuration lies behind a blade of the iris; move it or open the iris</source><translation>die Mitte der Abschattung liegt hinter einer Lamelle der Iris; sie verschieben oder die Iris öffnen</translation></message>
 <message><source>the surface is not of revolution, so even terms cannot describe it; keep its shape</source><translation>die Fläche ist keine Rotationsfläche, die keine geraden Glieder beschreiben; ihre Form behalten</translation></message>
@@ -2288,6 +2324,7 @@
 <message><source>{parameter} is {value:g}{unit}, but rays from beyond {most:g} mm are in effect parallel; give inf</source><translation>{parameter}: {value:g}{unit}; über {most:g} mm hinaus sind Strahlen nicht von parallelen zu unterscheiden; ∞ angeben</translation></message>
 <message><source>{parameter} of {value:g} is tighter than the relative error of {least:g} that polynomial pupils can promise; loosen it or render single PSFs with {method} huygens</source><translation>{parameter} von {value:g} ist enger als der relative Fehler {least:g}, den Polynompupillen versprechen können; es lockern oder einzelne PSFs mit {method} huygens rechnen</translation></message>
 <message><source>{parameter} reaches {value:.4g} µm, and a wavefront on {size} cells repeats its PSF beyond {most:.4g} µm; give it on a finer grid</source><translation>{parameter} reicht bis {value:.4g} µm, und die PSF einer Wellenfront auf {size} Zellen wiederholt sich jenseits von {most:.4g} µm; sie auf einem feineren Gitter angeben</translation></message>
+<message><source>{path} cannot be written ({why})</source><translation>{path} lässt sich nicht schreiben ({why})</translation></message>
 <message><source>{percent:.1f} % of the rays that fill the pupil reach the sensor, too few for its contrast and energy; move the source to a distance the lens is made for, or stop the lens down</source><translation>{percent:.1f} % der Strahlen, die die Pupille füllen, erreichen den Sensor, zu wenige für Kontrast und Energie; die Quelle in einen Abstand bringen, für den das Objektiv gemacht ist, oder abblenden</translation></message>
 <message><source>and so in half of its space</source><translation>und das im halben Raum</translation></message>
 <message><source>median 1 − R² {median:.1e}</source><translation>Median von 1 − R² {median:.1e}</translation></message>

@@ -47,6 +47,10 @@ if TYPE_CHECKING:
 
 COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
 HANDBOOK = "Handbook: the page of what has the focus"
+LESSONS, MAKE_LESSON = "List of lessons…", "Make a lesson of this…"
+FILM, PRESENT = "Film of the sweep…", "Present: the stage on the full screen, or back (Esc)"
+REPORT = "Report as PDF, HTML or JSON…"
+IN_MENU = "Find a command…", REPORT, LESSONS, MAKE_LESSON, PRESENT, FILM, HANDBOOK, "Shortcuts"
 NO_MASK = "Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase"
 REPORT_FILES = "Report as PDF (*.pdf);;Report as HTML (*.html);;Report as JSON (*.json)"
 STATE_FILES = "Explorer states (*.json)"
@@ -105,6 +109,7 @@ class Actions(QObject):
         super().__init__(window)
         self._window, self._store, self._top, self._panels = window, store, top, panels
         self.commands: list[Command] = []
+        self.sources: list[Callable[[], tuple[Command, ...]]] = []  # of what the palette lists beside them
         self.palette: Palette | None = None
         self.handbook: Handbook | None = None
         self.set_dialog: SetDialog | None = None
@@ -117,8 +122,6 @@ class Actions(QObject):
         top.help_asked.connect(self.help)
         top.set_snapshot_menu(self._menu())
         self._list_recent()
-        listed = ("Find a command…", "Report as PDF, HTML or JSON…", HANDBOOK, "Shortcuts")
-        fill(top.more.menu(), store, tuple(c for c in self.commands if c.title in listed))
 
     def _first(self) -> tuple[Command, ...]:
         """Return the commands there are from the start; other parts of the window `add` theirs."""
@@ -137,7 +140,7 @@ class Actions(QObject):
             Command("Pupil as the lens file has it", lambda: store.update(**dict.fromkeys(MASK)), (), "Lens"),
             Command("Copy the panel's data as CSV", self.copy_data, ("Ctrl+Shift+D",), "Files"),
             Command("Copy the panel's picture", self.copy_picture, ("Ctrl+Shift+P",), "Files"),
-            Command("Report as PDF, HTML or JSON…", self.ask_report, ("Ctrl+P",), "Files"),
+            Command(REPORT, self.ask_report, ("Ctrl+P",), "Files"),
             Command("Pop out", self._panels.detach, ("Ctrl+D",), "Panel"),
             Command("Find a command…", self.find, ("Ctrl+K",)),
             Command(HANDBOOK, self.open_handbook, ("F1",)),
@@ -154,6 +157,11 @@ class Actions(QObject):
             shortcut.activated.connect(command.run)
             if keys == "F1":  # also in the windows of panels
                 shortcut.setContext(Qt.ShortcutContext.ApplicationShortcut)
+
+    def fill_menu(self) -> None:
+        """Put what a person may look for into the menu of the bar, once all commands are there."""
+        named = {command.title: command for command in self.commands}
+        fill(self._top.more.menu(), self._store, tuple(named[title] for title in IN_MENU))
 
     def attempt(self, action: Callable[[], object]) -> bool:
         """Run an action, or say why it cannot be done; return whether it was."""
@@ -270,7 +278,8 @@ class Actions(QObject):
 
     def everything(self) -> tuple[Command, ...]:
         """Return all commands of the palette."""
-        return (*self.commands, *choices(self._store, self._panels.open, self._panels.stage, self.open_lens))
+        chosen = choices(self._store, self._panels.open, self._panels.stage, self.open_lens)
+        return (*self.commands, *chosen, *(command for listed in self.sources for command in listed()))
 
     def copy_picture(self) -> None:
         """Put the picture of the panel in hand on the clipboard."""

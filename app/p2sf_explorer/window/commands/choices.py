@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QMenu
 
 from p2sf_explorer.compute.quantities import RING_QUANTITIES
-from p2sf_explorer.compute.setup import prescription, ranges, shipped_names, title
+from p2sf_explorer.compute.setup import character, prescription, ranges, shipped_names, title
 from p2sf_explorer.i18n.language import languages
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CHOICES
@@ -44,7 +45,8 @@ def _rings(store: Store) -> Iterator[Command]:
 
 def _lenses(open_lens: Callable[[str], object]) -> Iterator[Command]:
     for name in shipped_names():
-        yield Command(title(name), partial(open_lens, name), (), "Lens")
+        about = character(name)
+        yield Command(title(name), partial(open_lens, name), (), "Lens", f"{name} {about} {tr(about)}")
 
 
 def _presets(store: Store) -> Iterator[Command]:
@@ -61,7 +63,8 @@ def appearances(store: Store) -> Iterator[Command]:
         yield Command(THEMES[value], partial(update, theme=value), (), "Theme")
     yield Command("As the system", partial(update, language="system"), (), "Language")
     for code, name in languages().items():
-        yield Command(name, partial(update, language=code), (), "Language")
+        english = QLocale.languageToString(QLocale(code).language())
+        yield Command(name, partial(update, language=code), (), "Language", english)
 
 
 def fill(menu: QMenu, store: Store, first: tuple[Command, ...]) -> None:

@@ -1,6 +1,8 @@
-"""The command palette: every action, panel, lens and preset by a few letters of its name."""
+"""The command palette: every action, panel, lens, lesson and preset by a few letters or words of it."""
 
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent
@@ -47,9 +49,72 @@ def _begins(words: str, at: int) -> bool:
     return at == 0 or not words[at - 1].isalnum()
 
 
-def rank(sought: str, texts: Iterable[str]) -> list[int]:
+WHOLE, BY_WORDS = 5.0, 8.0  # for a word that is typed whole, and for all words together
+FURTHER, MISTYPED = 0.6, 0.5  # parts of the score of words that are not of the name, and of those with a typing error
+EARLY = 0.4  # cost of every word of the name before the one that fits
+FEWEST = 4  # letters of a word that may have a typing error; two from FEWER_ERRORS on
+FEWER_ERRORS = 6
+WORD = re.compile(r"[^\W_]+(?:[′'’][^\W_]+)*")
+
+
+def words_score(sought: str, name: str, further: str = "") -> float | None:
+    """Return how well every word that is sought fits a word of the name or the further words; None where one does not.
+
+    A word fits from its start, or within two typing errors (Damerau 1964: a letter more, less, other, or two swapped).
+    """
+    total, asked = BY_WORDS - LONG * len(name), WORD.findall(sought.casefold())
+    for word in asked:
+        own = (_word_score(word, each) - EARLY * at for at, each in enumerate(_words(name)))
+        best = max(own, default=0.0)
+        best = max(best, max((FURTHER * _word_score(word, each) for each in _words(further)), default=0.0))
+        if best <= 0:
+            return None
+        total += best
+    return total if asked else None
+
+
+@lru_cache(maxsize=4096)
+def _words(text: str) -> tuple[str, ...]:
+    """Return the different words of a text in their order."""
+    return tuple(dict.fromkeys(WORD.findall(text.casefold())))
+
+
+def _word_score(sought: str, word: str) -> float:
+    """Return the score of a word, 0 where it does not fit."""
+    full = START + NEXT * (len(sought) - 1)
+    if word.startswith(sought):
+        return full + (WHOLE if word == sought else 0.0)
+    if len(sought) >= FEWEST and sought in word:
+        return MISTYPED * full
+    allowed = 0 if len(sought) < FEWEST else 1 + (len(sought) >= FEWER_ERRORS)
+    if not allowed or (sought[0] != word[0] and sought[:2] != word[1::-1]):
+        return 0.0
+    errors = min(typing_errors(sought, word[: len(sought) + more]) for more in (-1, 0, 1))
+    return MISTYPED * (full - NEXT * errors) if errors <= allowed else 0.0
+
+
+def typing_errors(one: str, other: str) -> int:
+    """Return how many letters are missing, too many, other, or swapped with a neighbour (optimal string alignment)."""
+    before, last = [0] * (len(other) + 1), list(range(len(other) + 1))
+    for row, letter in enumerate(one, 1):
+        now = [row]
+        for column, against in enumerate(other, 1):
+            least = min(last[column] + 1, now[-1] + 1, last[column - 1] + (letter != against))
+            if row > 1 and column > 1 and (letter, one[row - 2]) == (other[column - 2], against):
+                least = min(least, before[column - 2] + 1)
+            now.append(least)
+        before, last = last, now
+    return last[-1]
+
+
+def rank(sought: str, texts: Sequence[str], further: Sequence[str] = ()) -> list[int]:
     """Return the numbers of the texts that fit, the best first, equals in their order."""
-    found = [(-worth, number) for number, text in enumerate(texts) if (worth := score(sought, text)) is not None]
+    found = []
+    for number, text in enumerate(texts):
+        by_words = words_score(sought, text, further[number] if further else "")
+        worths = [worth for worth in (score(sought, text), by_words) if worth is not None]
+        if worths:
+            found.append((-max(worths), number))
     return [number for _, number in sorted(found)]
 
 
@@ -67,7 +132,7 @@ class Palette(QFrame):
         self.setObjectName("card")
         self.sought, self.found = QLineEdit(self), QListWidget(self)
         self.sought.setPlaceholderText(tr("What do you want to do?"))
-        self.sought.setAccessibleName(tr("Find a command, a panel, a lens or a preset"))
+        self.sought.setAccessibleName(tr("Find a command, a panel, a lens, a lesson or a preset"))
         self.sought.textChanged.connect(self._find)
         self.sought.installEventFilter(self)
         self.found.setFrameShape(QListWidget.Shape.NoFrame)
@@ -97,7 +162,9 @@ class Palette(QFrame):
     def _find(self, sought: str) -> None:
         names = [full_name(command) for command in self._commands]
         english = [f"{command.group}: {command.title}" for command in self._commands]  # whatever language was left on
-        fitting = dict.fromkeys(number % len(names) for number in rank(sought, [*names, *english]))
+        further = [command.further for command in self._commands]
+        ranked = rank(sought, [*names, *english], [*further, *further])
+        fitting = dict.fromkeys(number % len(names) for number in ranked)
         self.found.clear()
         for number in list(fitting)[:MOST]:
             keys = self._commands[number].keys
@@ -136,4 +203,4 @@ class Palette(QFrame):
 
 def full_name(command: Command) -> str:
     """Return a command's name with its group, in the present language."""
-    return f"{tr(command.group)}: {tr(command.title)}"
+    return f"{tr(command.group)}: {command.title if command.worded else tr(command.title)}"

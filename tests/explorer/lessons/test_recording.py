@@ -1,0 +1,120 @@
+"""A lesson that is made of what is on screen shows it again, step by step."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+
+from p2sf.errors import P2SFError
+from p2sf_explorer.compute.editing import edited_state
+from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
+from p2sf_explorer.lessons.lesson import read_lesson
+from p2sf_explorer.lessons.lesson_list import content
+from p2sf_explorer.lessons.recording import LEFT_OUT, RecordedStep, same_lens, save_lesson, written_changes
+from p2sf_explorer.state.state import ENTRIES, change, entry
+from tests.explorer.conftest import FIRST
+
+START = default_state("cooke_triplet")
+STATES = (
+    change(START, field_deg=7.5, wavelength_nm=486.1, method="fitted"),
+    change(START, field_deg=7.5, wavelength_nm=486.1, f_number=11.0, blades=6, stage="pupil", tab="mtf"),
+    change(START, f_number=None, added_waves=(0.0, 0.5, 0.0, 0.0, 0.0, 0.0), solo=("w31",), rail=()),
+    change(START, errors=(("decentre_y", 3, 4, 0.02),), curves_of="focus", curves_frequencies_per_mm=(5.0, 12.5)),
+)
+
+
+def steps(*states) -> list[RecordedStep]:
+    return [RecordedStep(state, f"Step {number}", "Words.", "Try this.") for number, state in enumerate(states, 1)]
+
+
+def shown(state) -> dict:
+    return {name: entry(state, name) for name in ENTRIES if name not in LEFT_OUT}
+
+
+def test_each_step_shows_what_was_on_screen(tmp_path):
+    lesson = read_lesson(save_lesson("My coma", "One sentence.", steps(*STATES), tmp_path))
+    assert (lesson.title, lesson.about, len(lesson.steps)) == ("My coma", "One sentence.", len(STATES))
+    for number, state in enumerate(STATES):
+        assert shown(lesson.state(number)) == shown(state), number
+        assert (lesson.steps[number].text, lesson.steps[number].attempt) == ("Words.", "Try this.")
+
+
+def test_an_edited_lens_stands_beside_its_lesson(tmp_path):
+    state = edited_state(change(START, keep_focus="off"), prescription(default_state("tessar")))
+    lesson = read_lesson(save_lesson("Mine", "", steps(state), tmp_path))
+    assert {path.suffix for path in tmp_path.iterdir()} == {".md", ".toml"}
+    assert paraxial_setup(lesson.state(0)).focal_length_mm == pytest.approx(paraxial_setup(state).focal_length_mm)
+
+
+def test_titles_that_are_alike_have_files_of_their_own(tmp_path):
+    paths = [save_lesson("Größe & Ähnlichkeit", "", steps(START), tmp_path) for _ in range(3)]
+    assert len(set(paths)) == 3 and all(path.is_file() for path in paths)
+
+
+def test_what_is_written_cannot_break_the_lesson(tmp_path):
+    words = RecordedStep(START, "A\n## heading", "---\n## no step\nset: nothing", "a\nb")
+    try:
+        lesson = read_lesson(save_lesson("T", "a\nb", [words], tmp_path))
+    except P2SFError:
+        assert not list(tmp_path.iterdir())  # refused whole
+    else:
+        assert len(lesson.steps) == 1
+
+
+def test_a_lesson_without_title_or_step_is_refused(tmp_path):
+    for title, made in (("", steps(START)), ("T", [])):
+        with pytest.raises(P2SFError):
+            save_lesson(title, "", made, tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_steps_of_undo_are_those_of_the_last_lens_without_repetitions():
+    other = default_state("tessar")
+    moved = change(START, field_deg=3.0)
+    assert same_lens([other, START, change(START, theme="dark"), moved]) == [START, moved]
+    assert written_changes(START, moved) == "field_deg 3"
+
+
+@pytest.fixture
+def teaching(window, tmp_path, monkeypatch):
+    monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
+    yield window.teaching
+    if window.teaching.maker:
+        window.teaching.maker.deleteLater()
+        window.teaching.maker = None
+    window.teaching.leave()
+    window.teaching._lessons = {}
+
+
+def test_a_lesson_from_the_screen_takes_two_actions(window, qtbot, teaching):
+    """The command, and Enter in the dialog: the lesson is written and stands open."""
+    window.store.update(field_deg=4.0)
+    teaching.make()
+    maker = teaching.maker
+    maker.name.setText("From the screen")
+    qtbot.keyClick(maker.name, Qt.Key.Key_Return)
+    assert window.store.state.lesson.name == "90_from_the_screen" and not maker.isVisible()
+    assert window.store.state.optics.field_deg == 4.0
+    assert teaching.panel.choice.currentData() == "90_from_the_screen"
+
+
+def test_undo_gives_a_step_for_each_change(window, qtbot, teaching):
+    for angle in (2.0, 5.0):
+        window.store.update(field_deg=angle)
+    teaching.make()
+    teaching.maker.add_history()
+    assert [step.state.optics.field_deg for step in teaching.maker.steps] == [FIRST.optics.field_deg, 2.0, 5.0]
+    teaching.maker.close()
+    assert teaching.maker.steps, "what is being made is kept"
+
+
+def test_the_list_finds_lessons_by_title_and_content(window, qtbot, teaching):
+    teaching.open_list()
+    found = teaching.list
+    assert found.list.count() == len(teaching.lessons())
+    found.sought.setText("hubble mirror")
+    names = [found.list.item(row).data(Qt.ItemDataRole.UserRole) for row in range(found.list.count())]
+    assert "14_hubble" in names and all("hubble" in content(teaching.lessons()[name]) for name in names)
+    qtbot.waitUntil(lambda: set(names) <= set(found._pictures))
+    qtbot.keyClick(found.sought, Qt.Key.Key_Return)
+    assert window.store.state.lesson.name == names[0] and not found.isVisible()
+    QApplication.processEvents()
