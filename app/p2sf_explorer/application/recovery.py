@@ -13,7 +13,7 @@ from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.store.store import Store
 
 OFFER = "The explorer did not close properly. What was on screen has been kept."
-TAKE_UP, TAKE_UP_TIP = "Take it up again", "Show the window as it was; Ctrl+Z returns to this one"
+TAKE_UP, TAKE_UP_TIP = "Restore it", "Show the window as it was; Ctrl+Z returns to this one"
 GIVE_UP, GIVE_UP_TIP = "No, thanks", "Forget what was on screen when the explorer ended"
 
 

@@ -1,9 +1,10 @@
 """What the window shows of the wavefront over the pupil, and what it says blurs most. No Qt in here."""
 
-from p2sf.messages import Message
+from p2sf.messages import Message, Number
 from p2sf.metrics.wavefront_map import WavefrontMap, map_of, samples_of_coefficients, samples_of_rays
 from p2sf.paraxial.seidel import Coefficients
 from p2sf_explorer.compute.setup import ParaxialSetup
+from p2sf_explorer.state.scales import significant
 
 ALIKE = 4.0  # of the variance: the focus of third order then is that of the rays up to a factor of two
 LEAST_CAUSE = 0.2  # of the focus that a coefficient makes if it is named
@@ -59,12 +60,23 @@ def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:
     if name == "defocus":
         causes = focus_causes(coefficients, pupil.parts[name])
         if causes:
-            sentence = "Refocusing would remove {percent:.0f} % of the wavefront variance, made by {causes}"
-            return Message(sentence, percent=percent, causes=causes)
+            sentence = "The best focus is about {shift} µm away: {causes} act as defocus, {percent:.0f} % of variance"
+            shift = Number(significant(best_focus_um(coefficients), 2))
+            return Message(sentence, percent=percent, causes=causes, shift=shift)
         return Message("Refocusing would remove {percent:.0f} % of the wavefront variance", percent=percent)
     if percent > 50:
         return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
     return Message("Mainly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
+
+
+def best_focus_um(c: Coefficients) -> float:
+    """Return how far the sensor is from the focus that the six coefficients leave least variance in, µm.
+
+    The parts of W40, W20 + Wd and W22 that are alike over the pupil are (W40 + W20 + Wd + W22/2)ρ² (Welford 1986, §7.7,
+    for the depth 2n′λW/NA² of a defocus).
+    """
+    focus = float(c.w40 + c.w20 + c.wd + c.w22 / 2)
+    return abs(2 * float(c.image_index) * float(c.wavelength_um) * focus / float(c.na) ** 2)
 
 
 def focus_causes(coefficients: Coefficients, variance: float) -> tuple[str, ...]:

@@ -55,18 +55,27 @@ class Formula:
     depth: float
 
 
-@lru_cache(maxsize=8)
-def page(name: str) -> str:
-    """Return a page's Markdown; ``name`` is a key of `PAGES`."""
-    return (FOLDER / f"{name}.md").read_text(encoding="utf-8")
+ENGLISH = "en"
 
 
-def window_page(name: str) -> str:
+@lru_cache(maxsize=16)
+def page(name: str, language: str = ENGLISH) -> str:
+    """Return a page's Markdown, in English where it is not `translated`; ``name`` is a key of `PAGES`."""
+    folder = FOLDER / language if translated(name, language) else FOLDER
+    return (folder / f"{name}.md").read_text(encoding="utf-8")
+
+
+def translated(name: str, language: str) -> bool:
+    """Return whether a page is there in a language other than English, as a file of a folder named after that."""
+    return language != ENGLISH and (FOLDER / language / f"{name}.md").is_file()
+
+
+def window_page(name: str, language: str = ENGLISH) -> str:
     """Return a page for the window: without marks for those who run its code, and without pictures of the window.
 
     Such pictures are made for the site, when it is built; in the window the thing itself is there to be seen.
     """
-    return PICTURE.sub(lambda found: "" if found[1] == "made" else found[0], COMMENT.sub("", page(name)))
+    return PICTURE.sub(lambda found: "" if found[1] == "made" else found[0], COMMENT.sub("", page(name, language)))
 
 
 def pictures(text: str) -> tuple[str, ...]:

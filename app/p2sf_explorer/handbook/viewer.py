@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QDialog, QSplitter, QTextBrowser, QTreeWidget, QTr
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.handbook.pages import (
+    ENGLISH,
     FOLDER,
     PAGES,
     Formula,
@@ -28,9 +29,11 @@ from p2sf_explorer.handbook.pages import (
     page,
     pictures,
     render_formula,
+    translated,
     window_page,
     with_pictures,
 )
+from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 
 TEXT_PX, FORMULA_PX, TABLE_PX = 14, 15, 11
@@ -77,7 +80,14 @@ class Handbook(QDialog):
 
     def show_section(self, name: str = "theory", number: str = "") -> None:
         """Open a page, at the section of this number where one is given."""
-        found = next((heading.text for heading in headings(page(name)) if number and heading.number == number), "")
+        found = next(
+            (
+                heading.text
+                for heading in headings(page(name, current_language()))
+                if number and heading.number == number
+            ),
+            "",
+        )
         self.show_heading(name, found)
 
     def show_heading(self, name: str, heading: str = "") -> None:
@@ -108,12 +118,16 @@ class Handbook(QDialog):
     def _follow(self, link: QUrl) -> None:
         name = link.path().removesuffix(".md") or self._page
         if name in PAGES:
-            texts = (heading.text for heading in headings(page(name)))
+            texts = (heading.text for heading in headings(page(name, current_language())))
             self._open(name, next((text for text in texts if anchor(text) == link.fragment()), ""))
 
     def _document(self, name: str) -> QTextDocument:
         """Return a page as Qt lays it out; its formulas are pictures in the text's colour."""
-        document, source, ratio = QTextDocument(self.text), window_page(name), self.devicePixelRatioF()
+        document, source, ratio = (
+            QTextDocument(self.text),
+            window_page(name, current_language()),
+            self.devicePixelRatioF(),
+        )
         scale = self._theme.scale
         document.setDefaultStyleSheet(BODY.format(line=self._theme.line, accent=self._theme.accent))
         font = self.text.font()
@@ -146,10 +160,12 @@ class Handbook(QDialog):
 
 def _branch(name: str, title: str) -> QTreeWidgetItem:
     """Return a page with its sections below it, as the contents list them."""
-    top = QTreeWidgetItem([tr(title)])
+    language = current_language()
+    english = language != ENGLISH and not translated(name, language)
+    top = QTreeWidgetItem([tr("{page} (in English)", page=title) if english else tr(title)])
     top.setData(0, Qt.ItemDataRole.UserRole, (name, ""))
     parents = {1: top}
-    for heading in headings(page(name)):
+    for heading in headings(page(name, current_language())):
         if heading.level > 1:
             item = QTreeWidgetItem(parents.get(heading.level - 1, top), [heading.text])
             item.setData(0, Qt.ItemDataRole.UserRole, (name, heading.text))

@@ -90,7 +90,7 @@ class ColourPanel:
         self.spectrum = SpectrumChart()
         self.airy = self.picture.add_curve("#ffffff", 1, 150)
         self.spectrum.set_range(EMPTY_NM, (-1.0, 1.0))
-        self.widget = ChartsCard("Colour PSF", TIP, (self.picture, self.spectrum), (3, 4))
+        self.widget = ChartsCard("Colour", TIP, (self.picture, self.spectrum), (3, 4))
         self.choice = chooser((*CHOICES, ("", "typed")), SPECTRUM_TIP, self.widget)
         self.typed = ValueEdit(self.widget)
         self.typed.setProperty("wide", True)

@@ -52,7 +52,7 @@ class FieldPanel:
             self.curves[name].name = tr(words)
         self.zeros = [chart.add_curve("line") for chart in (self.focus, self.distortion)]
         self.straight, self.bent = self.grid.add_curve("line"), self.grid.add_curve("positive")
-        self.widget = ChartsCard("Field", TIP, (self.focus, self.distortion, self.grid), (4, 4, 3))
+        self.widget = ChartsCard("Field curves", TIP, (self.focus, self.distortion, self.grid), (4, 4, 3))
         self._drawn: FieldView | None = None
 
     def show(self, live: Live) -> None:

@@ -17,7 +17,7 @@ class FirstOrderPanel:
     """Three tables of names and values: lens, pupils, source."""
 
     def __init__(self, store: Store):
-        self.widget = Card("First-order data", TIP)
+        self.widget = Card("First order", TIP)
         self.tables = tuple(FactTable(self.widget) for _ in range(3))
         self.columns = Columns(self.tables)
         area = QScrollArea(self.widget)

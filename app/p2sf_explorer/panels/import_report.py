@@ -23,7 +23,7 @@ class ImportReportPanel:
 
     def __init__(self, store: Store):
         self._store, self._theme = store, LIGHT
-        self.widget, self.text = Card("Import report", TIP), QTextBrowser()
+        self.widget, self.text = Card("Import", TIP), QTextBrowser()
         self.text.setFrameShape(QTextBrowser.Shape.NoFrame)
         self.text.setOpenLinks(False)
         self.text.setAccessibleName(tr("Import report"))

@@ -33,7 +33,7 @@ class BesidePanel:
             heat.set_map(BRIGHTNESS)
             heat.chart.smooth = heat is not self.maps[-1]  # the light on pixels is squares
             heat.chart.columns = "x, µm", "y, µm"
-        self.widget = ChartsCard("Perfect lens and pixels", TIP, self.maps, (1, 1, 1))
+        self.widget = ChartsCard("Perfect lens", TIP, self.maps, (1, 1, 1))
         self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
         self.widget.add_tool(self.pixel)
 

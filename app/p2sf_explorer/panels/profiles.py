@@ -28,7 +28,7 @@ class ProfilesPanel(CurvesPanel):
     """Two sections and the Airy pattern; beside them the energy within a radius."""
 
     def __init__(self, store: Store):
-        super().__init__("PSF profiles", TIP, ("distance from the chief ray, µm", "share of the peak"), LOOKS)
+        super().__init__("Profiles", TIP, ("distance from the chief ray, µm", "share of the peak"), LOOKS)
         self.energy = Chart("radius, µm", "energy within")
         self.clear, self.perfect = self.energy.add_curve("muted"), self.energy.add_curve("muted", 2)
         self.within = self.energy.add_curve("third", 2)

@@ -83,7 +83,7 @@ class PupilPanel:
     """A heat map or a surface of W with RMS and peak-to-valley; the chooser switches between them."""
 
     def __init__(self, store: Store):
-        self.widget = Card("Pupil phase", TIP)
+        self.widget = Card("Pupil", TIP)
         self.mode = chooser(MODES, "How the phase is shown", self.widget)
         self.mode.activated.connect(lambda: store.update(phase=self.mode.currentData()))
         self.widget.add_tool(self.mode)

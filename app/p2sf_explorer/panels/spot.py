@@ -66,7 +66,7 @@ class SpotPanel:
     """Points with the Airy circle for scale, and figures beside them."""
 
     def __init__(self, store: Store):
-        self.widget = Card("Spot diagram", TIP)
+        self.widget = Card("Spot", TIP)
         self.chart, self.facts = SpotChart(), FactTable()
         figures, column = QWidget(self.widget), QVBoxLayout()
         figures.setLayout(column)

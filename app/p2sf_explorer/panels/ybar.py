@@ -62,7 +62,7 @@ class YBarPanel:
     """The polygon, and a mark at the stop."""
 
     def __init__(self, store: Store):
-        self.widget = Card("y–ȳ diagram", TIP)
+        self.widget = Card("y–ȳ", TIP)
         self.chart = YBarChart()
         self.axes, self.path = self.chart.axes, self.chart.path
         self.widget.set_body(self.chart)

@@ -9,21 +9,26 @@ from PySide6.QtCore import Qt, QUrl
 from p2sf_explorer.charts.theme import DARK, LIGHT
 from p2sf_explorer.handbook.pages import (
     CODE,
+    FOLDER,
     PAGES,
+    PICTURE,
     anchor,
     formulas,
     headings,
     page,
     render_formula,
+    translated,
     window_page,
     with_pictures,
 )
 from p2sf_explorer.handbook.viewer import Handbook, fragments
+from p2sf_explorer.i18n.language import set_language, texts
 from p2sf_explorer.state.panels import GROUPS, REGISTRY
 from p2sf_explorer.window.commands.actions import PARTS, handbook_place
 from tests.support.tiers import in_tiers
 
 ROOT = Path(__file__).parents[3]
+ITALICS, CODE_BLOCK = re.compile(r"(?<![*\w])\*([^*\n]+)\*(?!\*)"), re.compile(r"```.*?```", re.DOTALL)
 CITATION = re.compile(r"\bhandbook (\d+(?:\.\d+)?)")
 NUMBERS = {heading.number for heading in headings(page("theory")) if heading.number}
 
@@ -170,3 +175,35 @@ def test_the_contents_mark_the_heading_on_show(qtbot):
     book.show_heading("panels", "MTF")
     item = book.contents.currentItem()
     assert item.text(0) == "MTF" and item.parent().parent().text(0) == "Panels"
+
+
+def emphasised(text: str) -> list[str]:
+    """Return what stands in italics outside code: the names of things on screen."""
+    return ITALICS.findall(CODE_BLOCK.sub("", text))
+
+
+@pytest.mark.parametrize("name", [path.stem for path in (FOLDER / "de").glob("*.md")])
+def test_a_german_page_has_the_same_parts_code_and_names_as_the_window(name):
+    """Names in italics are those of the window in German, one for each name of the English page."""
+    english, german = page(name), page(name, "de")
+    assert german != english
+    assert [one.level for one in headings(german)] == [one.level for one in headings(english)]
+    assert CODE_BLOCK.findall(german) == CODE_BLOCK.findall(english)
+    assert PICTURE.findall(german) == PICTURE.findall(english)
+    known = texts("de")
+    pairs = zip(emphasised(english), emphasised(german), strict=True)
+    titles = {one.text: other.text for one, other in zip(headings(english), headings(german), strict=True)}
+    for one, other in pairs:
+        assert other == known.get(one, titles.get(one, one)), one
+
+
+def test_a_page_that_is_not_translated_says_so_in_the_list(qapp):
+    set_language("de")
+    try:
+        book = Handbook(LIGHT)
+        listed = [book.contents.topLevelItem(k).text(0) for k in range(book.contents.topLevelItemCount())]
+    finally:
+        set_language("en")
+    for name, title, words in zip(PAGES, PAGES.values(), listed, strict=True):
+        assert words == (texts("de")[title] if translated(name, "de") else f"{title} (englisch)")
+    book.deleteLater()

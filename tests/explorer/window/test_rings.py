@@ -51,7 +51,7 @@ def test_dragging_the_zoom_turns_the_lens_and_is_one_step_of_undo(window, rows, 
     lens = prescription(window.store.state)
     focal = float(cardinal_points(lens, 0.5875618).effective_focal_length)
     assert row.edit.text() == f"{zoom:.1f} mm" and f"{focal:.1f} mm" in row.note.text()
-    assert "between columns" in row.note.text()
+    assert "between two positions" in row.note.text()
     window.store.undo()
     assert window.store.state.optics.zoom is None and row.edit.text() == "30.0 mm"
 

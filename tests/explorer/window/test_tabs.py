@@ -8,10 +8,14 @@ from PySide6.QtWidgets import QApplication, QToolButton
 from shiboken6 import isValid
 
 from p2sf.errors import P2SFError
+from p2sf_explorer.compute.autofocus import best_shift_um
+from p2sf_explorer.compute.pupil import best_focus_um
+from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
+from p2sf_explorer.panels import BackgroundPanel, build
 from p2sf_explorer.state.panels import GROUPS, REGISTRY
-from p2sf_explorer.state.state import new_state
+from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 from p2sf_explorer.window.tabs import beside
 from p2sf_explorer.window.window import MainWindow
@@ -232,3 +236,21 @@ def test_the_window_of_a_panel_opens_clear_of_the_controls(window):
     own = window.floating.open["mtf"]
     controls = QRect(window.controls.mapToGlobal(QPoint()), window.controls.size())
     assert not own.geometry().intersects(controls)
+
+
+@pytest.mark.parametrize("entry", [e for e in REGISTRY if e.key not in ("solid", "image", "measured", "database")])
+def test_a_panel_has_one_name(window, entry):
+    """Its card is called as its tab, its entry in the menu, and its heading in the handbook."""
+    made = window.panels.get(entry.key) or build(entry, window.store)
+    assert made.widget.accessibleName() == entry.title
+    if entry.key not in window.panels:
+        if isinstance(made, BackgroundPanel):
+            made.stop()
+        made.widget.deleteLater()
+
+
+def test_the_best_focus_is_where_the_six_coefficients_leave_least_variance():
+    """For a singlet at a small aperture third order is all there is: autofocus by exact rays finds the same place."""
+    state = change(default_state("singlet_f6"), field_deg=0.0, f_number=16.0, sensor_shift_um=300.0)
+    found = best_focus_um(paraxial_setup(state).coefficients)
+    assert found == pytest.approx(abs(best_shift_um(state) - 300.0), rel=5e-3)

@@ -89,7 +89,7 @@ def ring_note(live: Live, kind: Kind) -> Message:
     place = s.lens.positions.at(kind) if s.lens.positions else None
     if axis is None or place is None:
         return NONE
-    between = Message("between columns")
+    between = Message("between two positions of the file")
     column = Message("{name}", name=axis.words(place)) if place in axis.at else between
     if kind == "zoom":
         speed = aperture(float(f_number(s.lens, s.source.wavelength_um, s.stop)))

@@ -30,9 +30,11 @@
 <message><source>Mirrors</source><translation>Spiegel</translation></message>
 <message><source>No lesson has these words; try fewer.</source><translation>Keine Lektion enthält diese Wörter; weniger versuchen.</translation></message>
 <message><source>Open my lens file</source><translation>Eigene Objektivdatei öffnen</translation></message>
+<message><source>PSF as data, or a picture of the window…</source><translation>PSF als Daten, oder ein Bild des Fensters …</translation></message>
 <message><source>Phone</source><translation>Telefon</translation></message>
 <message><source>Remove the chosen step</source><translation>Den gewählten Schritt entfernen</translation></message>
 <message><source>Remove the step</source><translation>Schritt entfernen</translation></message>
+<message><source>Restore it</source><translation>Wiederherstellen</translation></message>
 <message><source>Save and open</source><translation>Speichern und öffnen</translation></message>
 <message><source>Search titles and texts</source><translation>Titel und Texte durchsuchen</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
@@ -41,6 +43,7 @@
 <message><source>Steps of the lesson</source><translation>Schritte der Lektion</translation></message>
 <message><source>Telephoto</source><translation>Teleobjektiv</translation></message>
 <message><source>Text</source><translation>Text</translation></message>
+<message><source>The best focus is about {shift} µm away: {causes} act as defocus, {percent:.0f} % of variance</source><translation>Der beste Fokus ist etwa {shift} µm entfernt: {causes} wirken als Defokus, {percent:.0f} % der Varianz</translation></message>
 <message><source>Title</source><translation>Titel</translation></message>
 <message><source>Wavefronts from a photograph of points</source><translation>Wellenfronten aus der Aufnahme von Punkten</translation></message>
 <message><source>What the stage shows; right-click to choose the parts of this line</source><translation>Was die Bühne zeigt; Rechtsklick wählt die Teile dieser Zeile</translation></message>
@@ -182,7 +185,6 @@
 <message><source>Coarse</source><translation>Grob</translation></message>
 <message><source>Coefficients</source><translation>Koeffizienten</translation></message>
 <message><source>Colour</source><translation>Farbe</translation></message>
-<message><source>Colour PSF</source><translation>Farbige PSF</translation></message>
 <message><source>Colour PSF: one PSF for each wavelength, where its own chief ray lands, weighted by the spectrum and the CIE 1931 observer, as linear sRGB. Beside or below: the luminance of the spectrum, and where each colour's chief ray lands.</source><translation>Farbige PSF: eine PSF je Wellenlänge dort, wo ihr eigener Hauptstrahl landet, gewichtet mit Spektrum und CIE-Beobachter 1931, als lineares sRGB. Daneben oder darunter: die Leuchtdichte des Spektrums und wo der Hauptstrahl jeder Farbe landet.</translation></message>
 <message><source>Colour {channel}</source><translation>Farbe {channel}</translation></message>
 <message><source>Colours</source><translation>Farben</translation></message>
@@ -333,10 +335,12 @@
 <message><source>Write the lesson, and begin it in the window</source><translation>Die Lektion schreiben und im Fenster beginnen</translation></message>
 <message><source>Zemax, CODE V, OSLO, a table …</source><translation>Zemax, CODE V, OSLO, eine Tabelle …</translation></message>
 <message><source>Zooms</source><translation>Zoomt</translation></message>
+<message><source>between two positions of the file</source><translation>zwischen zwei Stellungen der Datei</translation></message>
 <message><source>higher peak</source><translation>höhere Spitze</translation></message>
 <message><source>internal transmittance</source><translation>Reintransmissionsgrad</translation></message>
 <message><source>internal transmittance {share:g} of {thickness:g} mm at {wavelength:g} µm; give a share from 0 to 1, a positive thickness and a positive wavelength</source><translation>Reintransmissionsgrad {share:g} von {thickness:g} mm bei {wavelength:g} µm; einen Anteil von 0 bis 1, eine positive Dicke und eine positive Wellenlänge angeben</translation></message>
 <message><source>its transmission</source><translation>ihre Durchlässigkeit</translation></message>
+<message><source>nothing sharp</source><translation>nichts scharf</translation></message>
 <message><source>passes a share of light that changes with the height</source><translation>lässt je nach Höhe verschieden viel Licht durch</translation></message>
 <message><source>rays are lost</source><translation>Strahlen gehen verloren</translation></message>
 <message><source>At ± this tolerance rays are lost: there is no figure, and the builds are not to be trusted.</source><translation>Bei ± dieser Toleranz gehen Strahlen verloren: Es gibt keine Zahl, und auf die gebauten Objektive ist kein Verlass.</translation></message>
@@ -481,9 +485,7 @@
 <message><source>P2SF lens (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET lens (*.json)</source><translation>P2SF-Objektiv (*.toml);;Zemax (*.zmx);;CODE V (*.seq);;ISET-Objektiv (*.json)</translation></message>
 <message><source>PCA</source><translation>PCA</translation></message>
 <message><source>PSF</source><translation>PSF</translation></message>
-<message><source>PSF data or window…</source><translation>PSF-Daten oder Fenster …</translation></message>
 <message><source>PSF grid</source><translation>PSF-Gitter</translation></message>
-<message><source>PSF profiles</source><translation>PSF-Profile</translation></message>
 <message><source>PSF, % of the peak</source><translation>PSF, % der Spitze</translation></message>
 <message><source>PSF, peak = 1</source><translation>PSF, Spitze = 1</translation></message>
 <message><source>PSF, perfect peak = 1</source><translation>PSF, perfekte Spitze = 1</translation></message>
@@ -505,7 +507,6 @@
 <message><source>Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.</source><translation>Spitze der PSF über der derselben Pupille mit W = 0; nahe 1 etwa exp(−(2πσ)²), σ der RMS von W.</translation></message>
 <message><source>Peak waves ± one standard deviation; in brackets those of the lens at the f-number found.</source><translation>Wellen (Spitze) ± eine Standardabweichung; in Klammern die des Objektivs bei der gefundenen Blendenzahl.</translation></message>
 <message><source>Perfect lens</source><translation>Ideale Linse</translation></message>
-<message><source>Perfect lens and pixels</source><translation>Ideale Linse und Pixel</translation></message>
 <message><source>Periskop-type symmetric lens, f/11, 100 mm</source><translation>Symmetrisches Objektiv vom Periskop-Typ, f/11, 100 mm</translation></message>
 <message><source>Petzval lens f/1.4, 50 mm</source><translation>Petzval-Objektiv f/1,4, 50 mm</translation></message>
 <message><source>Petzval radius</source><translation>Petzval-Radius</translation></message>
@@ -557,7 +558,6 @@
 <message><source>Profiles</source><translation>Profile</translation></message>
 <message><source>Pupil</source><translation>Pupille</translation></message>
 <message><source>Pupil as the lens file has it</source><translation>Pupille wie in der Objektivdatei</translation></message>
-<message><source>Pupil phase</source><translation>Pupillenphase</translation></message>
 <message><source>Pupil shape</source><translation>Pupillenform</translation></message>
 <message><source>Pupils</source><translation>Pupillen</translation></message>
 <message><source>Put the source at infinity</source><translation>Die Quelle ins Unendliche setzen</translation></message>
@@ -600,7 +600,6 @@
 <message><source>Redo</source><translation>Wiederholen</translation></message>
 <message><source>Redo: take the step again (Ctrl+Shift+Z)</source><translation>Wiederholen: den Schritt noch einmal tun (Strg+Umschalt+Z)</translation></message>
 <message><source>Refocusing would remove {percent:.0f} % of the wavefront variance</source><translation>Nachfokussieren nähme {percent:.0f} % der Varianz der Wellenfront weg</translation></message>
-<message><source>Refocusing would remove {percent:.0f} % of the wavefront variance, made by {causes}</source><translation>Nachfokussieren nähme {percent:.0f} % der Varianz der Wellenfront weg, verursacht durch {causes}</translation></message>
 <message><source>Relay of two achromats, stop between, inverted pupils (synthetic; finite objects only)</source><translation>Relais aus zwei Achromaten, Blende dazwischen, umgekehrte Pupillen (synthetisch; nur endliche Objekte)</translation></message>
 <message><source>Remove the markers</source><translation>Marken entfernen</translation></message>
 <message><source>Remove this surface; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
@@ -694,7 +693,6 @@
 <message><source>Spherical, 1 λ, marginal focus</source><translation>Sphärisch, 1 λ, Randfokus</translation></message>
 <message><source>Spherical, 1 λ, paraxial focus</source><translation>Sphärisch, 1 λ, paraxialer Fokus</translation></message>
 <message><source>Spot</source><translation>Spot</translation></message>
-<message><source>Spot diagram</source><translation>Spotdiagramm</translation></message>
 <message><source>Spot diagram: where exact rays, evenly spread over the pupil, meet the sensor; no diffraction.</source><translation>Spotdiagramm: wo exakte, über die Pupille gleichmäßig verteilte Strahlen auf den Sensor treffen; ohne Beugung.</translation></message>
 <message><source>State only…</source><translation>Nur Zustand …</translation></message>
 <message><source>Steps</source><translation>Schritte</translation></message>
@@ -718,7 +716,6 @@
 <message><source>Tab, Shift+Tab</source><translation>Tab, Umschalt+Tab</translation></message>
 <message><source>Table</source><translation>Tabelle</translation></message>
 <message><source>Take B away (Ctrl+B)</source><translation>B entfernen (Strg+B)</translation></message>
-<message><source>Take it up again</source><translation>Wieder aufnehmen</translation></message>
 <message><source>Take the lens as measured into the window and sharpen photos that it took; undo brings the lens back</source><translation>Das Objektiv, wie gemessen, ins Fenster übernehmen und Fotos schärfen, die es aufgenommen hat; Rückgängig bringt das Objektiv zurück</translation></message>
 <message><source>Teach</source><translation>Lehren</translation></message>
 <message><source>Telecentric relay 1:1, NA 0.05 (finite objects only)</source><translation>Telezentrisches Übertragungsobjektiv 1:1, NA 0,05 (nur für nahe Objekte)</translation></message>
@@ -1095,9 +1092,7 @@
 <message><source>bending X = {shape}, R = {radii} mm</source><translation>Durchbiegung X = {shape}, R = {radii} mm</translation></message>
 <message><source>best</source><translation>best</translation></message>
 <message><source>best {shift} µm</source><translation>best {shift} µm</translation></message>
-<message><source>between columns</source><translation>zwischen Spalten</translation></message>
 <message><source>between {depths} × {fields} × {wavelengths} nodes the fits are still wrong by {error:.2g} waves; narrow the depths, the fields or the wavelengths, or use the seidel method</source><translation>die Anpassungen liegen zwischen {depths} × {fields} × {wavelengths} Knoten noch um {error:.2g} Wellen daneben; Abstände, Felder oder Wellenlängen einengen oder das Verfahren seidel nehmen</translation></message>
-<message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>black body 5600 K</source><translation>Schwarzer Körper 5600 K</translation></message>
 <message><source>blade angle</source><translation>Lamellenwinkel</translation></message>
 <message><source>blink</source><translation>blinkend</translation></message>
@@ -2121,7 +2116,6 @@
 <message><source>y, µm (towards the field)</source><translation>y, µm (zum Feld hin)</translation></message>
 <message><source>yield, %</source><translation>Ausbeute, %</translation></message>
 <message><source>y–ȳ</source><translation>y–ȳ</translation></message>
-<message><source>y–ȳ diagram</source><translation>y–ȳ-Diagramm</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
 <message><source>z, mm</source><translation>z, mm</translation></message>
 <message><source>zoom</source><translation>Zoom</translation></message>
@@ -2292,6 +2286,7 @@
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{off:.3g} mm from the middle of this picture, which was moved in to stay within the field of the lens</source><translation>{off:.3g} mm von der Mitte dieses Bilds, das nach innen gerückt wurde, um im Feld des Objektivs zu bleiben</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
+<message><source>{page} (in English)</source><translation>{page} (englisch)</translation></message>
 <message><source>{parameter} and {other} are both given; keep one of them</source><translation>{parameter} und {other} sind beide angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} fitted keeps more of them</source><translation>{parameter} fitted gibt sie getreuer wieder</translation></message>
 <message><source>{parameter} has no number; give one or more</source><translation>{parameter} hat keine Zahl; eine oder mehrere angeben</translation></message>

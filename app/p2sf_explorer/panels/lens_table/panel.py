@@ -63,7 +63,7 @@ class LensTablePanel:
 
     def __init__(self, store: Store):
         self._store = store
-        self.widget = Card("Lens", TIP)
+        self.widget = Card("Table", TIP)
         self.model, self.view = SurfaceModel(self.widget), SurfaceTableView(self.widget)
         self.view.setModel(self.model)
         self.view.setItemDelegateForColumn(KEYS.index("medium"), GlassDelegate(self.view))

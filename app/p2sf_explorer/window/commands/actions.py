@@ -308,7 +308,7 @@ class Actions(QObject):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self._window)
-        menu.addAction(tr("PSF data or window…") + "\tCtrl+E", self.ask_snapshot)
+        menu.addAction(tr("PSF as data, or a picture of the window…") + "\tCtrl+E", self.ask_snapshot)
         menu.addAction(tr("Set of PSFs…") + "\tCtrl+Alt+E", self.ask_set)
         pictures = menu.addMenu(tr("Picture of one panel"))
         for entry in REGISTRY:
