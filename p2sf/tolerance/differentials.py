@@ -36,6 +36,7 @@ from p2sf.raytrace.pencil import (
     opd_on_sphere,
     rays_through,
     reaching_by_surfaces,
+    tangent_axes,
 )
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
@@ -311,6 +312,8 @@ def with_moved_sensor(lens: Lens, rays: Rays, by_mm: float) -> tuple[Lens, Rays]
     """Return the lens with its sensor farther behind its last surface, and its rays there."""
     moved = with_sensor(lens, lens.sensor_mm + by_mm)
     axis = lens.frames[-1][0].T @ _axes_behind(lens, len(lens.surfaces) - 1).rotation[:, 2]
+    if lens.sensor_surface.curvature:
+        axis = tangent_axes(lens, *(float(np.ravel(place)[0]) for place in (rays.chief_x, rays.chief_y))).T @ axis
     way, chief = by_mm * axis[2] / rays.kz, by_mm * axis[2] / rays.chief_kz
     dx, dy = rays.dx + rays.kx * way - rays.chief_kx * chief, rays.dy + rays.ky * way - rays.chief_ky * chief
     return moved, replace(rays, dx=dx, dy=dy, path=rays.path + rays.index * (way - chief), crossings=None)

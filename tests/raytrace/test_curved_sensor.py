@@ -15,11 +15,16 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.field_curves import heights, real_foci
-from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.raytrace.pencil import displayed_opd, hexapolar, pencil
 from p2sf.raytrace.trace import trace
+from p2sf.raytrace.zernike_fit import zernike_fit
+from p2sf.tolerance import Tolerance, differentials, harms, sensitivities, usual_sources
+from p2sf.tolerance.differentials import with_moved_sensor
+from p2sf.tolerance.errors_of_build import build
 
 RADIUS, CONIC = -40.0, -0.7
 FIELD = Source(field_slope=float(np.tan(np.deg2rad(14))), wavelength_um=0.55)
+POINTS_OF_PUPIL = hexapolar(4)
 XI, ETA = np.array([0.01, 0.3, -0.5, 0.9]), np.array([0.99, -0.4, 0.5, 0.1])
 
 
@@ -127,3 +132,32 @@ def test_the_database_of_coefficients_knows_the_surface(curved, tmp_path):
 
 def test_toml_keeps_radius_and_conic(curved):
     assert parse_toml(lens_to_toml(curved), "cooke_triplet.toml") == curved
+
+
+def test_a_moved_sensor_has_the_waves_of_rays_traced_to_it(curved):
+    """Up to piston and tilt, and to the square of the move: the plane turns as the chief ray lands elsewhere."""
+    sources, left = POINTS_OF_PUPIL, []
+    for step in (1e-2, 1e-3):
+        moved, rays = with_moved_sensor(curved, pencil(curved, FIELD, *sources), step)
+        again = pencil(moved, FIELD, *sources)
+        plane = np.stack([np.ones(rays.fx.size), rays.fx, rays.fy], axis=1)
+        apart = rays.phase - again.phase
+        apart -= plane @ np.linalg.lstsq(plane, apart, rcond=None)[0]
+        left.append(np.abs(apart).max())
+    assert left[0] < 1e-3 and left[0] > 30 * left[1]
+
+
+@pytest.mark.parametrize(
+    "error", [Tolerance("decentre_y", 3, 0.01), Tolerance("tilt_x", 7, 0.05), Tolerance("thickness", 6, 0.01)]
+)
+def test_tolerances_follow_the_surface(curved, error):
+    """What an error adds to the RMS of the worst field, against the wavefront of the lens built with it."""
+    sources = usual_sources(curved, Source(wavelength_um=curved.reference_wavelength_um))
+    known = differentials(curved, sources, (error,))
+    found = harms(sensitivities(known, ()), "rms_waves", ())[0]
+
+    def worst(lens: Lens) -> float:
+        return max(zernike_fit(lens, source).rms for source in sources)
+
+    built = max(worst(build(curved, [error], [sign * error.amount])) for sign in (1, -1))
+    assert found == pytest.approx(built - worst(curved), rel=1e-6)  # both of some 1e3 rays
