@@ -61,10 +61,11 @@ def arrays(opd: np.ndarray) -> tuple[float, float]:
 def main(folder: Path) -> None:
     """Use it all."""
     camera = p2sf.Camera(p2sf.load_lens("double_gauss_28"), focus_mm=3000, f_number=5.6, pixel_um=4, aim="stop")
-    scene = p2sf.Scene(p2sf.Sensor(6, 8, 60.0), (p2sf.Channel("green", (540.0,), (1.0,)),), 2000, 5000, rtol=0.4)
+    green = p2sf.Channel("green", (540.0,), (1.0,))
+    scene = p2sf.Scene(p2sf.Sensor(6, 8, 60.0), (green,), 2800, 3200, rtol=0.4, focus_mm=3000, f_number=8)
     planned: p2sf.Plan = p2sf.plan(camera.its_lens, scene)
     study: p2sf.ToleranceStudy = camera.tolerances({"mtf20": 0.5}, builds=100)
-    picture: np.ndarray = p2sf.form_image(planned, np.ones((6, 8, 1)), 3000.0)
+    picture: np.ndarray = p2sf.form_image(planned, np.ones((6, 8, 1)), np.full((6, 8), 3000.0))
     try:
         print(figures(camera), sweep(camera), databases(camera.its_lens, folder), arrays(np.zeros((64, 64))))
         print(build(), study.yields["all"], picture.shape, p2sf.tradeoff(camera.its_lens, fields_deg=[0.0], pixels=16))
