@@ -54,7 +54,7 @@ def assemble_all(stated: Sequence[Configuration], sources: GlassSources, notes: 
         )
         stated = stated[:MOST_COLUMNS]
     lenses = [_assemble_one(each, number, sources, notes, source) for number, each in enumerate(stated, 1)]
-    if len(set(lenses)) == 1:
+    if len({replace(lens, comment="") for lens in lenses}) == 1:  # which says where the object stands
         return lenses[0]
     zooms, focuses = _rings([each.object_mm for each in stated])
     if zooms * focuses < len(stated):
@@ -64,11 +64,11 @@ def assemble_all(stated: Sequence[Configuration], sources: GlassSources, notes: 
             count=len(stated),
             read=zooms * focuses,
         )
-    order, axes = _zoom(stated[:zooms], lenses[:zooms]) if zooms > 1 else ([0], [])
-    blocks, near = _focus(stated[: zooms * focuses], zooms) if focuses > 1 else ([0], [])
-    lenses = _one_aperture(stated, lenses, zooms)
-    columns = [lenses[block * zooms + place] for place in order for block in blocks]
     try:
+        order, axes = _zoom(stated[:zooms], lenses[:zooms]) if zooms > 1 else ([0], [])
+        blocks, near = _focus(stated[: zooms * focuses], zooms) if focuses > 1 else ([0], [])
+        lenses = _one_aperture(stated, lenses, zooms)
+        columns = [lenses[block * zooms + place] for place in order for block in blocks]
         lens = with_positions([*axes, *near], columns)
     except GeometryError as error:
         raise source.error(error.message, len(source.lines)) from error

@@ -47,6 +47,13 @@ def matrix(column: int, moved: dict[int, float] | None = None) -> np.ndarray:
     return found
 
 
+def test_positions_that_differ_by_the_object_only_are_one_lens():
+    """Nothing moves: TOML has no columns for it, and a ring would do nothing."""
+    rows = "d0\tInfinity\t1000\nF-Number\t4\t4\nBf\t40\t40\n[lens data]\n1\t30\t4\t1.62\t20\t60.3\n2\t-200\tBf\t\t18\n"
+    text = f"[variable distances]\n{rows}"
+    assert import_text(LensText("one.txt", "utf-8", text), GlassSources()).lens.positions is None
+
+
 def check_columns(lens: Lens) -> None:
     """Check the first-order data of the three zoom positions against those of their numbers, read by hand."""
     assert [axis.kind for axis in lens.positions.axes] == ["zoom"]

@@ -256,6 +256,7 @@ REFUSED = {
         (("SK16  1.62041", "cx_SK16  1.62041"), "surface 1 has type cx_"),
         (("60.32  18", ""), "a row of glass"),
     ],
+    "patent_table.csv": [(("Note\n", "Type\n"), "surface 1 has type first page")],
     "prescription.csv": [
         (("2,-0.5,1E-3", "7,-0.5,1E-3"), 'aspherical data of "7"'),
         (("d2,1,2", "d3,1,2"), 'distance "d2" has no value'),

@@ -1,8 +1,8 @@
 """Tables with named columns: a header row, one row per surface, "# key: value" lines for the rest.
 
 Columns: radius, thickness, and any of surface, glass, nd, vd, index, diameter, semi_diameter, conic, A4, A6, …, stop,
-label; `NAMES` has their other names. A row whose surface is OBJ states the object, one of IMG the sensor. Keys: title,
-unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg, fields_x_deg. Cells are separated by comma,
+type, label; `NAMES` has their other names. A row whose surface is OBJ states the object, one of IMG the sensor. Keys:
+title, unit, epd, f_number, stop_semi_diameter, wavelengths_nm, fields_deg, fields_x_deg. Cells are separated by comma,
 semicolon or tab; with semicolons a decimal comma is understood.
 
 A prescription may have sections, each named by a row of its own: Lens Data; Even Aspheres and Odd Aspheres, by the
@@ -46,6 +46,7 @@ COLUMNS = (
         "conic",
         "stop",
         "label",
+        "type",
     ),
 )
 NAMES = {
@@ -69,7 +70,9 @@ NORMALISED = ("normalization", "normalization_radius")  # of the terms of an asp
 PLANES = ("", "inf", "infinity", "∞", "plano", "plane", "flat")
 INFINITE = ("inf", "infinity", "∞")
 OBJECTS, IMAGES = ("obj", "object", "s0"), ("img", "image", "ima", "sensor")
-YES = ("stop", "sto", "yes", "true", "1", "x", "*")
+ROUND = ("", "standard", "sphere", "spherical", "plane", "conic", "asphere", "aspheric", "even asphere", "evenasph")
+STOPS = ("stop", "sto", "aperture")
+YES = (*STOPS, "yes", "true", "1", "x", "*")
 LENS = "lens data"
 ASPHERES = ("even aspheres", "odd aspheres", "asphere data")
 POSITIONS = ("multiconfiguration data",)
@@ -182,7 +185,7 @@ def _cells(text: str, separator: str, source: LensText, line: int) -> list[str]:
 
 
 def _decimal(cell: str, key: str, separator: str) -> str:
-    return cell.replace(",", ".") if separator == ";" and key not in ("glass", "label") else cell
+    return cell.replace(",", ".") if separator == ";" and key not in ("glass", "label", "type") else cell
 
 
 def _header(cells: list[str], line: int, reading: TableReading) -> list[str]:
@@ -232,7 +235,16 @@ def _list(text: str, name: str, line: int, source: LensText) -> list[float]:
 
 
 def _add(reading: TableReading, row: dict[str, str], line: int) -> None:
-    raw, place = reading.raw, row.get("surface", "").lower()
+    raw, place, kind = reading.raw, row.get("surface", "").lower(), row.get("type", "").lower()
+    place = kind if kind in (*OBJECTS, *IMAGES, *STOPS) else place
+    if kind not in (*ROUND, *OBJECTS, *IMAGES, *STOPS):
+        raise reading.source.error(
+            "surface {surface} has type {kind}, which is not read; only {known} are",
+            line,
+            surface=len(raw.surfaces) + 1,
+            kind=kind,
+            known=(*ROUND[1:], *STOPS),
+        )
     if place in IMAGES:
         return
     value = _reader(row, line, reading.source)
