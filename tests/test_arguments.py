@@ -108,7 +108,7 @@ def test_quantities_of_pint_itself():
     unit = pytest.importorskip("pint").UnitRegistry()
     asked = p2sf.Source(3 * unit.m, field_deg=0.1 * unit.rad, wavelength_nm=0.55 * unit.um)
     assert (asked.depth_mm, asked.wavelength_um) == (3000, pytest.approx(0.55, rel=1e-15))
-    assert p2sf.mtf(LENS, frequency_per_mm=[50, 100] / unit.mm).frequency_per_mm.tolist() == [50, 100]
+    assert p2sf.mtf(LENS, frequency_per_mm=np.array([50, 100]) / unit.mm).frequency_per_mm.tolist() == [50, 100]
     with pytest.raises(p2sf.P2SFError):
         p2sf.Source(3 * unit.s)
 
