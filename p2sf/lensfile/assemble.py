@@ -25,6 +25,7 @@ from p2sf.paraxial.pupils import stop_rim
 HIGHEST_ORDER = 40
 SAME_DEG_C, SAME_ATM = 5.0, 0.05  # which change the index of a glass relative to air by less than 3e-5
 MOST_SURFACES = 1000
+FAR_PUPILS = 100.0  # of the longest thickness: chief rays over it are parallel to 1 % of their height
 MOST_OBSCURED = 0.99  # of the stop's rim
 SAME_FOCUS = 1e-4  # relative: glasses of another catalogue, and digits that files leave out
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
@@ -64,6 +65,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     own = {each.kind for each in raw.stated}
     compare([*raw.stated, *(each for each in in_remarks(source) if each.kind not in own)], lens, notes)
     _note_vignetting(lens, raw, notes)
+    _note_telecentric(lens, raw, notes)
     lens = _with_line(lambda: _with_curved_sensor(lens, raw, notes), raw, source, raw.image.line if raw.image else None)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
 
@@ -340,6 +342,21 @@ def _with_obscuration(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
         mask = replace(lens.mask, obscuration=share, obscuration_x=x / rim, obscuration_y=y / rim)
         lens = replace(lens, mask=mask, surfaces=(*lens.surfaces[:place], clear, *lens.surfaces[place + 1 :]))
     return lens
+
+
+def _note_telecentric(lens: Lens, raw: RawLens, notes: Notebook) -> None:
+    """Note where a file asks for telecentric object space and the stop does not make it so."""
+    stop = lens.stop_surface
+    if not raw.telecentric or not stop:
+        return
+    pupil = conjugates.trace(lens, stop, lens.reference_wavelength_um).entrance_pupil
+    if abs(pupil) > FAR_PUPILS * max(abs(surface.thickness) for surface in lens.surfaces):
+        return
+    told = (
+        "the file asks for telecentric object space, but the entrance pupil stands at {pupil:.6g} mm from the first "
+        "surface; chief rays pass the centre of the stop instead"
+    )
+    notes.add("caution", told, None, raw.field_line, pupil=pupil)
 
 
 def _open_to_its_rims(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:

@@ -95,7 +95,8 @@ class RawLens:
     ``weights`` are those of the wavelengths, 1 where there are fewer; an object's cone angle is in degrees.
 
     ``primary`` counts wavelengths from 0. ``image``: the image surface, of which only the shape is
-    used; a plane where it is None. ``sensor_before``: how it stands.
+    used; a plane where it is None. ``sensor_before``: how it stands. ``telecentric``: whether the chief rays
+    of object space are to be parallel to the axis, wherever the stop stands.
     """
 
     surfaces: list[RawSurface] = field(default_factory=list)
@@ -113,6 +114,7 @@ class RawLens:
     wavelength_line: int | None = None
     primary: int | None = None
     aim: Aim = USUAL_AIM
+    telecentric: bool = False
     mask: PupilMask = CLEAR
     environment: tuple[float, float] = CATALOGUE_AIR
     environment_line: int | None = None

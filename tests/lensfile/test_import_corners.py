@@ -10,9 +10,12 @@ from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens import Diffraction, Qbfs, RadialPolynomial
 from p2sf.lensfile import load_lens
+from p2sf.lensfile.glass_lookup import GlassSources
+from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import parse_toml
-from p2sf.lensfile.writing import write_lens
+from p2sf.lensfile.writing import lens_to_zmx, write_lens
 from p2sf.paraxial.first_order import magnification
 from p2sf.paraxial.pupils import numerical_aperture, stop_rim
 from tests.support.lenses.lens_files import read, refused_at
@@ -57,6 +60,12 @@ def test_what_no_lens_can_be_is_refused(what):
     change, words = REFUSED[what]
     with pytest.raises(LensFileError, match=words):
         read(ZEMAX, change)
+
+
+def test_a_lens_whose_stop_makes_it_telecentric_is_read_as_it_is_asked_for():
+    text = lens_to_zmx(find_lens("telecentric_relay")).replace("FTYP 0 0 ", "FTYP 0 1 ")
+    report = import_text(LensText("relay.zmx", "utf-8", text), GlassSources()).report
+    assert not any("telecentric" in note.message.template for note in report.notes)
 
 
 def test_wavelengths_in_one_line_replace_those_before():

@@ -55,7 +55,7 @@ def read_optiland(source: LensText, sources: GlassSources, notes: Notebook) -> L
         if part.values.get("is_stop"):
             raw.stop = number
     _refuse_tilt(image)
-    _conditions(top, raw, source, notes)
+    _conditions(top, raw, source)
     return assemble(raw, sources, notes, source)
 
 
@@ -119,7 +119,7 @@ def _glass(part: JsonPart) -> RawGlass | None:
     return RawGlass(name, tuple(word.upper() for word in stated if word), line=part.line)
 
 
-def _conditions(top: JsonPart, raw: RawLens, source: LensText, notes: Notebook) -> None:
+def _conditions(top: JsonPart, raw: RawLens, source: LensText) -> None:
     """Read aperture, fields and wavelengths."""
     aperture = top.part("aperture")
     kind = aperture.text("type", "ap_type")
@@ -138,10 +138,7 @@ def _conditions(top: JsonPart, raw: RawLens, source: LensText, notes: Notebook) 
     raw.field_kind = FIELDS.get(kind.lower(), "angle")
     raw.fields = [(field.number("x", default=0.0), field.number("y", default=0.0)) for field in listed]
     raw.add_vignetting(str(field.number(name, default=0.0)) for field in listed for name in ("vx", "vy"))
-    if fields.values.get("telecentric") or fields.values.get("object_space_telecentric"):
-        notes.add(
-            "caution", "the file asks for telecentric object space; chief rays pass the centre of its stop instead"
-        )
+    raw.telecentric = bool(fields.values.get("telecentric") or fields.values.get("object_space_telecentric"))
     for place, wave in enumerate(top.part("wavelengths").parts("wavelengths")):
         raw.wavelengths_um.append(
             wave.number("value", "_value") * UNITS_UM.get(wave.text("unit", "_unit") or "um", 1.0)

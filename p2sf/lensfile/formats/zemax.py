@@ -200,13 +200,7 @@ def _field_type(reading: ZemaxReading, words: list[str]) -> None:
             "field type {kind} is none of 0 to 3; choose angle or height", reading.line, kind=kind
         )
     reading.raw.field_kind, reading.raw.field_line = FIELD_KINDS[kind], reading.line
-    if reading.number(words, 2, Message("telecentric flag"), 0.0):
-        reading.notes.add(
-            "caution",
-            "the file asks for telecentric object space; chief rays pass the centre of its stop instead",
-            None,
-            reading.line,
-        )
+    reading.raw.telecentric = reading.number(words, 2, Message("telecentric flag"), 0.0) != 0
     reading.field_count = max(0, int(reading.number(words, 3, Message("number of fields"), 0.0))) or None
     reading.wavelength_count = max(0, int(reading.number(words, 4, Message("number of wavelengths"), 0.0))) or None
 

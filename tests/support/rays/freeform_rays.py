@@ -52,7 +52,7 @@ def bend(radius: float):
     return mpf(0) if abs(radius) == inf else 1 / mpf(radius)
 
 
-def turned(angle_deg: float, x, y):
+def in_axes_at(angle_deg: float, x, y):
     """Return the coordinates of a place in axes that stand at an angle, from x towards y."""
     angle = mpf(angle_deg) * pi / 180
     return cos(angle) * x + sin(angle) * y, cos(angle) * y - sin(angle) * x
@@ -60,7 +60,7 @@ def turned(angle_deg: float, x, y):
 
 def anamorphic_sag(shape, x, y):
     """Return the sag of a biconic, or that of a toroid, a point of a circle about an axis along y."""
-    x, y = turned(shape.turn_deg, x, y)
+    x, y = in_axes_at(shape.turn_deg, x, y)
     cy, ky = bend(shape.radius_y), mpf(shape.conic_y)
     if isinstance(shape, Biconic):
         cx, kx = bend(shape.radius_x), mpf(shape.conic_x)

@@ -1809,7 +1809,6 @@
 <message><source>the field of {field:.4g}° lies beyond the {widest:g}° of this lens, where there is no picture of it; choose a smaller field, or the whole field</source><translation>das Feld von {field:.4g}° liegt außerhalb der {widest:g}° dieses Objektivs, wo es kein Bild davon gibt; ein kleineres Feld oder das ganze Feld wählen</translation></message>
 <message><source>the field point lands {height:.4g} mm from the axis, and the photo ends at {half:.4g} mm; choose a smaller field, or every pixel of the photo</source><translation>der Feldpunkt liegt {height:.4g} mm von der Achse, und das Foto endet bei {half:.4g} mm; ein kleineres Feld oder jedes Pixel des Fotos wählen</translation></message>
 <message><source>the fields of tolerances have several wavelengths; give them one</source><translation>die Felder von Toleranzen haben mehrere Wellenlängen; ihnen eine geben</translation></message>
-<message><source>the file asks for telecentric object space; chief rays pass the centre of its stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum; Hauptstrahlen gehen stattdessen durch die Mitte ihrer Blende</translation></message>
 <message><source>the file cannot be read ({reason}); check its path and permissions</source><translation>die Datei ist nicht lesbar ({reason}); Pfad und Rechte prüfen</translation></message>
 <message><source>the file cannot be written ({reason}); choose another place</source><translation>die Datei ist nicht schreibbar ({reason}); einen anderen Ort wählen</translation></message>
 <message><source>the file contains no lens surface between object and image</source><translation>die Datei enthält keine Linsenfläche zwischen Objekt und Bild</translation></message>
@@ -2553,6 +2552,7 @@
 <message><source>radius, mm</source><translation>Radius, mm</translation></message>
 <message><source>semi-diameter, mm</source><translation>Halbmesser, mm</translation></message>
 <message><source>the HTML report has the link, which is too long here</source><translation>der Link ist hier zu lang und steht im HTML-Bericht</translation></message>
+<message><source>the file asks for telecentric object space, but the entrance pupil stands at {pupil:.6g} mm from the first surface; chief rays pass the centre of the stop instead</source><translation>die Datei verlangt einen telezentrischen Objektraum, aber die Eintrittspupille steht bei {pupil:.6g} mm von der ersten Fläche; Hauptstrahlen gehen stattdessen durch die Mitte der Blende</translation></message>
 <message><source>the report was stopped</source><translation>der Bericht wurde abgebrochen</translation></message>
 <message><source>thickness, mm</source><translation>Dicke, mm</translation></message>
 <message><source>{depth}, field {field}, {wavelength:.1f} nm, {speed}</source><translation>{depth}, Feld {field}, {wavelength:.1f} nm, {speed}</translation></message>
