@@ -36,7 +36,7 @@ EVERY = 2  # of the sensor positions that the window draws contrast at
 
 
 @dataclass(frozen=True, eq=False)
-class Report:
+class LensReport:
     """Everything on the pages of a report; a part that cannot be has the reason in its place."""
 
     state: State
@@ -63,7 +63,7 @@ class Report:
 
 def report_of(
     state: State, tell: Callable[[float], object] = lambda _: None, stopped: Callable[[], bool] = lambda: False
-) -> Report:
+) -> LensReport:
     """Return the report on a state; ``tell`` is called with the share that is done, ``stopped`` polled between parts.
 
     Raises P2SFError where the lens has no picture, Cancelled after ``stopped`` has said so.
@@ -71,7 +71,7 @@ def report_of(
     found = live(state)
     steps = _Steps(tell, stopped)
     table = steps.take(lambda: table_of(performance_request(state), stopped, steps.part))
-    return Report(
+    return LensReport(
         state=state,
         lens=found.setup.lens,
         source=source_words(found),

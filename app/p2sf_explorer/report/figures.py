@@ -12,7 +12,7 @@ from p2sf_explorer.compute.matrix.overlays import CurveOverlay
 from p2sf_explorer.compute.matrix.points import MatrixRequest, heading_texts
 from p2sf_explorer.compute.matrix.tiles import Light, MatrixTile, SpotTile, Tiles, figures, scales
 from p2sf_explorer.compute.views.field import FieldView
-from p2sf_explorer.report.contents import Report
+from p2sf_explorer.report.contents import LensReport
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -147,7 +147,7 @@ def matrix_scale(found: tuple[MatrixRequest, Tiles]) -> float:
 Draw = Callable[["Axes"], None]
 
 
-def curve_drawings(report: Report, words: Style) -> list[tuple[Message, list[Draw] | Message]]:
+def curve_drawings(report: LensReport, words: Style) -> list[tuple[Message, list[Draw] | Message]]:
     """Return the drawings of curves by their headings, each beside each other, or why there is none."""
     fields = report.field_curves
 

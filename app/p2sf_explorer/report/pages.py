@@ -22,7 +22,7 @@ td:first-child,th:first-child{text-align:left;padding-left:0}img{max-width:100%}
 .link{font:11px monospace;word-break:break-all;color:#666}"""
 
 
-class Page:
+class Sheet:
     """One page of A4, in mm from its left and upper edges; ``y`` is how far it is filled."""
 
     def __init__(self) -> None:
@@ -84,7 +84,7 @@ class Page:
             self.rule(self.y - 0.9)
 
 
-def pdf_of(pages: Sequence[Page], facts: Mapping[str, str]) -> bytes:
+def pdf_of(pages: Sequence[Sheet], facts: Mapping[str, str]) -> bytes:
     """Return pages as a PDF document; ``facts``: Title, Creator and Subject."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_pdf import PdfPages

@@ -14,14 +14,14 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message, Style
 from p2sf_explorer.compute.matrix.points import heading_texts
 from p2sf_explorer.compute.matrix.tiles import figures
-from p2sf_explorer.report.contents import Report
+from p2sf_explorer.report.contents import LensReport
 from p2sf_explorer.report.figures import curve_drawings, draw_lens, draw_matrix, matrix_scale
 from p2sf_explorer.report.pages import (
     EDGE_MM,
     HIGH_MM,
     LINE_MM,
     WIDE_MM,
-    Page,
+    Sheet,
     html_page,
     html_table,
     pdf_of,
@@ -36,7 +36,7 @@ REPORT_STYLE = Style(number=lambda text: text.replace("-", "−").replace("inf",
 """English, with the signs of mathematics."""
 
 
-def write_report(report: Report, path: str | Path, words: Style = REPORT_STYLE) -> None:
+def write_report(report: LensReport, path: str | Path, words: Style = REPORT_STYLE) -> None:
     """Write a report whole or not at all, by the ending of its name: .pdf, .html or .json.
 
     Raises ExportError for another ending and for a place that cannot be written.
@@ -54,7 +54,7 @@ def write_report(report: Report, path: str | Path, words: Style = REPORT_STYLE) 
     WRITERS[output.suffix.lower()](report, output, words)
 
 
-def prescription_rows(report: Report, words: Style) -> list[list[str]]:
+def prescription_rows(report: LensReport, words: Style) -> list[list[str]]:
     """Return a row of texts for each surface, its number and the stop first."""
     rows = []
     for number, texts in enumerate(report.prescription.texts, 1):
@@ -70,18 +70,18 @@ def column_heads(words: Style) -> list[str]:
     return [Message(name).text(words) for name in COLUMNS]
 
 
-def performance_heads(report: Report, words: Style) -> list[str]:
+def performance_heads(report: LensReport, words: Style) -> list[str]:
     """Return the headings of the table of figures, units in a second line."""
     return ["\n".join(head) for head in report.performance.headings(words)]
 
 
-def closing_lines(report: Report, words: Style) -> list[str]:
+def closing_lines(report: LensReport, words: Style) -> list[str]:
     """Return date and versions, and then the data of glasses."""
     made = "P2SF {p2sf} · numpy {numpy} · Python {python}".format(**report.versions)
     return [f"{report.written} · {made}", f"{Message('glass data').text(words)}: {report.versions['glass data']}"]
 
 
-def matrices(report: Report) -> list[tuple[Message, Any]]:
+def matrices(report: LensReport) -> list[tuple[Message, Any]]:
     """Return the headings and the contents of the small pictures."""
     found: list[tuple[Message, Any]] = []
     spots, psfs = report.spots, report.psfs
@@ -93,7 +93,7 @@ def matrices(report: Report) -> list[tuple[Message, Any]]:
     return found
 
 
-def _pdf_pages(report: Report, words: Style) -> list[Page]:
+def _pdf_pages(report: LensReport, words: Style) -> list[Sheet]:
     """Return the pages."""
     pages = [*_first_pages(report, words), _curve_page(report, words)]
     for number, (heading, found) in enumerate(matrices(report)):
@@ -109,8 +109,8 @@ MOST_ROWS = 24  # of the prescription on the first page; a page of its own holds
 ENDS = 0, 40, 66, 98, 126, 144, 178
 
 
-def _first_pages(report: Report, words: Style) -> list[Page]:
-    first = Page()
+def _first_pages(report: LensReport, words: Style) -> list[Sheet]:
+    first = Sheet()
     first.write(report.title, 15, bold=True)
     first.y += 1
     first.write(report.source.text(words), grey=True)
@@ -134,7 +134,7 @@ def _first_pages(report: Report, words: Style) -> list[Page]:
         page.table(column_heads(words), [_cut(row) for row in left[:room]], ENDS, 7.2)
         left = left[room:]
         if left:
-            pages.append(Page())
+            pages.append(Sheet())
     return pages
 
 
@@ -144,8 +144,8 @@ def _cut(row: Sequence[str]) -> list[str]:
     return [*row[:-1], last if len(last) <= 24 else f"{last[:23]}…"]
 
 
-def _curve_page(report: Report, words: Style) -> Page:
-    page = Page()
+def _curve_page(report: LensReport, words: Style) -> Sheet:
+    page = Sheet()
     page.write(Message("Performance").text(words), 10.5, bold=True)
     page.y += 1
     heads = performance_heads(report, words)
@@ -167,8 +167,8 @@ def _curve_page(report: Report, words: Style) -> Page:
     return page
 
 
-def _matrix_page(heading: Message, found: Any, words: Style, last: Report | None) -> Page:
-    page = Page()
+def _matrix_page(heading: Message, found: Any, words: Style, last: LensReport | None) -> Sheet:
+    page = Sheet()
     page.write(heading.text(words), 10.5, bold=True)
     if isinstance(found, Message):
         page.write(found.text(words))
@@ -194,13 +194,13 @@ def _matrix_page(heading: Message, found: Any, words: Style, last: Report | None
     return page
 
 
-def _write_pdf(report: Report, output: Path, words: Style) -> None:
+def _write_pdf(report: LensReport, output: Path, words: Style) -> None:
     facts = {"Title": report.title, "Creator": "P2SF Explorer", "Subject": report.source.text(words)}
     document = pdf_of(_pdf_pages(report, words), facts)
     write_beside(output, lambda handle: handle.write(document))
 
 
-def html_report(report: Report, words: Style = REPORT_STYLE) -> str:
+def html_report(report: LensReport, words: Style = REPORT_STYLE) -> str:
     """Return the report as one page of HTML, its pictures inside."""
 
     def heading(message: Message) -> str:
@@ -243,11 +243,11 @@ def html_report(report: Report, words: Style = REPORT_STYLE) -> str:
     return html_page(report.title, body)
 
 
-def _write_html(report: Report, output: Path, words: Style) -> None:
+def _write_html(report: LensReport, output: Path, words: Style) -> None:
     write_beside(output, lambda handle: handle.write(html_report(report, words).encode()))
 
 
-def report_record(report: Report) -> dict[str, Any]:
+def report_record(report: LensReport) -> dict[str, Any]:
     """Return the report's numbers by name, mm unless a name says otherwise; null where there is none."""
     table = report.performance
 
@@ -303,11 +303,11 @@ def report_record(report: Report) -> dict[str, Any]:
     return record
 
 
-def _write_json(report: Report, output: Path, words: Style) -> None:
+def _write_json(report: LensReport, output: Path, words: Style) -> None:
     write_json(output, report_record(report))
 
 
-WRITERS: dict[str, Callable[[Report, Path, Style], None]] = {
+WRITERS: dict[str, Callable[[LensReport, Path, Style], None]] = {
     ".pdf": _write_pdf,
     ".html": _write_html,
     ".json": _write_json,

@@ -16,7 +16,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import WINDOW
-from p2sf_explorer.report.contents import Report, report_of, requested_state
+from p2sf_explorer.report.contents import LensReport, report_of, requested_state
 from p2sf_explorer.report.writing import html_report, report_record, write_report
 from p2sf_explorer.state.link import state_of_link
 from p2sf_explorer.state.state import change
@@ -27,7 +27,7 @@ FIELDS = (0.0, 12.0)
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
+def report() -> LensReport:
     state = requested_state("tessar", Request(f_number=5.6, wavelength_nm=550.0))
     return report_of(change(state, curves_fields_deg=FIELDS))
 
