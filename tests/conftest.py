@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, settings
 
 from p2sf.cli import main
 from p2sf.glass.media import catalogue_glass
-from p2sf.glass.pages import Page, page
+from p2sf.glass.pages import GlassPage, page
 from p2sf_explorer.compute import setup
 
 # A busy machine takes longer than hypothesis allows, and every run tries the same examples: 25 of each law with every
@@ -87,7 +87,7 @@ def sentence(error: str) -> str:
 def glasses_of_version_0_1(monkeypatch):
     """Round the glasses' coefficients to 32 bits, as version 0.1 had them, for files that it wrote."""
 
-    def rounded(name: str) -> Page:
+    def rounded(name: str) -> GlassPage:
         found = page(name)
         return replace(found, numbers=tuple(float(np.float32(number)) for number in found.numbers))
 

@@ -9,7 +9,7 @@ from functools import cache
 
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import LINES_UM, refractive_index
-from p2sf.glass.pages import CATALOGUES, SUPPLIERS, Kind, Page, page, page_names
+from p2sf.glass.pages import CATALOGUES, SUPPLIERS, GlassPage, Kind, page, page_names
 from p2sf.messages import Alternatives, Message
 
 # Glasses of two makers with one name are the same glass if their indices agree to the last digit of a data sheet.
@@ -22,7 +22,7 @@ class CatalogueEntry:
     """One glass of one maker: how a lens file writes it, and its page for `dispersion.refractive_index`."""
 
     label: str
-    page: Page
+    page: GlassPage
 
     @property
     def range_um(self) -> tuple[float, float]:

@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.glass.pages import Page
+from p2sf.glass.pages import GlassPage
 
 Values = float | np.ndarray
 Coefficients = Sequence[float]
 LINES_UM = {"F": 0.4861327, "d": 0.5875618, "C": 0.6562725, "g": 0.4358343, "t": 1.01398}  # Fraunhofer's
 
 
-def refractive_index(page: Page, wavelength_um: Values) -> np.ndarray:
+def refractive_index(page: GlassPage, wavelength_um: Values) -> np.ndarray:
     """Return n of one page of the database, in the shape of ``wavelength_um`` (µm, float or array)."""
     formula = FORMULAS.get(page.kind)
     if formula is None:

@@ -27,7 +27,7 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True)
-class Page:
+class GlassPage:
     """The index of one material: ``kind`` is a formula's number or a `Kind`.
 
     ``numbers`` are the coefficients of a formula in the order of refractiveindex.info, or the indices of a table at
@@ -62,10 +62,10 @@ def page_names() -> tuple[str, ...]:
     return tuple(_lines()[1])
 
 
-def page(name: str) -> Page:
+def page(name: str) -> GlassPage:
     """Return the page "shelf/book/page"; KeyError if there is none."""
     kind, *lists = _lines()[1][name].decode().split("\t")
-    return Page(kind, *(tuple(map(float, numbers.split())) for numbers in lists))
+    return GlassPage(kind, *(tuple(map(float, numbers.split())) for numbers in lists))
 
 
 def data_version() -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.glass.collect import page_fields
-from p2sf.glass.pages import CATALOGUES, DATA, MORE_DATA, SUPPLIERS, Page, read_lines
+from p2sf.glass.pages import CATALOGUES, DATA, MORE_DATA, SUPPLIERS, GlassPage, read_lines
 from p2sf.lensfile.agf import FormulaGlass, read_agf, refractive_index
 from p2sf.lensfile.glass_lookup import DAMAGED_ND, key, nd_of
 
@@ -55,10 +55,10 @@ def _pairs(first: float, pairs: Iterator[tuple[float, float]]) -> tuple[float, .
 
 def _agf_line(maker: str, glass: FormulaGlass) -> str:
     kind, numbers = page_of(glass.formula, glass.coefficients)
-    return _line(f"{CATALOGUES}/{maker}/{glass.name}", Page(kind, glass.range_um, numbers))
+    return _line(f"{CATALOGUES}/{maker}/{glass.name}", GlassPage(kind, glass.range_um, numbers))
 
 
-def _line(name: str, page: Page) -> str:
+def _line(name: str, page: GlassPage) -> str:
     lists = (" ".join(f"{number:.12g}" for number in numbers) for numbers in (page.wavelengths_um, page.numbers))
     return "\t".join((name, page.kind, *lists))
 
@@ -88,7 +88,7 @@ def _without_misprints(known: dict[str, bytes]) -> Iterator[str]:
         waves, values = (tuple(map(float, each.split())) for each in lists)
         kept = [pair for pair in zip(waves, values, strict=True) if pair[0] not in wrong]
         columns = zip(*kept, strict=True)
-        yield _line(f"{CATALOGUES}/LZOS/{name}", Page(kind, *columns))
+        yield _line(f"{CATALOGUES}/LZOS/{name}", GlassPage(kind, *columns))
 
 
 def lines(arguments: Sequence[str]) -> Iterator[str]:

@@ -20,7 +20,7 @@ from p2sf.glass.media import (
     model_glass,
     parse_medium,
 )
-from p2sf.glass.pages import DATA, LONGEST_TABLE, Kind, Page, _lines, page, page_names
+from p2sf.glass.pages import DATA, LONGEST_TABLE, GlassPage, Kind, _lines, page, page_names
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points
 from tests.support.interpreter import loaded_by
@@ -60,7 +60,7 @@ def test_arrays_keep_their_shape_and_agree_with_scalars(medium):
 
 def test_every_formula_of_the_catalogue_evaluates():
     """The first page of each of the nine formulas and of a table: n is positive and finite all over its range."""
-    first: dict[str, Page] = {}
+    first: dict[str, GlassPage] = {}
     for name in page_names():
         first.setdefault(page(name).kind, page(name))
     assert set(FORMULAS) | set(Kind) == set(first)

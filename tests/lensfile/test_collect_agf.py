@@ -6,7 +6,7 @@ import pytest
 from p2sf.glass.catalogue import glasses_by_maker
 from p2sf.glass.dispersion import LINES_UM, refractive_index
 from p2sf.glass.media import catalogue_glass
-from p2sf.glass.pages import CATALOGUES, Page, page_names
+from p2sf.glass.pages import CATALOGUES, GlassPage, page_names
 from p2sf.lensfile import agf, collect_agf
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
@@ -31,7 +31,7 @@ def test_a_page_has_the_index_of_every_agf_formula(formula):
     kind, numbers = collect_agf.page_of(formula, c)
     expected = agf.refractive_index(formula, c, waves)
     assert np.isfinite(expected).all()
-    np.testing.assert_allclose(refractive_index(Page(kind, (0.4, 1.5), numbers), waves), expected, rtol=1e-15 * 4)
+    np.testing.assert_allclose(refractive_index(GlassPage(kind, (0.4, 1.5), numbers), waves), expected, rtol=1e-15 * 4)
 
 
 def test_an_unknown_formula_has_no_page():

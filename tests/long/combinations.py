@@ -203,7 +203,7 @@ def rendered(state: State) -> Psf:
         state.method,
         pixels=PIXELS,
         pixel_um=state.pixel_um,
-        tolerance=state.tolerance,
+        min_r2=state.tolerance,
         clip=state.clip,
         integrated=False,
     )

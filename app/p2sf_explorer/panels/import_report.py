@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QPushButton, QTextBrowser
 from p2sf.errors import P2SFError
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.import_report import REFUSED, Report, describe_refusal
+from p2sf_explorer.compute.views.import_report import REFUSED, ImportView, describe_refusal
 from p2sf_explorer.files.opening import Refusal, with_substitutes
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
@@ -34,7 +34,7 @@ class ImportReportPanel:
         self.widget.add_tool(self.accept)
         self.widget.set_body(self.text)
         self._refusal: Refusal | None = None
-        self._report: Report | None = None
+        self._report: ImportView | None = None
         self._refused_beside: tuple[str, str | None] | None = None
 
     def show(self, live: Live) -> None:
@@ -60,7 +60,7 @@ class ImportReportPanel:
             report, self._report = self._report, None
             self._write(report)
 
-    def _write(self, report: Report) -> None:
+    def _write(self, report: ImportView) -> None:
         if report != self._report:
             self._report = report
             self.text.setHtml(unbroken(page(report, self._theme)))
@@ -74,7 +74,7 @@ class ImportReportPanel:
             self._store.refused.emit(error)
 
 
-def page(report: Report, theme: Tokens) -> str:
+def page(report: ImportView, theme: Tokens) -> str:
     """Return a report as a page."""
     source = escape(report.source.text(WINDOW))
     parts = [f"<p><b>{escape(report.heading)}</b><br><span style='color:{theme.muted}'>{source}</span>"]

@@ -13,7 +13,7 @@ REFUSED = Message("refused")
 
 
 @dataclass(frozen=True)
-class Report:
+class ImportView:
     """A heading, a line on file and format, and groups of (title, sentences) in reading order."""
 
     heading: str
@@ -21,7 +21,7 @@ class Report:
     groups: tuple[tuple[Message, tuple[Message, ...]], ...]
 
 
-def report(live: Live) -> Report:
+def report(live: Live) -> ImportView:
     """Return the import report of the state's lens."""
     state = live.state
     path = (
@@ -32,7 +32,7 @@ def report(live: Live) -> Report:
     heading = live.setup.lens.title or live.setup.lens.name
     if not is_file(path):
         away = Message("{path} is not on this computer; the saved state carries the lens itself", path=path)
-        return Report(heading, away, ())
+        return ImportView(heading, away, ())
     try:
         as_filed = describe_report(heading, import_of(path).report)
     except P2SFError as error:
@@ -43,7 +43,7 @@ def report(live: Live) -> Report:
     return replace(as_filed, source=edited)
 
 
-def describe_report(heading: str, read: ImportReport) -> Report:
+def describe_report(heading: str, read: ImportReport) -> ImportView:
     """Return a report grouped by what happened to each thing of the file."""
     groups = ((Message(title), tuple(note.sentence for note in read.of(kind))) for kind, title in TITLES.items())
     source = Message(
@@ -52,18 +52,18 @@ def describe_report(heading: str, read: ImportReport) -> Report:
         format=Message(read.format),
         encoding=read.encoding,
     )
-    return Report(heading, source, tuple((title, sentences) for title, sentences in groups if sentences))
+    return ImportView(heading, source, tuple((title, sentences) for title, sentences in groups if sentences))
 
 
-def describe_refusal(heading: str, path: str, reason: Message) -> Report:
+def describe_refusal(heading: str, path: str, reason: Message) -> ImportView:
     """Return the report on a file that is refused; with consent to substitutes, what they would be."""
     groups = ((REFUSED, (without_path(reason),)),)
     try:
         accepted = describe_report(heading, import_of(path, True).report)
     except P2SFError:
-        return Report(heading, Message("{path}", path=path), groups)
+        return ImportView(heading, Message("{path}", path=path), groups)
     consented = ((Message("with consent: {title}", title=title), notes) for title, notes in accepted.groups)
-    return Report(heading, accepted.source, (*groups, *consented))
+    return ImportView(heading, accepted.source, (*groups, *consented))
 
 
 def without_path(reason: Message) -> Message:
