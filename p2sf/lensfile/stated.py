@@ -2,9 +2,12 @@
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from math import isfinite
 from typing import Literal
+
+import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
@@ -90,7 +93,7 @@ def stated_in(report: ImportReport, kind: StatedKind) -> float | None:
 def _of_lens(kind: StatedKind, lens: Lens) -> float | None:
     """Return what the lens itself has of a kind, at its reference wavelength; None where it has none."""
     wave = lens.reference_wavelength_um
-    try:
+    with np.errstate(all="ignore"), suppress(GeometryError):  # an absurd lens has none
         match kind:
             case "focal_length":
                 return float(cardinal_points(lens, wave).effective_focal_length)
@@ -102,5 +105,4 @@ def _of_lens(kind: StatedKind, lens: Lens) -> float | None:
                 return sum(surface.thickness for surface in lens.surfaces)
             case "half_field":
                 return max(map(abs, (*lens.fields_deg, *lens.fields_x_deg)))
-    except GeometryError:
-        return None
+    return None

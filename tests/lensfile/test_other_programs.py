@@ -253,6 +253,7 @@ REFUSED = {
         (("-436    6 ", "-436    x "), '"x" is not a number'),
     ],
     "rows.fx": [
+        (("#!scale 0.5", "#!scale 0"), "not a number"),
         (("SK16  1.62041", "cx_SK16  1.62041"), "surface 1 has type cx_"),
         (("60.32  18", ""), "a row of glass"),
     ],

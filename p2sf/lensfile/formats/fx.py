@@ -152,10 +152,12 @@ def _rows(source: LensText, sources: GlassSources, notes: Notebook, zoom: int) -
     for line, text in enumerate(source.lines, 1):
         if text.startswith("#!scale"):
             scale = number((text.split()[1:] or [""])[0], Message("scale"), source, line)
+            if not 1e-6 < scale < 1e6:
+                raise source.error('{what} "{word}" is not a number; correct it', line, what="#!scale", word=text[8:40])
         elif text.strip() and not text.lstrip().startswith(("#", "//")):
             surface = _row(text, line, len(raw.surfaces) + 1, zoom, FxReading(source, sources, notes, raw))
             surface.thickness, surface.semi_diameter = scale * surface.thickness, scale * surface.semi_diameter
-            surface.curvature /= scale or 1.0
+            surface.curvature /= scale
             surface.aspheric = {power: value * scale ** (1 - power) for power, value in surface.aspheric.items()}
             raw.surfaces.append(surface)
     return raw
