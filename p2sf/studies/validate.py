@@ -24,7 +24,7 @@ from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf.studies.listings import edges, hubble, singlet, telescope
-from p2sf.studies.listings.row import Listed
+from p2sf.studies.listings.row import ListedNumber
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 
 DATA = Path(__file__).with_name("published.toml")
@@ -133,7 +133,7 @@ def listed_figures() -> tuple[Comparison, ...]:
     return tuple(comparison_of(row) for listing in LISTINGS for row in listing.rows())
 
 
-def comparison_of(row: Listed) -> Comparison:
+def comparison_of(row: ListedNumber) -> Comparison:
     """Return a listed number beside this program's own."""
     numbers = row.quantity, row.lens, row.listed, row.unit, row.tolerance, row.why, row.source, "program"
     figure = Published(*numbers, group=f"{row.lens}: {row.group}", explained=row.explained, within=row.within)

@@ -19,7 +19,7 @@ from p2sf.lens.source import Source
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.raytrace.spot import landing
-from p2sf.studies.listings.row import Listed, numbers_of
+from p2sf.studies.listings.row import ListedNumber, numbers_of
 
 UM = 0.55
 SOURCE = "Zemax OpticStudio, listed in isetrtf"
@@ -34,7 +34,7 @@ LEAST_UM = 1e-12  # of the radius of a ring of light
 LEAST_MM = 1e-3  # of a sensor's corner
 
 
-def rows() -> Iterator[Listed]:
+def rows() -> Iterator[ListedNumber]:
     """Yield every curve of the listings."""
     for name, case in numbers_of("edges").items():
         for edge in case["esf"]:
@@ -67,7 +67,7 @@ def _narrower(lens: Lens) -> Lens:
     return replace(lens, surfaces=surfaces, aperture=aperture)
 
 
-def _edge(name: str, case: dict[str, Any], edge: dict[str, Any]) -> Listed:
+def _edge(name: str, case: dict[str, Any], edge: dict[str, Any]) -> ListedNumber:
     """Return the row of one edge: the share of the light of a point that lies below each place."""
     lens = with_sensor(lens_of(name), case["film_mm"])
     places = edge["first_um"] + edge["step_um"] * np.arange(len(edge["esf"]))
@@ -77,7 +77,7 @@ def _edge(name: str, case: dict[str, Any], edge: dict[str, Any]) -> Listed:
     doubt = doubts[0] + max(doubts[1:])
     quantity = f"edge spread at {edge['depth_mm']:g} mm, {len(places)} places"
     words = f"{name} (isetrtf)", SOURCE, 0.0, apart, RAYS, "of the listing's rays", "", TABLES, doubt + RAYS
-    return Listed("edges", quantity, *words)
+    return ListedNumber("edges", quantity, *words)
 
 
 def _below(lens: Lens, depth_mm: float, places_um: np.ndarray) -> np.ndarray:
@@ -92,7 +92,7 @@ def _below(lens: Lens, depth_mm: float, places_um: np.ndarray) -> np.ndarray:
     return below
 
 
-def _illumination(name: str, case: dict[str, Any]) -> Listed:
+def _illumination(name: str, case: dict[str, Any]) -> ListedNumber:
     """Return the row of one curve, over its value on the axis, at the heights that chief rays reach."""
     listed = case["illumination"]
     lens = with_sensor(lens_of(name), listed["film_mm"] or case["film_mm"])
@@ -106,7 +106,7 @@ def _illumination(name: str, case: dict[str, Any]) -> Listed:
             doubt = max(doubt, abs(ours - (smaller or 0.0)))
     quantity = f"relative illumination, {count} of {len(heights)} heights"
     words = f"{name} (isetrtf)", SOURCE, 0.0, apart, RAYS, "of the listing's rays", "", LIGHT, doubt + RAYS
-    return Listed("illumination", quantity, *words)
+    return ListedNumber("illumination", quantity, *words)
 
 
 def _light_at(lens: Lens, height_mm: float) -> float | None:

@@ -22,7 +22,7 @@ from p2sf.raytrace.field_curves import heights, real_foci
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.trace import Trace, trace
 from p2sf.raytrace.zernike_fit import zernike_fit
-from p2sf.studies.listings.row import OPTICSTUDIO, Listed, numbers_of
+from p2sf.studies.listings.row import OPTICSTUDIO, ListedNumber, numbers_of
 from p2sf.studies.other_sampling import pupil_grid
 
 UM = 0.55
@@ -46,7 +46,7 @@ RINGS = 6
 HOLE = 177.80035 / 1200
 
 
-def rows() -> Iterator[Listed]:
+def rows() -> Iterator[ListedNumber]:
     """Yield every number of the listings."""
     listed = numbers_of("hubble")
     yield from _first_order(listed["first_order"])
@@ -59,11 +59,11 @@ def rows() -> Iterator[Listed]:
 
 def _row(
     group: str, quantity: str, listed: float, ours: float, tolerance: float, why: str = DIGITS, **more: Any
-) -> Listed:
-    return Listed(group, quantity, LENS.name, SOURCE, float(listed), float(ours), tolerance, why, **more)
+) -> ListedNumber:
+    return ListedNumber(group, quantity, LENS.name, SOURCE, float(listed), float(ours), tolerance, why, **more)
 
 
-def _first_order(listed: dict[str, float]) -> Iterator[Listed]:
+def _first_order(listed: dict[str, float]) -> Iterator[ListedNumber]:
     pupil = pupils(LENS, UM)
     older = "read from an older file, whose radii have nine digits"
     focal = float(cardinal_points(LENS, UM).effective_focal_length)
@@ -79,7 +79,7 @@ def _first_order(listed: dict[str, float]) -> Iterator[Listed]:
         yield _row("first order", name.replace("_", " "), listed[name], float(value), tolerance)
 
 
-def _seidel(listed: list[float]) -> Iterator[Listed]:
+def _seidel(listed: list[float]) -> Iterator[ListedNumber]:
     flat = Lens(LENS.surfaces, LENS.aperture, 1, wavelengths_nm=LENS.wavelengths_nm)
     rays = paraxial_rays(flat, np.inf, UM, find_stop(flat))
     sums = seidel_sums(flat, rays, FULL_FIELD.field_slope).total()
@@ -96,7 +96,7 @@ def _landing(h_x: float, h_y: float, points: tuple[tuple[float, float], ...]) ->
     return trace(LENS, aimed.origins, aimed.directions, UM)
 
 
-def _rays(listed: list[list[float]]) -> Iterator[Listed]:
+def _rays(listed: list[list[float]]) -> Iterator[ListedNumber]:
     for h_x, h_y, p_x, p_y, *stated in listed:
         found = _landing(h_x, h_y, ((p_x, p_y),))
         ours = [*found.points[-1, 0, :2].tolist(), *found.cosines[0, :2].tolist()]
@@ -104,7 +104,7 @@ def _rays(listed: list[list[float]]) -> Iterator[Listed]:
             yield _row("rays", f"ray ({h_y:g}; {p_x:g}, {p_y:g}): {name}", value, own, 6e-10)
 
 
-def _spots(listed: dict[str, dict[str, float]]) -> Iterator[Listed]:
+def _spots(listed: dict[str, dict[str, float]]) -> Iterator[ListedNumber]:
     """Yield spots of rings k/6 with 6k rays, without the ray of the centre, x and y in the axes of the vertex."""
     points = [
         (k / RINGS * np.sin(turn), k / RINGS * np.cos(turn))
@@ -126,7 +126,7 @@ def _spots(listed: dict[str, dict[str, float]]) -> Iterator[Listed]:
     yield _row("spots", "RMS in the plane that touches, full field", listed["full_field"]["rms"], along, 5e-7, **more)
 
 
-def _wavefront(listed: dict[str, Any]) -> Iterator[Listed]:
+def _wavefront(listed: dict[str, Any]) -> Iterator[ListedNumber]:
     terms = zernike_fit(LENS, FULL_FIELD, "fringe", 16).waves
     for number, stated in listed["fringe_full_field_waves"].items():
         yield _row(
@@ -149,7 +149,7 @@ def _wavefront(listed: dict[str, Any]) -> Iterator[Listed]:
     yield _row("wavefront", "RMS", stated, converged, 5e-6, unit="waves", explained=told, within=3e-3)
 
 
-def _field_curves(listed: dict[str, float]) -> Iterator[Listed]:
+def _field_curves(listed: dict[str, float]) -> Iterator[ListedNumber]:
     foci = real_foci(LENS, FULL_FIELD, FULL_FIELD.field_slope)
     distortion = 100 * float(heights(LENS, FULL_FIELD, FULL_FIELD.field_slope).distortion)
     yield _row("field curves", "distortion", listed["distortion_percent"], distortion, 5e-9, unit="%")

@@ -14,7 +14,7 @@ PRINTED = "half a unit of the last printed digit, and {own:.0e} of rounding"
 
 
 @dataclass(frozen=True)
-class Listed:
+class ListedNumber:
     """One listed number, this program's own, and what is agreement.
 
     ``why`` says where ``tolerance`` comes from. Where the two differ by more, ``explained`` says why, and ``within`` is

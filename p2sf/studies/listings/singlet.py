@@ -29,7 +29,7 @@ from p2sf.raytrace.pencil import (
     reaching_by_surfaces,
 )
 from p2sf.raytrace.zernike_fit import decompose
-from p2sf.studies.listings.row import OPTICSTUDIO, Listed, arrays_of, numbers_of, r_squared_gap
+from p2sf.studies.listings.row import OPTICSTUDIO, ListedNumber, arrays_of, numbers_of, r_squared_gap
 from p2sf.studies.other_sampling import fft_intensity, huygens_amplitude, pupil_grid
 
 UM = 0.543
@@ -59,7 +59,7 @@ SAMPLED = "the pupil is a grid of squares: what steps along its rim change falls
 WINDOWED = "taken from a PSF in a window of √N·λF, which cuts off light; the loss falls as one over that width"
 
 
-def rows() -> Iterator[Listed]:
+def rows() -> Iterator[ListedNumber]:
     """Yield every number of the listings."""
     cases = numbers_of("singlet")
     yield from _cardinal(cases["cardinal_points"]["values"])
@@ -87,11 +87,11 @@ def rows() -> Iterator[Listed]:
 
 def _row(
     group: str, quantity: str, listed: float, ours: float, tolerance: float, why: str = DIGITS, **more: Any
-) -> Listed:
-    return Listed(group, quantity, LENS.name, SOURCE, float(listed), float(ours), tolerance, why, **more)
+) -> ListedNumber:
+    return ListedNumber(group, quantity, LENS.name, SOURCE, float(listed), float(ours), tolerance, why, **more)
 
 
-def _cardinal(values: dict[str, dict[str, float]]) -> Iterator[Listed]:
+def _cardinal(values: dict[str, dict[str, float]]) -> Iterator[ListedNumber]:
     points = cardinal_points(LENS, UM)
     focal = float(points.effective_focal_length)
     front, rear = float(points.front_principal_from_first), float(points.rear_principal_from_last)
@@ -109,7 +109,7 @@ def _cardinal(values: dict[str, dict[str, float]]) -> Iterator[Listed]:
             yield _row("cardinal points", quantity, values[name][side], value, 5e-7, unit="mm")
 
 
-def _system(values: dict[str, float]) -> Iterator[Listed]:
+def _system(values: dict[str, float]) -> Iterator[ListedNumber]:
     points, pupil = cardinal_points(LENS, UM), pupils(LENS, UM)
     number, na = float(f_number(LENS, UM)), float(numerical_aperture(LENS, inf, UM))
     sine = float(np.hypot(*_marginal_cosines()))
@@ -146,7 +146,7 @@ def _marginal_cosines() -> tuple[float, float]:
     return float(rays.kx[0]), float(rays.ky[0])
 
 
-def _surface(case: dict[str, Any]) -> Iterator[Listed]:
+def _surface(case: dict[str, Any]) -> Iterator[ListedNumber]:
     crossings = reaching_by_surfaces(LENS, POINTS["axis"], [0.0], [1.0]).on_surfaces
     front, rear = LENS.surfaces[1:]
     heights = crossings.points[1:3, 1, 0]
@@ -167,7 +167,7 @@ def _surface(case: dict[str, Any]) -> Iterator[Listed]:
             yield _row("surface data", quantity, stated[name][surfaces], value, tolerance)
 
 
-def _rays(listed: list[dict[str, Any]]) -> Iterator[Listed]:
+def _rays(listed: list[dict[str, Any]]) -> Iterator[ListedNumber]:
     for case in listed:
         label = f"ray ({case['px']:g}, {case['py']:g})"
         real = zip(case["real"], _real_ray(case["px"], case["py"]), strict=True)
@@ -218,7 +218,7 @@ def _paraxial_ray(px: float, py: float) -> Iterator[dict[str, np.ndarray]]:
         z += surface.thickness
 
 
-def _fan(case: dict[str, list[float]]) -> Iterator[Listed]:
+def _fan(case: dict[str, list[float]]) -> Iterator[ListedNumber]:
     pupil, zero = np.array(case["pupil"]), np.zeros(len(case["pupil"]))
     tangential, sagittal = pencil(LENS, POINTS["axis"], zero, pupil), pencil(LENS, POINTS["axis"], pupil, zero)
     for name, ours in (("tangential_y_um", tangential.y_um), ("sagittal_x_um", sagittal.x_um)):
@@ -245,7 +245,7 @@ def _terms(system: str, count: int, sphere: float = 1.0, order: Any = "noll") ->
     return decompose(nodes, waves, order, zernike_terms(order, count)).waves
 
 
-def _zernike(case: dict[str, Any]) -> Iterator[Listed]:
+def _zernike(case: dict[str, Any]) -> Iterator[ListedNumber]:
     system, listed, sampling = case["system"], np.array(case["waves"]), case["settings"]["sampling"]
     ours, group = _terms(system, len(listed)), f"Zernike terms, {system}, {sampling}²"
     # By so much the terms change with the reference sphere.
@@ -259,7 +259,7 @@ def _zernike(case: dict[str, Any]) -> Iterator[Listed]:
     yield from _figures(case, ours, float(np.linalg.norm(drift)))
 
 
-def _figures(case: dict[str, Any], terms: np.ndarray, drift: float) -> Iterator[Listed]:
+def _figures(case: dict[str, Any], terms: np.ndarray, drift: float) -> Iterator[ListedNumber]:
     """Yield the figures beside a list of terms: over the program's own grid of rays, and of the terms themselves."""
     system, sampling = case["system"], case["settings"]["sampling"]
     group, xi_eta = f"Zernike figures, {system}, {sampling}²", pupil_grid(sampling).points
@@ -290,13 +290,13 @@ def _figures(case: dict[str, Any], terms: np.ndarray, drift: float) -> Iterator[
         yield _row(group, words, stated, float(value), 1.1e-8, FROM_A_SUM, unit="", **told)
 
 
-def _fringe(listed: list[float]) -> Iterator[Listed]:
+def _fringe(listed: list[float]) -> Iterator[ListedNumber]:
     ours = _terms("axis", len(listed), 1.0, "fringe")
     for number, (stated, own) in enumerate(zip(listed, ours, strict=True), 1):
         yield _row("Fringe terms, axis", f"term {number}", stated, own, 6e-7, unit="waves")
 
 
-def _wavefront_map(name: str) -> Listed:
+def _wavefront_map(name: str) -> ListedNumber:
     listed = arrays_of("singlet")[name]
     count = len(listed)
     axis = (np.arange(count) - count // 2) / (count // 2 - 1)
@@ -308,7 +308,7 @@ def _wavefront_map(name: str) -> Listed:
     return _row("wavefront maps", quantity, 0.0, apart if not missed else inf, 1e-10, FROM_A_SUM, unit="waves")
 
 
-def _huygens(name: str, case: dict[str, Any]) -> Iterator[Listed]:
+def _huygens(name: str, case: dict[str, Any]) -> Iterator[ListedNumber]:
     settings, system = case["settings"], case["system"]
     listed, source = arrays_of("singlet")[name], POINTS[system]
     wide = settings["pupil_sampling"], settings["image_sampling"], case["spacing_um"]
@@ -347,7 +347,7 @@ def chief_carrier(lens: Lens, source: Source, pixels: int, pixel_um: float) -> n
     return carrier
 
 
-def _fft(name: str, case: dict[str, Any]) -> Iterator[Listed]:
+def _fft(name: str, case: dict[str, Any]) -> Iterator[ListedNumber]:
     listed, sampling, system = arrays_of("singlet")[name], case["settings"]["sampling"], case["system"]
     linear = 10**listed if name.endswith("log") else listed
     made, pitch = fft_intensity(LENS, POINTS[system], sampling)
@@ -382,7 +382,7 @@ def _converged(frequency: tuple[float, ...], shift_mm: float = 0.0) -> np.ndarra
     return np.asarray(mtf_of(parts, method, frequency).tangential)
 
 
-def _contrast(name: str) -> Iterator[Listed]:
+def _contrast(name: str) -> Iterator[ListedNumber]:
     arrays = arrays_of("singlet")
     frequency, listed = arrays[f"{name}_frequency"], arrays[name]
     curves = {"tangential": listed[:, -2], "sagittal": listed[:, -1]}
@@ -393,7 +393,7 @@ def _contrast(name: str) -> Iterator[Listed]:
         ours |= dict.fromkeys(("diffraction limit, tangential", "diffraction limit, sagittal"), limit)
     kind, *sampling = name.replace("_mtf", "").split("_")
     told, within = SAMPLED, CONTRAST / int(sampling[0])
-    if kind == "huygens":
+    if name.startswith("huygens_mtf"):
         told, within = WINDOWED, WINDOW * _width_um() / _window_um(*map(int, sampling))
     for words, curve in curves.items():
         apart = float(np.abs(curve - ours[words]).max())
@@ -422,7 +422,7 @@ def diffraction_limit(frequency_per_mm: np.ndarray, width_um: float) -> np.ndarr
     return limit
 
 
-def _through_focus(case: dict[str, Any]) -> Iterator[Listed]:
+def _through_focus(case: dict[str, Any]) -> Iterator[ListedNumber]:
     arrays = arrays_of("singlet")
     defocus, listed = arrays["fft_through_focus_mtf_64_defocus"], arrays["fft_through_focus_mtf_64"]
     some = slice(None, None, 30)
@@ -434,7 +434,7 @@ def _through_focus(case: dict[str, Any]) -> Iterator[Listed]:
         yield _row("contrast", quantity, 0.0, apart, 1e-3, CURVE, explained=SAMPLED, within=CONTRAST / 64)
 
 
-def _quick_focus(case: dict[str, Any]) -> Listed:
+def _quick_focus(case: dict[str, Any]) -> ListedNumber:
     """Return the row of the focus of least RMS spot: Σ(y + z·slope)² is least at −Σ y·slope/Σ slope²."""
     nodes = WHOLE.nodes(NODES)
     rays = pencil(LENS, POINTS["axis"], nodes.xi, nodes.eta)

@@ -16,7 +16,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import RayPupil
 from p2sf.raytrace.pencil import displayed_opd, in_azimuth, on_sensor, pencil, rays_through, reaching_by_surfaces
-from p2sf.studies.listings.row import FOLDER, OPTICSTUDIO, Listed, arrays_of, numbers_of, r_squared_gap
+from p2sf.studies.listings.row import FOLDER, OPTICSTUDIO, ListedNumber, arrays_of, numbers_of, r_squared_gap
 
 UM = 0.5
 SOURCE = f"{OPTICSTUDIO} of 2019, listed in batoid"
@@ -32,7 +32,7 @@ def telescope() -> Lens:
     return with_aim(find_lens(FOLDER.with_name("telescope.toml")), "paraxial")
 
 
-def rows() -> Iterator[Listed]:
+def rows() -> Iterator[ListedNumber]:
     """Yield every number of the listings."""
     listed, lens = numbers_of("telescope"), telescope()
     pupil = pupils(lens, UM)
@@ -47,15 +47,15 @@ def rows() -> Iterator[Listed]:
 
 def _row(
     group: str, quantity: str, listed: float, ours: float, tolerance: float, why: str = DIGITS, **more: Any
-) -> Listed:
-    return Listed(group, quantity, "LSST telescope", SOURCE, float(listed), float(ours), tolerance, why, **more)
+) -> ListedNumber:
+    return ListedNumber(group, quantity, "LSST telescope", SOURCE, float(listed), float(ours), tolerance, why, **more)
 
 
 def _point(case: dict[str, Any]) -> Source:
     return Source(wavelength_um=UM, field_deg=(case["theta_x_deg"], case["theta_y_deg"]))
 
 
-def _ray(case: dict[str, Any]) -> Iterator[Listed]:
+def _ray(case: dict[str, Any]) -> Iterator[ListedNumber]:
     source, lens = _point(case), telescope()
     turn = np.deg2rad(source.azimuth_deg)
     seen, points = in_azimuth(lens, source.azimuth_deg, np.array([case["Px"]]), np.array([case["Py"]]))
@@ -79,7 +79,7 @@ def _ray(case: dict[str, Any]) -> Iterator[Listed]:
         yield _row("rays", f"{label}, surface {number + 1}: cosines", 0.0, turned, 6e-11)
 
 
-def _field(case: dict[str, Any]) -> Iterator[Listed]:
+def _field(case: dict[str, Any]) -> Iterator[ListedNumber]:
     source, lens, arrays = _point(case), telescope(), arrays_of("telescope")
     label = f"({case['theta_x_deg']:g}°, {case['theta_y_deg']:g}°)"
     chief = on_sensor(lens, [source], np.zeros(1), np.zeros(1))
@@ -94,7 +94,7 @@ def _field(case: dict[str, Any]) -> Iterator[Listed]:
     yield _row("Huygens PSFs", f"1 − R², {label}", 0.0, r_squared_gap(_picture(rim, source), listed), 1e-6, drawn_in)
 
 
-def _map(case: dict[str, Any], source: Source, label: str) -> Iterator[Listed]:
+def _map(case: dict[str, Any], source: Source, label: str) -> Iterator[ListedNumber]:
     listed = arrays_of("telescope")[f"opd_{case['array']}"]
     axis = (np.arange(len(listed)) - len(listed) // 2) / (len(listed) // 2 - 1)
     xi, eta = (part.ravel() for part in np.meshgrid(axis, axis))
