@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from p2sf.raytrace.zernike_fit import ZernikeFit
 
 Path = str | os.PathLike[str]
-Method = Literal["auto", "seidel", "fitted", "traced", "huygens", "gaussian"]
-PupilMethod = Literal["auto", "seidel", "fitted", "traced", "huygens"]
+Method = Literal["auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"]
+PupilMethod = Literal["auto", "seidel", "fitted", "traced", "huygens", "spherical"]
 ON_AXIS = Source()
 
 
@@ -95,8 +95,9 @@ def render(
         The lens, see `load_lens`.
     source : Source
         The point source; by default at infinity, on the axis.
-    method : {"auto", "seidel", "fitted", "traced", "huygens", "gaussian"}
-        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``.
+    method : {"auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"}
+        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``, and
+        "spherical" where plane waves, which the others sum, would leave more than 0.001 of 1 − R².
     pixels : int
         Samples along each side.
     pixel_um : float, optional
@@ -131,7 +132,7 @@ def render(
     >>> import p2sf
     >>> lens = p2sf.load_lens("double_gauss_28")
     >>> p2sf.render(lens, p2sf.Source(field_deg=10), camera=p2sf.Camera(focus_mm=3000, f_number=5.6)).method
-    'fitted'
+    'spherical'
     """
     from p2sf.psf.methods import PsfOptions
     from p2sf.psf.pixel_integrals import render_integrated
@@ -260,7 +261,7 @@ def choose_method(
     Examples
     --------
     >>> import p2sf
-    >>> p2sf.choose_method(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=14), min_r2=0.99).method
+    >>> p2sf.choose_method(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=10), min_r2=0.99).method
     'fitted'
     """
     from p2sf.psf.methods import choose
@@ -293,7 +294,7 @@ def mtf(
 
     Parameters
     ----------
-    method : {"traced", "huygens", "fitted", "seidel", "auto"}
+    method : {"traced", "huygens", "fitted", "seidel", "spherical", "auto"}
         What describes the pupil: exact rays ("traced" and "huygens" are the same here), a fit, the six coefficients,
         or what `choose_method` chooses.
     frequency_per_mm : array_like, optional

@@ -316,6 +316,14 @@ def prediction(error: float | None) -> tuple[float | None, Message | str]:
     return error, CAUTIOUS if error > CAUTION else ""
 
 
+def exit_pupil_rows(result: Psf) -> list[Row]:
+    """Return the Fresnel number and what plane waves miss, where these are known."""
+    missed, number = result.plane_wave_error, result.fresnel_number
+    if missed is None or number is None:
+        return []
+    return [("predicted 1 − R² of plane waves", *prediction(float(missed))), ("Fresnel number", float(number), "")]
+
+
 def summary(
     result: Psf, aim: str, output: Path | None, energy: Energy | None = None, accuracy: DatabaseAccuracy | None = None
 ) -> list[Row]:
@@ -343,6 +351,7 @@ def summary(
         *([("these radii", note, "")] if (note := energy.note if energy else window_of(result)) else []),
         *([("RMS radius of the rays", measured["rms_um"], "µm")] if energy else []),
         *([("predicted 1 − R²", *prediction(result.predicted_error))] if stated or not accuracy else []),
+        *exit_pupil_rows(result),
         *(accuracy_rows(accuracy, " in this database") if accuracy else []),
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),

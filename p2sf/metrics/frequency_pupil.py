@@ -14,7 +14,7 @@ See handbook 6.3.
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from math import inf, nan, sqrt
+from math import hypot, inf, nan, sqrt
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
@@ -28,10 +28,12 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.smooth_pupil import all_reach
+from p2sf.psf.spherical import beyond_plane_waves
 from p2sf.pupil.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.open_part import WHOLE_DISC, PupilEdges
 from p2sf.raytrace.clear_pieces import without_holes
+from p2sf.raytrace.exit_sphere import ExitSphere
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
@@ -321,8 +323,13 @@ def uniform_disc(half: float = 1.0) -> FrequencyPupil:
     return FrequencyPupil(half, half, 0.0, np.zeros((2, 2)), np.ones((1, 1)), edge, 0.0, ONE_POINT, 0.0, 0)
 
 
-def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: float = 0.0) -> FrequencyPupil:
+def pupil_of_rays(
+    lens: Lens, source: Source, clip: bool = False, turn_deg: float = 0.0, sphere: ExitSphere | None = None
+) -> FrequencyPupil:
     """Return the pupil of exact rays; where rims clip or rays are lost, it ends there.
+
+    ``sphere``: from which they send spherical waves; it has the plane waves that agree with these to second order, and
+    counts what is left among its ``residual_waves``.
 
     ``turn_deg``: by how much its axes are turned from those of the source's image, from +y towards +x.
     Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
@@ -340,11 +347,14 @@ def pupil_of_rays(lens: Lens, source: Source, clip: bool = False, turn_deg: floa
         if whole and not rays.passed.all():
             raise GeometryError(UNFOLLOWED)
         kept = rays.passed  # where light is lost, an outline by directions misses a few rays
+        rays = rays if sphere is None else sphere.seen_from(rays)[0]
         frequencies = rotate_frequencies(rays.fx, rays.fy, turn_deg)
         columns = np.stack([*columns, rays.amplitude, rays.phase, *frequencies])[:, kept]
         return _samples(columns, int(kept[-rim:].sum()), domain, end.disc(sampling.counts))
 
     found = replace(_settle(trace_rays, ORDERS), edges=end.edges)
+    if sphere:
+        found = replace(found, residual_waves=hypot(found.residual_waves, beyond_plane_waves(lens, source, sphere)))
     found = behind_mask(found, mask_seen(lens, source), float(source.wavelength_um))
     return with_spot(found, lens, source, clip, turn_deg)
 

@@ -39,6 +39,7 @@ from p2sf.psf.polychromatic import bands_through, chief_places_um
 from p2sf.psf.prediction import SAFETY
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.mask import CLEAR
+from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.fit import fit
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
@@ -214,7 +215,17 @@ def _end_of(lens: Lens, source: Source, clip: bool) -> PupilEnd:
     return PupilAtRims(lens, source, clip) if clip else WHOLE_PUPIL
 
 
-PUPILS = {"seidel": _six_pupil, "fitted": _fit_pupil, "traced": pupil_of_rays, "huygens": pupil_of_rays}
+def _spherical_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
+    return pupil_of_rays(lens, source, clip, turn_deg, exit_sphere(lens, source))
+
+
+PUPILS = {
+    "seidel": _six_pupil,
+    "fitted": _fit_pupil,
+    "traced": pupil_of_rays,
+    "huygens": pupil_of_rays,
+    "spherical": _spherical_pupil,
+}
 """What describes the pupil of each method that has one."""
 
 

@@ -33,8 +33,10 @@ from p2sf.psf.smooth_pupil import (
     smooth_blur_um2,
 )
 from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
+from p2sf.psf.sums.spherical_waves import waves_from
 from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.raytrace.exit_sphere import ExitSphere, wider_by
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil, rays_through
 from p2sf.raytrace.ray_field import Steepness, steepness
@@ -45,6 +47,7 @@ from p2sf.threads import for_each, one_blas_thread
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
+FRINGES_OF_SPHERES = 1.05  # finer than those of rays are beyond a focus; so near their end contrast is next to none
 MOST_FOR_PEAK = 2**17  # for the peak alone, which is otherwise sought only in the window
 
 
@@ -55,12 +58,15 @@ class RayPupil:
     ``clip``: whether rims end them. ``areas``: the fit that gives areas over direction cosines, for the `radiometric`
     amplitude: each ray has the root of its cell's area in the entrance pupil times that over direction cosines, which
     conserves the energy of each cell. Without it a ray has the field of its cell's area, as in other programs.
+    ``sphere``: from which rays send spherical waves; without it they are plane waves. ``method``: what sums them.
     """
 
     lens: Lens
     source: Source
     clip: bool = False
     areas: FittedPencil | None = None
+    sphere: ExitSphere | None = None
+    method: str = "huygens"
 
     @property
     def whole(self) -> bool:
@@ -119,14 +125,15 @@ def sum_rays(
         intensity = found.waves.intensity(axis, axis, np.float32)
         sampling = sampling_of(pupil, found, Message("one pass in float32"))
         error = EDGE_ERROR if pupil.clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
-        made = Origin("huygens", 0, _nodes(found.counts), sampling, started, None, error)
+        made = Origin(pupil.method, 0, _nodes(found.counts), sampling, started, None, error)
     else:
         found, intensity, reached, rays = _settle(pupil, window, rtol, watch)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = sampling_of(pupil, found, None if reached <= rtol else short)
-        made = Origin("huygens", 0, rays, sampling, started, reached, reached**2)
+        made = Origin(pupil.method, 0, rays, sampling, started, reached, reached**2)
     blur = None
-    if rtol is not None and resolved(found.waves.spread, pixel_um):
+    finest = found.waves.spread / (1 if pupil.sphere is None else FRINGES_OF_SPHERES)
+    if rtol is not None and resolved(finest, pixel_um):
         blur = blur_um2(pupil)
     peak = peak_on_demand(intensity, pixel_um, found.waves, partial(waves_reaching, pupil), quality)
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
@@ -135,8 +142,11 @@ def sum_rays(
 def blur_um2(pupil: RayPupil) -> float | None:
     """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak; None where no fit of the rays is known."""
     lens, source, clip = pupil.lens, pupil.source, pupil.clip
-    smooth = smooth_blur_um2(lens, source) if pupil.whole else None
-    return smooth or pencil_blur(lens, source, clip, clip or all_reach(lens, source), pupil.areas)
+    smooth = smooth_blur_um2(lens, source, pupil.sphere) if pupil.whole else None
+    if smooth:
+        return smooth
+    plane = pencil_blur(lens, source, clip, clip or all_reach(lens, source), pupil.areas)
+    return plane if plane is None or pupil.sphere is None else plane * wider_by(lens, source, pupil.sphere)
 
 
 def waves_reaching(pupil: RayPupil, reach_um: float) -> Waves | None:
@@ -148,15 +158,22 @@ def waves_reaching(pupil: RayPupil, reach_um: float) -> Waves | None:
     if _nodes(counts) > MOST_FOR_PEAK:
         return None
     if pupil.whole:
-        found = interpolated_waves(pupil.lens, pupil.source, counts, reach_um)
+        found = interpolated_waves(pupil.lens, pupil.source, counts, reach_um, pupil.sphere)
         if found is not None:
             return found.waves
     return ray_waves(pupil, counts, reach_um).waves
 
 
 def one_pass(pupil: RayPupil, window: Window, watch: "Watch | None" = None) -> RayWaves:
-    """Return the plane waves of as many rays as the blur and the window need; `Cancelled` where the watch says so."""
-    return ray_waves(pupil, pupil.first_counts(window), window_reach_um(*window), watch)
+    """Return the waves of as many rays as the blur and the window need; `Cancelled` where the watch says so.
+
+    Spherical ones are interpolated where the pupil is smooth, as those of `traced` are.
+    """
+    counts, reach = pupil.first_counts(window), window_reach_um(*window)
+    smooth = None
+    if pupil.sphere and pupil.whole:
+        smooth = interpolated_waves(pupil.lens, pupil.source, counts, reach, pupil.sphere)
+    return smooth or ray_waves(pupil, counts, reach, watch)
 
 
 def _settle(pupil: RayPupil, window: Window, rtol: float, watch: "Watch") -> tuple[RayWaves, np.ndarray, float, int]:
@@ -239,15 +256,16 @@ def _in_window(rays: Rays, xi: np.ndarray, eta: np.ndarray, reach_um: float) -> 
 
 
 def ray_waves(pupil: RayPupil, counts: Counts, reach_um: float, watch: "Watch | None" = None) -> RayWaves:
-    """Return the plane waves of the rays through one set of nodes, which threads share."""
+    """Return the waves of the rays through one set of nodes, which threads share."""
     nodes = pupil.nodes(counts)
     blocks: list[tuple[np.ndarray, ...]] = []
 
     def traced(some: ClearNodes) -> tuple[np.ndarray, ...]:
         rays = rays_through(pupil.lens, pupil.source, some).arrived
-        field = pupil.fields(rays)
-        far = np.hypot(rays.x_um, rays.y_um)
-        return pupil_amplitude(field, rays.phase), rays.fx, rays.fy, np.asarray(rays.share), field, far
+        field, far, length = pupil.fields(rays), np.hypot(rays.x_um, rays.y_um), 0 * rays.dx
+        if pupil.sphere:
+            rays, length = pupil.sphere.seen_from(rays)
+        return pupil_amplitude(field, rays.phase), rays.fx, rays.fy, length, np.asarray(rays.share), field, far
 
     def take(block: tuple[np.ndarray, ...]) -> None:
         blocks.append(block)
@@ -255,10 +273,11 @@ def ray_waves(pupil: RayPupil, counts: Counts, reach_um: float, watch: "Watch | 
             watch.advance(block[0].size)
 
     for_each(traced, (nodes.part(slice(first, first + BLOCK)) for first in range(0, nodes.xi.size, BLOCK)), take)
-    amplitude, fx, fy, share, field, far = (np.concatenate(column) for column in zip(*blocks, strict=True))
+    amplitude, fx, fy, length, share, field, far = (np.concatenate(column) for column in zip(*blocks, strict=True))
     # The field over the area is its mean, exactly 1 for an evenly filled pupil.
     amplitude /= field.sum() / share.sum()
     waves = Waves(amplitude, fx, fy, nodes.domain, float(far.max(initial=0.0)), reach_um)
+    waves = waves_from(waves, pupil.sphere, length)
     return RayWaves(waves, counts, nodes.xi.size - share.size, nodes.xi.size)
 
 

@@ -12,7 +12,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import GeometryError, RequestError
+from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
@@ -22,7 +22,7 @@ from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
 from p2sf.psf.huygens import RayPupil, Watch, sum_rays
-from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
+from p2sf.psf.prediction import CAUTION, EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import (
     WINDOW_AIRY_RADII,
@@ -34,6 +34,14 @@ from p2sf.psf.seidel import (
     suitable_pixel_um,
 )
 from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
+from p2sf.psf.spherical import (
+    MOST_TO_CHOOSE,
+    fresnel_number,
+    plane_wave_bound,
+    plane_wave_error,
+    spherical_pupil,
+    worth_spherical,
+)
 from p2sf.psf.traced import MOST_NODES as MOST_TRACED
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMask
@@ -69,7 +77,8 @@ class Choice:
 
     ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
     the tolerated 1 − R²; ``seidel_error`` and ``fitted_error``, that of ``fitted_numbers``, are predictions, None where
-    none was made. ``fit``: the fit made for the choice, if the method would make the same.
+    none was made. ``plane_wave_error``: predicted, of plane waves against spherical ones. ``fit``: the fit made for the
+    choice, if the method would make the same.
     """
 
     method: str
@@ -81,6 +90,7 @@ class Choice:
     seidel_error: float | None = None
     fitted_error: float | None = None
     fitted_numbers: int = 0
+    plane_wave_error: float | None = None
     fit: FittedPencil | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -196,12 +206,17 @@ def choose(lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False)
     allowed = 1 - min_r2
     xi, eta, weight = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
+    steep = steepness(rays, xi, eta)
+    bound = plane_wave_bound(lens, source, rays, weight, steep.light_um) if rays.passed.all() else inf
+    if bound > CAUTION and worth_spherical(lens, source, clip):
+        tried = Choice("spherical", SETTLED_TOLERANCE**2, 0, int((~rays.passed).sum()), xi.size, allowed)
+        return replace(tried, plane_wave_error=plane_wave_error(lens, source, clip, MOST_TO_CHOOSE))
     if not rays.passed.all():
         # Only rays represent an edge; six coefficients and fits do not.
         lost = int((~rays.passed).sum())
         return _by_rays(Choice("traced", EDGE_ERROR, 0, lost, xi.size, allowed), EDGE_ERROR)
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    steep, mask = steepness(rays, xi, eta), mask_seen(lens, source)
+    mask = mask_seen(lens, source)
     checks = None if mask.clear else trace_check_rays(lens, source, mask)
     seidel = (
         _seidel_error(c, (xi, eta, weight), rays, checks, mask) if reason_against_coefficients(lens) is None else inf
@@ -323,7 +338,27 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
 
     Raises subclasses of P2SFError.
     """
-    return method_of(asked.method).psf(asked, cancelled)
+    psf = method_of(asked.method).psf(asked, cancelled)
+    if asked.by_hand:
+        return psf
+    number, error = (partial(_or_none, figure, asked) for figure in (_fresnel_number, _plane_wave_error))
+    return psf.with_fields(fresnel_number=number, plane_wave_error=error)
+
+
+def _or_none(figure: Callable[[PsfRequest], float], asked: PsfRequest) -> float | None:
+    """Return a figure of the exit pupil; None where rays tell none."""
+    try:
+        return figure(asked)
+    except P2SFError:
+        return None
+
+
+def _fresnel_number(asked: PsfRequest) -> float:
+    return fresnel_number(asked.lens, asked.source)
+
+
+def _plane_wave_error(asked: PsfRequest) -> float:
+    return plane_wave_error(asked.lens, asked.source, asked.options.clip)
 
 
 def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
@@ -366,9 +401,16 @@ def _by_traced_rays(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
 
 
 def _by_huygens(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
-    tolerance = SETTLED_TOLERANCE if asked.options.quality == "settled" and asked.converged else None
-    pupil = RayPupil(asked.lens, asked.source, asked.options.clip)
-    return sum_rays(pupil, asked.window, tolerance, Watch(cancelled=cancelled), asked.options.quality)
+    return _by_sum(RayPupil(asked.lens, asked.source, asked.options.clip), asked, cancelled)
+
+
+def _by_spherical_waves(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
+    return _by_sum(spherical_pupil(asked.lens, asked.source, asked.options.clip), asked, cancelled)
+
+
+def _by_sum(pupil: RayPupil, asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
+    rtol = SETTLED_TOLERANCE if asked.options.quality == "settled" and asked.converged else None
+    return sum_rays(pupil, asked.window, rtol, Watch(cancelled=cancelled), asked.options.quality)
 
 
 def _by_gaussian(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
@@ -400,6 +442,13 @@ def _rays_suffice(choice: Choice) -> Message:
 
 def _nothing_else_suffices(choice: Choice) -> Message:
     return Message("the reference itself, since {because}", because=choice.against_a_fit)
+
+
+def _waves_are_spherical(choice: Choice) -> Message:
+    return Message(
+        "spherical waves from the exit pupil, since plane ones would leave 1 − R² = {error:.1e}",
+        error=choice.plane_wave_error,
+    )
 
 
 SEIDEL = Method(
@@ -440,7 +489,22 @@ GAUSSIAN = replace(
     pupil=False,
     of_reference=gaussian_psf,
 )
-METHODS = (GAUSSIAN, SEIDEL, FITTED, TRACED, HUYGENS)
-"""From the cheapest description to the reference."""
+SPHERICAL = replace(
+    HUYGENS,
+    name="spherical",
+    words=Message("spherical: waves from the exit pupil"),
+    psf=_by_spherical_waves,
+    reason=_waves_are_spherical,
+    node_seconds=2 * RAY_SECONDS,
+)
+METHODS = (GAUSSIAN, SEIDEL, FITTED, TRACED, HUYGENS, SPHERICAL)
+"""From the cheapest description to the reference, and to what that is referred to where it leaves too much."""
 NAMES = tuple(method.name for method in METHODS)
-REFERENCE = NAMES[-1]
+REFERENCE = HUYGENS.name
+
+
+def reference_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
+    """Return the rays whose sum R² refers to: spherical waves where plane ones are predicted to miss by CAUTION."""
+    if worth_spherical(lens, source, clip):
+        return spherical_pupil(lens, source, clip)
+    return RayPupil(lens, source, clip)

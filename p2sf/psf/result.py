@@ -60,8 +60,8 @@ class OnDemand(Generic[Value]):
 class Psf:
     """A point spread function, or a stack of them, and how it was computed.
 
-    A notebook shows it as a picture. ``strehl``, ``energy`` and ``peak_um`` may be given as functions without
-    arguments, which are called when the values are first read.
+    A notebook shows it as a picture. ``strehl``, ``energy``, ``peak_um``, ``fresnel_number`` and ``plane_wave_error``
+    may be given as functions without arguments, which are called when the values are first read.
 
     Attributes
     ----------
@@ -101,6 +101,11 @@ class Psf:
         Position of that peak: x and y from the chief ray, µm; (…, 2) for a stack.
     sum_over_peak : float or numpy.ndarray or None
         Sum of the samples in units of the unaberrated peak.
+    fresnel_number : float or None
+        a²/(λz) of the exit pupil, of radius a at a distance z from the sensor; infinite of a pupil at infinity.
+    plane_wave_error : float or None
+        Predicted 1 − R² of plane waves, which every method but `spherical` sums, against spherical ones; None if not
+        known. It is not part of ``predicted_error``.
     """
 
     values: np.ndarray
@@ -119,6 +124,8 @@ class Psf:
     integrated: bool = False
     peak_um: OnDemand[tuple[float, float] | np.ndarray | None] = OnDemand()
     sum_over_peak: float | np.ndarray | None = None
+    fresnel_number: OnDemand[Figure] = OnDemand()
+    plane_wave_error: OnDemand[Figure] = OnDemand()
 
     def with_fields(self, **values: Any) -> "Psf":
         """Return the same PSF with these fields replaced; unlike `replace` it does not evaluate deferred figures."""

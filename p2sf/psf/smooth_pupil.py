@@ -12,9 +12,11 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.sums.plane_waves import Counts, Waves, pupil_amplitude
+from p2sf.psf.sums.spherical_waves import waves_from
 from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.interpolation import interpolate_pupil, on_disc
 from p2sf.pupil.quadrature import disc_axes, disc_nodes
+from p2sf.raytrace.exit_sphere import ExitSphere
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 
@@ -58,28 +60,32 @@ def coarse_pencil(lens: Lens, source: Source, counts: Counts) -> Rays:
     return pencil(lens, source, *coarse_points(lens.pupil_domain, counts))
 
 
-def interpolated_waves(lens: Lens, source: Source, counts: Counts, reach_um: float) -> RayWaves | None:
-    """Return the plane waves of nodes over the whole pupil, interpolated from a coarse pencil of exact rays.
+def interpolated_waves(
+    lens: Lens, source: Source, counts: Counts, reach_um: float, sphere: ExitSphere | None = None
+) -> RayWaves | None:
+    """Return the waves of nodes over the whole pupil, interpolated from a coarse pencil of exact rays.
 
-    None behind a mask, if rays are lost, and if no such pencil is accurate enough.
+    They are plane, or spherical from a ``sphere``. None behind a mask, if rays are lost, and if no such pencil is
+    accurate enough.
     """
-    found = _smooth(lens, source, reach_um)
+    found = _smooth(lens, source, reach_um, sphere)
     if found is None:
         return None
     coarse, values = found
-    phase, fx, fy, field = on_disc(lens.pupil_domain, values, coarse, counts)
+    phase, fx, fy, field, *length = on_disc(lens.pupil_domain, values, coarse, counts)
     nodes = lens.pupil_domain.nodes(counts)
     amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
     rays = coarse_pencil(lens, source, coarse)
-    return RayWaves(Waves(amplitude, fx, fy, nodes.domain, _farthest_um(rays), reach_um), counts, 0, rays.phase.size)
+    waves = Waves(amplitude, fx, fy, nodes.domain, _farthest_um(rays), reach_um)
+    return RayWaves(waves_from(waves, sphere, *length), counts, 0, rays.phase.size)
 
 
-def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
+def smooth_blur_um2(lens: Lens, source: Source, sphere: ExitSphere | None = None) -> float | None:
     """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak, by Parseval; None as `interpolated_waves`.
 
     The energy of unit area spreads over |∂f/∂(ξ, η)| = |∂f/∂(ρ, θ)|/ρ.
     """
-    found = _smooth(lens, source, 0.0)
+    found = _smooth(lens, source, 0.0, sphere)
     if found is None:
         return None
     coarse, values = found
@@ -94,8 +100,13 @@ def smooth_blur_um2(lens: Lens, source: Source) -> float | None:
     return float(nodes.weight @ (field**2 / area) / (np.pi * (nodes.weight @ field) ** 2))
 
 
-def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.ndarray] | None:
-    """Return the counts of the first sufficient pencil; phase, fx, fy and amplitude at its nodes, (4, nodes)."""
+def _smooth(
+    lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None
+) -> tuple[Counts, np.ndarray] | None:
+    """Return the counts of the first sufficient pencil; phase, fx, fy and amplitude at its nodes, (4, nodes).
+
+    Seen from a ``sphere`` these are the rays that it has, with their distances behind, (5, nodes).
+    """
     if not mask_seen(lens, source).clear:
         return None
     domain = lens.pupil_domain
@@ -103,8 +114,12 @@ def _smooth(lens: Lens, source: Source, reach_um: float) -> tuple[Counts, np.nda
         rays = coarse_pencil(lens, source, coarse)
         if not rays.passed.all():
             return None
-        halves = np.stack([rays.phase, rays.fx, rays.fy, rays.amplitude]).reshape(4, len(domain.halves), -1)
-        inside, rim = (part.reshape(4, -1) for part in np.split(halves, [coarse[0] * coarse[1] // 2], axis=-1))
+        seen, *length = (rays,) if sphere is None else sphere.seen_from(rays)
+        values = np.stack([seen.phase, seen.fx, seen.fy, rays.amplitude, *length])
+        halves = values.reshape(len(values), len(domain.halves), -1)
+        inside, rim = (
+            part.reshape(len(values), -1) for part in np.split(halves, [coarse[0] * coarse[1] // 2], axis=-1)
+        )
         missed = np.abs(interpolate_pupil(domain, inside, coarse, np.ones(1), rim_angles(coarse)) - rim).max(1)
         if missed[0] + (missed[1] + missed[2]) * max(_farthest_um(rays), reach_um) <= CLOSE:
             return coarse, inside

@@ -14,7 +14,7 @@ from p2sf.conventions import write_protect
 from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.quadrature import disc_axes, gauss_legendre
 
-ODD = (False, True, False, False)  # phase, fx, fy and amplitude in ξ, by symmetry
+ODD = (False, True, False, False, False)  # phase, fx, fy, amplitude and distance in ξ, by symmetry
 
 
 def interpolate(
@@ -35,22 +35,23 @@ def interpolate(
 def interpolate_pupil(
     domain: PupilDomain, values: np.ndarray, coarse: tuple[int, int], radius: np.ndarray, theta: np.ndarray
 ) -> np.ndarray:
-    """Return phase, fx, fy and amplitude, (4, points), at radii × angles from those at coarse nodes, (4, nodes).
+    """Return phase, fx, fy, amplitude and what follows, (…, points), at radii × angles from those at coarse nodes.
 
-    The nodes are those of a domain, half after half; the points are on the half ξ > 0 and are mirrored for the other.
+    ``values``: (4 or 5, nodes), in the order of ODD. The nodes are those of a domain, half after half; the points are
+    on the half ξ > 0 and are mirrored for the other.
     """
-    sides = values.reshape(4, len(domain.halves), -1)
-    found = np.zeros((4, len(domain.halves), radius.size * theta.size))
+    sides = values.reshape(len(values), len(domain.halves), -1)
+    found = np.zeros((*sides.shape[:2], radius.size * theta.size))
     for odd in (False, True):
-        some = [number for number, own in enumerate(ODD) if odd in domain.parities(own)]
+        some = [number for number, own in enumerate(ODD[: len(values)]) if odd in domain.parities(own)]
         signs = np.array(domain.halves)[:, None] if odd else 1
         part = (signs * sides[some]).sum(1) / len(domain.halves)
         found[some] += signs * interpolate(part, coarse, radius, theta, odd)[:, None]
-    return found.reshape(4, -1)
+    return found.reshape(len(values), -1)
 
 
 def on_disc(domain: PupilDomain, values: np.ndarray, coarse: tuple[int, int], counts: tuple[int, int]) -> np.ndarray:
-    """Return `interpolate_pupil` at the nodes of ``counts``, (4, nodes)."""
+    """Return `interpolate_pupil` at the nodes of ``counts``, (…, nodes)."""
     return interpolate_pupil(domain, values, coarse, *disc_axes(*counts))
 
 

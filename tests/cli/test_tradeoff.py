@@ -14,7 +14,7 @@ SMALL = ("tradeoff", "landscape", "--fields-deg", "0", "--pixels", "16")
 def test_the_json_has_every_method_with_its_errors_and_costs(capsys):
     assert main([*SMALL, "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)
-    assert {row["method"] for row in rows} == {"gaussian", "seidel", "fitted", "traced", "huygens"}
+    assert {row["method"] for row in rows} == {"gaussian", "seidel", "fitted", "traced", "huygens", "spherical"}
     for row in rows:
         assert row["depth_mm"] is None and row["field_deg"] == 0
         assert row["seconds"] > 0 and row["bytes"] > 0 and row["errors"]["r_squared"] <= 1

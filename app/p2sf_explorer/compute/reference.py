@@ -1,4 +1,7 @@
-"""Accuracy of the picture against the Huygens reference at the same point, in one window for all methods. No Qt."""
+"""Accuracy of the picture against the reference at the same point, in one window for all methods. No Qt.
+
+The reference is the Huygens sum, or that of spherical waves where plane ones would miss it (`reference_pupil`).
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -7,8 +10,8 @@ from threading import Event
 
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.psf.huygens import Watch, first_counts, huygens_psf
-from p2sf.psf.methods import METHODS, REFERENCE, PsfOptions, method_of, render
+from p2sf.psf.huygens import Watch, first_counts, sum_rays
+from p2sf.psf.methods import METHODS, PsfOptions, method_of, reference_pupil, render
 from p2sf.psf.result import Psf
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf_explorer.compute.live import Live
@@ -56,12 +59,10 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
     if live.psf.method == "geometric" or reference_nodes(live, window) > MOST_NODES:
         raise SamplingError("the blur is too large for a reference here; {remedy}", remedy=remedy(live.setup))
     share = 0.5 if every_method else 1.0
-    reference = huygens_psf(
-        live.setup.lens,
-        live.setup.source,
-        *window,
+    reference = sum_rays(
+        reference_pupil(live.setup.lens, live.setup.source, live.state.optics.clip),
+        window,
         REFERENCE_TOLERANCE,
-        live.state.optics.clip,
         Watch(lambda part: progress(share * part), cancelled.is_set),
     )
     shown = in_window(live, reference)
@@ -97,7 +98,7 @@ def method_results(
         psfs = [psf_by(method.name, live, reference) for _ in range(REPEATS if method.whole else 1)]
         psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)
         error = relative_l2(psf.values, reference.values)
-        if method.name == REFERENCE:
+        if method.name == reference.method:
             error = reference.error or error
         yield MethodResult(
             method.name, r_squared(psf.values, reference.values), error, milliseconds, psf.numbers, psf.rays
@@ -107,7 +108,7 @@ def method_results(
 
 def psf_by(method: str, live: Live, reference: Psf) -> Psf:
     """Return this point's PSF by one method, in the reference's window."""
-    if method == REFERENCE:
+    if method == reference.method:
         return reference
     derived = method_of(method).of_reference
     if derived:

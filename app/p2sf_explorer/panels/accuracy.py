@@ -165,7 +165,10 @@ class AccuracyPanel:
         self.methods.show_methods(accuracy.results, psf.method)
         r2 = written_r_squared(accuracy.r_squared)
         wide, seconds = significant(count * step, 3), f"{reference.seconds:.2f}"
-        first = tr("{method} vs Huygens: R² {r} in {wide} µm", method=psf.method, r=r2, wide=wide)
+        if reference.method == REFERENCE:
+            first = tr("{method} vs Huygens: R² {r} in {wide} µm", method=psf.method, r=r2, wide=wide)
+        else:
+            first = tr("{method} vs spherical waves: R² {r} in {wide} µm", method=psf.method, r=r2, wide=wide)
         second = tr("reference from {count} rays, {seconds} s", count=reference.rays, seconds=seconds)
         self._figure = f"{first} · {second}"
         self._show_figure(stale)

@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtCore import QTimer
 
 from p2sf.messages import Message
-from p2sf.psf.methods import PsfRequest
+from p2sf.psf.methods import REFERENCE, PsfRequest
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf_explorer.charts.colour_scale import ColourScale
@@ -37,7 +37,10 @@ WITHIN = 0.5**0.5  # of a circle's radius: half the side of the square in it
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
 Y_LABELS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  # by the sign of the image height
-R_SQUARED_TIP = "R² compares with the Huygens sum of exact rays; it is predicted until that sum is done, then measured."
+R_SQUARED_TIP = (
+    "R² compares with the Huygens sum of exact rays, or with spherical waves from the exit pupil where plane ones miss "
+    "those by more than 0.001; it is predicted until that sum is done, then measured."
+)
 TIP = "Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW)."
 
 
@@ -147,8 +150,8 @@ class PsfPanel:
         shown = frame.half_um if side else np.nan
         self.arrow.set_data(frame.x_um + shown * ARROW[0], frame.y_um + shown * side * ARROW[1])
 
-    def show_badge(self, live: Live, r_squared: float | None) -> None:
-        """Show method, times and R² against the Huygens sum: measured where it is known, else predicted.
+    def show_badge(self, live: Live, r_squared: float | None, reference: str = REFERENCE) -> None:
+        """Show method, times and R² against the ``reference``: measured where it is known, else predicted.
 
         The times are the last ones of a preview, while a slider moves, and of a settled picture. A prediction of less
         than 0.999 is a caution.
@@ -161,7 +164,7 @@ class PsfPanel:
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
         measured = None if live.setup.altered or psf.method == "geometric" else r_squared
         times = {name: self._times[name] for name in QUALITIES if name in self._times}
-        whole, short = badge_words(live, times, measured)
+        whole, short = badge_words(live, times, measured, reference)
         unsure = measured is None and (psf.predicted_error or 0.0) > CAUTION
         self.badge.set_text(whole, "warning" if unsure else "text", short)
         self.badge.setToolTip("\n".join((whole, *tip_words(live))))
@@ -172,14 +175,18 @@ class PsfPanel:
         self.badge.restyle(theme)
 
 
-def badge_words(live: Live, times: dict[str, str], r_squared: float | None) -> tuple[str, str]:
+def badge_words(
+    live: Live, times: dict[str, str], r_squared: float | None, reference: str = REFERENCE
+) -> tuple[str, str]:
     """Return how the picture was made, whole, and short where there is little room."""
     before = tuple(filter(None, (live.side, tr("what-if") if live.setup.altered else "")))
     method, r2 = live.psf.method, "" if r_squared is None else written_r_squared(r_squared)
     whole = (*before, tr(METHOD_WORDS.get(method, method)), times_words(times))
     short = (*before, tr(SHORT_WORDS.get(method, method)), f"{'/'.join(times.values())} ms")
     if r2:
-        whole, short = (*whole, tr("R² {r} vs Huygens", r=r2)), (*short, f"R² {r2}")
+        plane = reference == REFERENCE
+        against = tr("R² {r} vs Huygens", r=r2) if plane else tr("R² {r} vs spherical waves", r=r2)
+        whole, short = (*whole, against), (*short, f"R² {r2}")
     elif live.psf.predicted_error is not None:
         words = predicted_words(live.psf.predicted_error)
         whole, short = (*whole, words), (*short, words)

@@ -13,8 +13,12 @@ from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.state.workspaces import on_show
 from p2sf_explorer.store.worker import LatestWins
 
-ShowBadge = Callable[[Live, float | None], None]
-"""Writes the measured R² of an answer, None for none, on the PSF."""
+
+class ShowBadge(Protocol):
+    """Writes the measured R² of an answer, None for none, on the PSF, and the method that it refers to."""
+
+    def __call__(self, live: Live, r_squared: float | None, reference: str = ..., /) -> None:
+        """Show it."""
 
 
 @runtime_checkable
@@ -89,7 +93,7 @@ class LiveAccuracy(QObject):
             return
         stale = not fits(accuracy, live, False) or live.quality != "settled" or live.pending is not None
         if not stale:
-            self._show_badge(live, accuracy.r_squared)
+            self._show_badge(live, accuracy.r_squared, accuracy.reference.method)
         if display := self._display_on_show():
             display.show_accuracy(accuracy, stale)
 

@@ -31,7 +31,7 @@ MEASURES = {"r2": "by R²", "mtf": "by the MTF", "r80": "by the radius R80", "ti
 QUICKEST_MS, SLOWEST_MS = 1.0, 1000.0
 SERIES = (1.0, 2.0, 5.0)
 PANEL_PX, CHART_PX = 340, 150
-TOKENS = {"seidel": "marginal", "fitted": "chief", "traced": "text", "huygens": "muted"}
+TOKENS = {"seidel": "marginal", "fitted": "chief", "traced": "text", "huygens": "muted", "spherical": "muted"}
 
 
 class ExactnessButton(QPushButton):

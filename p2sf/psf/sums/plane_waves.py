@@ -71,6 +71,11 @@ class Waves:
         """Return the largest |f|, cycles per µm."""
         return float(np.sqrt((self.fx * self.fx + self.fy * self.fy).max(initial=0.0)))
 
+    @property
+    def plane(self) -> "Waves":
+        """Return the plane waves that agree with these at the chief ray: these themselves."""
+        return self
+
     def field(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
         """Return the field over a grid of x and y, µm, complex, (…, y, x)."""
         amplitude = self.amplitude.astype(np.result_type(dtype, np.complex64), copy=False)

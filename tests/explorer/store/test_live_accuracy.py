@@ -32,7 +32,7 @@ def test_the_badge_and_every_method_arrive_by_themselves(measured, qtbot):
     assert "vs Huygens" in badge.text()
     known = measured.measuring._last
     results = {method.method: method for method in known.results}
-    assert set(results) == {"gaussian", "seidel", "fitted", "traced", "huygens"}
+    assert set(results) == {"gaussian", "seidel", "fitted", "traced", "huygens", "spherical"}
     assert results["fitted"].r_squared >= 0.998  # the method's promise on every row
     assert results["traced"].r_squared >= 0.9999
     assert known.r_squared == pytest.approx(results["seidel"].r_squared, abs=1e-4)  # settled against its own repeat

@@ -619,9 +619,10 @@
 <message><source>Roundness</source><translation>Rundung</translation></message>
 <message><source>Roundness of the blades' edges: their curvature times the rim's radius, 0 straight, 1 a circle.</source><translation>Rundung der Lamellenkanten: ihre Krümmung mal dem Radius des Randes, 0 gerade, 1 ein Kreis.</translation></message>
 <message><source>R²</source><translation>R²</translation></message>
-<message><source>R² compares with the Huygens sum of exact rays; it is predicted until that sum is done, then measured.</source><translation>R² vergleicht mit der Huygens-Summe exakter Strahlen; es ist vorhergesagt, bis diese Summe fertig ist, dann gemessen.</translation></message>
+<message><source>R² compares with the Huygens sum of exact rays, or with spherical waves from the exit pupil where plane ones miss those by more than 0.001; it is predicted until that sum is done, then measured.</source><translation>R² vergleicht mit der Huygens-Summe exakter Strahlen, oder mit Kugelwellen aus der Austrittspupille, wo ebene Wellen diese um mehr als 0,001 verfehlen; es ist vorhergesagt, bis diese Summe fertig ist, dann gemessen.</translation></message>
 <message><source>R² not predicted</source><translation>R² nicht vorhergesagt</translation></message>
 <message><source>R² {r} vs Huygens</source><translation>R² {r} gegen Huygens</translation></message>
+<message><source>R² {r} vs spherical waves</source><translation>R² {r} gegen Kugelwellen</translation></message>
 <message><source>R² ≥ {r2} against Huygens</source><translation>R² ≥ {r2} gegen Huygens</translation></message>
 <message><source>R² ≥ {value:g}</source><translation>R² ≥ {value:g}</translation></message>
 <message><source>Sampling</source><translation>Abtastung</translation></message>
@@ -1666,6 +1667,8 @@
 <message><source>spectrum</source><translation>Spektrum</translation></message>
 <message><source>spherical</source><translation>sphärisch</translation></message>
 <message><source>spherical aberration</source><translation>sphärische Aberration</translation></message>
+<message><source>spherical waves from the exit pupil, since plane ones would leave 1 − R² = {error:.1e}</source><translation>Kugelwellen aus der Austrittspupille, da ebene 1 − R² = {error:.1e} übrig ließen</translation></message>
+<message><source>spherical: waves from the exit pupil</source><translation>spherical: Wellen aus der Austrittspupille</translation></message>
 <message><source>split</source><translation>geteilt</translation></message>
 <message><source>split of the photo</source><translation>Teilung des Fotos</translation></message>
 <message><source>square root</source><translation>Wurzel</translation></message>
@@ -1870,6 +1873,8 @@
 <message><source>weight of a wavelength</source><translation>Gewicht einer Wellenlänge</translation></message>
 <message><source>flag of the aperture</source><translation>Kennziffer der Öffnung</translation></message>
 <message><source>ray aiming</source><translation>Strahlausrichtung</translation></message>
+<message><source>rays beside the chief ray do not reach the sensor; reduce the field</source><translation>Strahlen neben dem Hauptstrahl erreichen den Sensor nicht; das Feld verkleinern</translation></message>
+<message><source>rays do not meet the sphere in the exit pupil; stop the lens down</source><translation>Strahlen treffen die Kugel in der Austrittspupille nicht; abblenden</translation></message>
 <message><source>object cone angle</source><translation>Kegelwinkel am Objekt</translation></message>
 <message><source>the file aims rays at the paraxial image of the stop; here they are aimed at the stop itself</source><translation>die Datei richtet die Strahlen auf das paraxiale Bild der Blende; hier werden sie auf die Blende selbst gerichtet</translation></message>
 <message><source>{name} ({count}×)</source><translation>{name} ({count}×)</translation></message>
@@ -2232,6 +2237,7 @@
 <message><source>{method} here: {ms} ms, {error}</source><translation>{method} hier: {ms} ms, {error}</translation></message>
 <message><source>{method} over this whole lens, measured: {what} {half} at 50 % of all points, {most} at 95 %</source><translation>{method} über das ganze Objektiv, gemessen: {what} {half} an der Hälfte aller Punkte, {most} an 95 %</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
+<message><source>{method} vs spherical waves: R² {r} in {wide} µm</source><translation>{method} gegen Kugelwellen: R² {r} in {wide} µm</translation></message>
 <message><source>{method} would need {count:.2g} pupil samples for this blur, which takes too long; {remedy}, or choose auto to see ray density</source><translation>{method} bräuchte {count:.2g} Pupillenproben für diese Unschärfe, was zu lange dauert; {remedy} oder auto wählen, um die Strahlendichte zu sehen</translation></message>
 <message><source>{method}, by waves of the pupil; the picture is the density of its rays</source><translation>{method}, durch Wellen der Pupille; das Bild ist die Dichte ihrer Strahlen</translation></message>
 <message><source>{method}, {count} numbers</source><translation>{method}, {count} Zahlen</translation></message>

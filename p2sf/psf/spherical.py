@@ -1,0 +1,137 @@
+"""The `spherical` method: rays send spherical waves from the exit pupil, true at any Fresnel number (handbook 5.9).
+
+The other methods give each ray a plane wave, the limit of a distant exit pupil. With the Fresnel number N = a²/(λz) of
+a pupil of radius a at a distance z from the sensor, W waves of defocus act as W/(1 + 2W/N), to first order in W/N, for
+spherical waves (Li & Wolf 1984).
+
+By theory a ray has the root of its light and of the area dS of the sphere that it spreads over: the field u on the
+sphere conserves energy, |u|²·dS = light·share, and Kirchhoff's integral adds up u·dS. That is the `radiometric`
+amplitude, since dS/L² is a solid angle. The sum has the weights of `huygens` all the same, so that the two differ by
+the shape of the waves alone; both take the radiometric ones (`RayPupil.areas`).
+"""
+
+from functools import lru_cache
+from math import hypot, inf, pi
+
+import numpy as np
+
+from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.psf.compare import r_squared
+from p2sf.psf.huygens import RayPupil, first_counts, ray_waves
+from p2sf.psf.prediction import CAUTION
+from p2sf.psf.smooth_pupil import interpolated_waves
+from p2sf.psf.sums.plane_waves import Counts, Waves
+from p2sf.psf.sums.spherical_waves import SphericalWaves, waves_from
+from p2sf.pupil.domain import WHOLE
+from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
+from p2sf.raytrace.fit import level_rays, levels_for
+from p2sf.raytrace.pencil import Rays, exit_radius, pencil
+from p2sf.raytrace.ray_field import AIRY_RADIUS, steepness
+from p2sf.threads import one_blas_thread
+
+BOUND = 0.5  # of (2π)² times the variance; 1 − R² is at most 0.33 (python -m tests.long.spherical_prediction)
+SAMPLES = 64  # a side of the window in which the two sums are compared
+ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
+MOST_NODES = 2**17  # of that comparison: half a second
+MOST_TO_CHOOSE = 2**16  # within a choice: some tens of milliseconds
+
+
+def spherical_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
+    """Return the rays of a source as spherical waves; plane ones where the exit pupil is at infinity."""
+    return RayPupil(lens, source, clip, sphere=exit_sphere(lens, source), method="spherical")
+
+
+@lru_cache(maxsize=64)
+def fresnel_number(lens: Lens, source: Source) -> float:
+    """Return a²/(λz) of the exit pupil of a source: a its RMS radius times √2, z its distance from the sensor.
+
+    Infinite of a pupil at infinity. Raises GeometryError where rays of the coarse pencil do not arrive.
+    """
+    sphere = exit_sphere(lens, source)
+    if sphere is None:
+        return inf
+    xi, eta, weight = level_rays(levels_for(lens)[0])
+    rays = pencil(lens, source, xi[: weight.size], eta[: weight.size])
+    share = np.where(rays.passed, weight, 0.0)
+    radius = sphere.radius(rays.arrived, share[rays.passed]) * UM_PER_MM
+    return float(radius**2 * abs(sphere.waves_per_um / (sphere.distance * UM_PER_MM)))
+
+
+def plane_wave_bound(lens: Lens, source: Source, rays: Rays, weight: np.ndarray, light_um: float) -> float:
+    """Return an upper bound of 1 − R² between plane and spherical waves, from where rays land.
+
+    At X, a distance D from where a ray lands, the waves differ by n'D²/(2λz), to second order. Of this, without its
+    mean over the rays, the variance over rays and over X is (n'/2λz)²·(⟨r⁴⟩ − ⟨r²⟩² + 4 tr C² + 8s² tr C), with r from
+    the centroid, C the covariance of the landing points, and s = ``light_um``, twice which diffraction spreads each.
+    """
+    own, domain = slice(weight.size), lens.pupil_domain
+    share = weight / weight.sum()
+    x, y = rays.x_um[own], rays.y_um[own]
+    x, y = x - domain.mean_across(share, x), y - share @ y
+    xx, yy, xy = x * x, y * y, float(domain.mean_across(share, x * y))
+    square = xx + yy
+    cxx, cyy = float(share @ xx), float(share @ yy)
+    spread = float(share @ (square * square)) - (cxx + cyy) ** 2
+    spread += 4 * (cxx**2 + cyy**2 + 2 * xy**2) + 8 * light_um**2 * (cxx + cyy)
+    distance = float(np.ravel(exit_radius(lens, source, rays))[0]) * UM_PER_MM
+    scale = float(rays.index / np.ravel(rays.wavelength_um)[0]) * pi / distance
+    return BOUND * scale * scale * spread
+
+
+@lru_cache(maxsize=64)
+@one_blas_thread
+def plane_wave_error(lens: Lens, source: Source, clip: bool = False, most: int = MOST_NODES) -> float:
+    """Return the predicted 1 − R² of plane waves against spherical ones, both of exact rays.
+
+    It is that of two sums at SAMPLES² places in the window that shows the whole PSF, the spherical one by the plane
+    waves that agree with it at the chief ray; 0 for an exit pupil at infinity. Raises GeometryError where rays do not
+    reach the sensor, SamplingError where more than ``most`` nodes are needed.
+    """
+    sphere = exit_sphere(lens, source)
+    if sphere is None:
+        return 0.0
+    half = half_window_um(lens, source)
+    reach = hypot(half, half)
+    counts, axis = first_counts(lens, source, reach, clip, most), centred_axis(SAMPLES, 2 * half / SAMPLES)
+    pupils = RayPupil(lens, source, clip), RayPupil(lens, source, clip, sphere=sphere)
+    plane, own = (_waves_of(pupil, counts, reach).plane.intensity(axis, axis) for pupil in pupils)
+    return 1 - r_squared(plane, own)
+
+
+def worth_spherical(lens: Lens, source: Source, clip: bool) -> bool:
+    """Return whether plane waves are predicted to miss by more than CAUTION; False where that takes too many nodes."""
+    try:
+        return plane_wave_error(lens, source, clip, MOST_TO_CHOOSE) > CAUTION
+    except P2SFError:
+        return False
+
+
+def beyond_plane_waves(lens: Lens, source: Source, sphere: ExitSphere) -> float:
+    """Return the RMS phase, in waves, by which wavelets differ from the plane waves that agree at the chief ray.
+
+    Over a coarse pencil and where its rays land, less the mean over the rays, which no picture shows.
+    """
+    xi, eta, weight = level_rays(levels_for(lens)[0])
+    rays = pencil(lens, source, xi[: weight.size], eta[: weight.size]).arrived
+    seen, length = sphere.seen_from(rays)
+    field = np.ones(rays.dx.size, complex)
+    waves = waves_from(Waves(field, seen.fx, seen.fy, WHOLE, 0.0), sphere, length)
+    assert isinstance(waves, SphericalWaves)
+    turn = np.angle(waves.factor(slice(None), rays.x_um, rays.y_um)) / (2 * pi)
+    return float(np.sqrt(np.mean((turn - turn.mean(0)) ** 2)))
+
+
+def half_window_um(lens: Lens, source: Source) -> float:
+    """Return half the side of the window about the chief ray in which the two sums are compared, µm."""
+    xi, eta, _ = level_rays(levels_for(lens)[0])
+    rays = pencil(lens, source, xi, eta)
+    airy = AIRY_RADIUS / steepness(rays, xi, eta).spread
+    return float(ROOM[0] * np.nanmax(np.hypot(rays.x_um, rays.y_um)) + ROOM[1] * airy)
+
+
+def _waves_of(pupil: RayPupil, counts: Counts, reach_um: float) -> Waves:
+    smooth = interpolated_waves(pupil.lens, pupil.source, counts, reach_um, pupil.sphere) if pupil.whole else None
+    return (smooth or ray_waves(pupil, counts, reach_um)).waves

@@ -1,0 +1,138 @@
+"""A pupil as spherical waves from the reference sphere: their sum is the field, also at small Fresnel numbers.
+
+A wavelet from s arrives at X of the sensor with exp(ik|X − s|)/|X − s| (Kirchhoff's integral: Born & Wolf 1999, eq.
+8.3.7, without its obliquity, which is 1 to second order in the angle of blur and pupil). With L the distance of s from
+the chief ray's point of the sensor, M the direction from s to there and L′ = |X − s|,
+
+    L′ = L + M·X + (|X|² − (M·X)(L′ − L))/(L′ + L).
+
+The first two terms make the wavelet a plane wave. The rest, less that of the chief ray, is the factor by which it
+differs. Over nodes and places this factor is a matrix of small rank: columns at some places, chosen by pivoted QR,
+give all others (Cheng, Gimbutas, Martinsson & Rokhlin 2005), and each column is one sum of plane waves.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import DTypeLike
+
+from p2sf.conventions import UM_PER_MM, FloatOrArray
+from p2sf.psf.sums.plane_waves import Waves
+from p2sf.pupil.domain import WHOLE
+from p2sf.raytrace.exit_sphere import ExitSphere
+
+PROBED = 256  # nodes, and places PROBED_SIDE² of a grid, that show the rank
+PROBED_SIDE = 12
+RANK_ERROR = {np.dtype(np.float64): 1e-6, np.dtype(np.float32): 1e-4}  # of the factor, relative
+SEED = 0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SphericalWaves(Waves):
+    """Spherical waves: plane ones at the chief ray's point of the sensor, and how far away they come from.
+
+    ``length_um``: signed distance of each node from that point; ``chief``: direction cosines along x and y and the
+    distance of the chief ray; ``waves_per_um``: n'/λ. The nodes are of the whole pupil.
+    """
+
+    length_um: np.ndarray
+    chief: tuple[float, float, float]
+    waves_per_um: float
+
+    @property
+    def plane(self) -> Waves:
+        """Return the plane waves that agree with the wavelets at the chief ray's point, to second order beside it."""
+        return Waves(self.amplitude, self.fx, self.fy, WHOLE, self.blur_um, self.reach_um)
+
+    @cached_property
+    def directions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the direction cosines along x and y from each node to the chief ray's point."""
+        return self.fx / self.waves_per_um + self.chief[0], self.fy / self.waves_per_um + self.chief[1]
+
+    def field(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
+        """Return the field over a grid of x and y, µm, (y, x), complex, less the phase that the chief ray adds."""
+        at_x, at_y = (part.ravel() for part in np.meshgrid(x, y))
+        nodes, places = self._skeleton(x, y, RANK_ERROR[np.dtype(dtype)])
+        columns = self.factor(slice(None), at_x[places], at_y[places])
+        shares = np.linalg.lstsq(columns[nodes], self.factor(nodes, at_x, at_y), rcond=None)[0]
+        total: np.ndarray = np.zeros((y.size, x.size), np.result_type(dtype, np.complex64))
+        for column, share in zip(columns.T, shares, strict=True):
+            part = replace(self.plane, amplitude=self.amplitude * column)
+            total += part.field(x, y, dtype) * share.reshape(total.shape)
+        return total
+
+    def factor(self, nodes: slice | np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return by what wavelets differ from plane waves, relative to that of the chief ray, (nodes, places)."""
+        mx, my, length = (part[nodes, None] for part in (*self.directions, self.length_um))
+        more, beyond = _beyond_plane(mx, my, length, x, y)
+        of_chief = _beyond_plane(*self.chief, x, y)[1]
+        turn = np.exp((2j * np.pi * self.waves_per_um) * (beyond - of_chief))
+        factor: np.ndarray = turn * (self.chief[2] / (length + more))
+        return factor
+
+    def near(self, x: float, y: float) -> tuple[float, float, float, float]:
+        """Return what `Waves.near` does, of the plane waves that agree with the wavelets there."""
+        (mx, my), scale = self.directions, self.waves_per_um
+        more, chief_more = _beyond_plane(mx, my, self.length_um, x, y)[0], _beyond_plane(*self.chief, x, y)[0]
+        reach = self.length_um + more
+        # The direction to (x, y) is (L·M + X)/L′.
+        fx, fy = (
+            f + scale * ((place - more * m) / reach - (place - chief_more * c) / (self.chief[2] + chief_more))
+            for f, m, c, place in ((self.fx, mx, self.chief[0], x), (self.fy, my, self.chief[1], y))
+        )
+        turn = np.exp(2j * np.pi * (self.fx * x + self.fy * y))
+        there = self.amplitude * self.factor(slice(None), np.array([x]), np.array([y]))[:, 0] * turn
+        return Waves(there, fx, fy, WHOLE, self.blur_um).near(0.0, 0.0)
+
+    def _skeleton(self, x: np.ndarray, y: np.ndarray, error: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return nodes and places, flat ones of the grid, whose rows and columns give the factor to an error."""
+        from scipy.linalg import qr
+
+        order = np.random.default_rng(SEED).permutation(self.fx.size)[:PROBED]
+        ends = [int(find(f)) for f in (self.fx, self.fy) for find in (np.argmin, np.argmax)]
+        nodes = np.unique(np.append(order, ends))
+        columns, rows = (np.unique(np.linspace(0, axis.size - 1, PROBED_SIDE).round().astype(int)) for axis in (x, y))
+        places = (rows[:, None] * x.size + columns).ravel()
+        at_x, at_y = (part.ravel() for part in np.meshgrid(x[columns], y[rows]))
+        sample = self.factor(nodes, at_x, at_y)
+        upper, chosen = qr(sample, mode="r", pivoting=True)[-2:]
+        diagonal = np.abs(np.diag(upper))
+        rank = max(1, int((diagonal > error * diagonal[0]).sum()))
+        kept = chosen[:rank]
+        rows_kept = qr(sample[:, kept].T, mode="r", pivoting=True)[-1][:rank]
+        return nodes[rows_kept], places[kept]
+
+
+def waves_from(waves: Waves, sphere: ExitSphere | None, length_mm: np.ndarray | None = None) -> Waves:
+    """Return the spherical waves of nodes at these distances from the chief ray's point, (nodes,); plane of no sphere.
+
+    ``waves``: the plane waves that agree with them there (`ExitSphere.seen_from`).
+    """
+    if sphere is None or length_mm is None:
+        return waves
+    amplitude, fx, fy, length = waves.amplitude, waves.fx, waves.fy, length_mm * UM_PER_MM
+    images = waves.domain.images  # the wavelets of mirrored nodes differ beside the axis
+    amplitude, fy, length = (np.tile(part, len(images)) for part in (amplitude / len(images), fy, length))
+    fx = np.concatenate([image * fx for image in images])
+    return SphericalWaves(
+        amplitude,
+        fx,
+        fy,
+        domain=WHOLE,
+        blur_um=waves.blur_um,
+        reach_um=waves.reach_um,
+        length_um=length,
+        chief=(*sphere.chief[:2], sphere.distance * UM_PER_MM),
+        waves_per_um=sphere.waves_per_um,
+    )
+
+
+def _beyond_plane(
+    mx: FloatOrArray, my: FloatOrArray, length: FloatOrArray, x: FloatOrArray, y: FloatOrArray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return L′ − L and what it has beyond M·X, of wavelets at a distance L in the directions M, at places X, µm."""
+    along, square = mx * x + my * y, x * x + y * y
+    far = np.copysign(np.sqrt(length * length + 2 * length * along + square), length)
+    more = (2 * length * along + square) / (far + length)
+    return more, (square - along * more) / (far + length)
