@@ -5,7 +5,7 @@ from PySide6.QtCore import QTimer
 
 from p2sf.messages import Message
 from p2sf.psf.methods import REFERENCE, PsfRequest
-from p2sf.psf.prediction import CAUTION
+from p2sf.psf.prediction import CAUTION, VECTOR_NA
 from p2sf.psf.result import Psf
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
@@ -40,6 +40,9 @@ Y_LABELS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  #
 R_SQUARED_TIP = (
     "R² compares with the Huygens sum of exact rays, or with spherical waves from the exit pupil where plane ones miss "
     "those by more than 0.001; it is predicted until that sum is done, then measured."
+)
+VECTOR_TIP = (
+    "Above NA {na} light is a vector, and sums of scalar waves miss unpolarised light by more than 1 − R² = 0.001."
 )
 TIP = "Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW)."
 
@@ -165,7 +168,7 @@ class PsfPanel:
         measured = None if live.setup.altered or psf.method == "geometric" else r_squared
         times = {name: self._times[name] for name in QUALITIES if name in self._times}
         whole, short = badge_words(live, times, measured, reference)
-        unsure = measured is None and (psf.predicted_error or 0.0) > CAUTION
+        unsure = (measured is None and (psf.predicted_error or 0.0) > CAUTION) or vectors_count(live)
         self.badge.set_text(whole, "warning" if unsure else "text", short)
         self.badge.setToolTip("\n".join((whole, *tip_words(live))))
 
@@ -193,6 +196,13 @@ def badge_words(
     return " · ".join(whole), " · ".join(short)
 
 
+def vectors_count(live: Live) -> bool:
+    """Return whether rays are so steep that scalar light is not enough."""
+    six = live.setup.coefficients
+    tangent = float(six.na) / abs(float(six.image_index))
+    return bool(tangent / np.hypot(1, tangent) > VECTOR_NA)
+
+
 def predicted_words(error: float) -> str:
     """Return the least R² that is predicted, in words."""
     return tr("predicted R² ≥ {r}", r=at_least(1 - error)) if error < 1 else tr("no R² predicted")
@@ -207,6 +217,8 @@ def tip_words(live: Live) -> tuple[str, ...]:
         tr(R_SQUARED_TIP),
         tr(FILLED[live.setup.lens.aim]),
     )
+    if vectors_count(live):
+        lines = (*lines, tr(VECTOR_TIP, na=f"{VECTOR_NA:.2f}"))
     return lines if psf.predicted_error is None else (predicted_words(psf.predicted_error), *lines)
 
 

@@ -107,6 +107,7 @@
 <message><source>Absorption of the glasses: on or off</source><translation>Absorption der Gläser: an oder aus</translation></message>
 <message><source>Accept substitutes</source><translation>Ersatz annehmen</translation></message>
 <message><source>Accuracy</source><translation>Genauigkeit</translation></message>
+<message><source>Above NA {na} light is a vector, and sums of scalar waves miss unpolarised light by more than 1 − R² = 0.001.</source><translation>Über NA {na} ist Licht ein Vektor, und Summen skalarer Wellen verfehlen unpolarisiertes Licht um mehr als 1 − R² = 0,001.</translation></message>
 <message><source>Accuracy: R² = 1 − Σ(reference − PSF)²/Σ(reference − mean)² against a converged sum of traced rays (Huygens).</source><translation>Genauigkeit: R² = 1 − Σ(Referenz − PSF)²/Σ(Referenz − Mittel)² gegen eine auskonvergierte Summe verfolgter Strahlen (Huygens).</translation></message>
 <message><source>Added waves</source><translation>Hinzugefügte Wellen</translation></message>
 <message><source>Airy</source><translation>Airy</translation></message>
