@@ -56,11 +56,14 @@ class ColourScale:
                 (0.5, "0"),
                 *(((1 + k * p) / 2, sign + text) for k, sign in ((-1, "−"), (1, "+")) for p, text in halves),
             )
-        if self.stretch == "log":
-            return tuple((1 - k / DECADES, decade(self.high, k)) for k in range(DECADES + 1))
+        if self.stretch in DECADES:
+            decades = DECADES[self.stretch]
+            steps = range(0, decades + 1, 1 if decades < CLOSE_DECADES else 2)
+            return tuple((1 - k / decades, decade(self.high, k)) for k in steps)
         return tuple((part, short(self.low + (self.high - self.low) * part**power)) for part in QUARTERS)
 
 
+CLOSE_DECADES = 6  # from which on every other one is labelled
 QUARTERS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-SCALES = (("linear", "linear"), ("sqrt", "square root"), ("log", "log"))
+SCALES = (("linear", "linear"), ("sqrt", "square root"), ("log", "log"), ("log8", "log, 8 decades"))
 UNITS = (("peak", "peak = 1"), ("sum", "sum = 1"), ("strehl", "Strehl"))
-DECADES = 5  # shown by the logarithmic scale, below the peak
+DECADES = {"log": 5, "log8": 8}  # shown by the logarithmic scales, below the peak
 
 
 def stretch(values: np.ndarray, scale: str) -> np.ndarray:
@@ -13,4 +13,5 @@ def stretch(values: np.ndarray, scale: str) -> np.ndarray:
         return values
     if scale == "sqrt":
         return np.sqrt(np.maximum(values, 0.0))
-    return 1 + np.log10(np.maximum(values, 10.0**-DECADES)) / DECADES
+    decades = DECADES[scale]
+    return 1 + np.log10(np.maximum(values, 10.0**-decades)) / decades

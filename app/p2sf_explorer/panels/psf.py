@@ -217,9 +217,9 @@ def tip_words(live: Live) -> tuple[str, ...]:
         tr(R_SQUARED_TIP),
         tr(FILLED[live.setup.lens.aim]),
     )
-    if vectors_count(live):
-        lines = (*lines, tr(VECTOR_TIP, na=f"{VECTOR_NA:.2f}"))
-    return lines if psf.predicted_error is None else (predicted_words(psf.predicted_error), *lines)
+    known = () if psf.predicted_error is None else (predicted_words(psf.predicted_error),)
+    beyond = (tr(VECTOR_TIP, na=f"{VECTOR_NA:.2f}"),) if vectors_count(live) else ()
+    return *known, *lines, *beyond
 
 
 def times_words(times: dict[str, str]) -> str:

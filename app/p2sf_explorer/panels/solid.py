@@ -26,7 +26,12 @@ TIP = "3D: the elements up to their clear rims; the wavefront is drawn W·λ ahe
 FILES = "Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)"
 PREPARING = "Preparing the 3D view; this takes some seconds, once."
 FACTORS = "W × {front} along the rays · PSF × {psf} wide, height: {scale} · {wavelength} nm"
-SCALES = {"linear": "brightness", "sqrt": "root of brightness", "log": "logarithm of brightness"}
+SCALES = {
+    "linear": "brightness",
+    "sqrt": "root of brightness",
+    "log": "logarithm of brightness",
+    "log8": "logarithm of brightness",
+}
 
 
 class SolidPanel:

@@ -14,7 +14,7 @@ CHOICES = {
     "stop": ("file", "auto"),
     "aim": AIMS,
     "method": (AUTO, *(method.name for method in METHODS if method.pupil)),
-    "psf_scale": ("linear", "sqrt", "log"),
+    "psf_scale": ("linear", "sqrt", "log", "log8"),
     "psf_units": ("sum", "peak", "strehl"),
     "phase": ("waves", "contour", "surface", "wrapped"),
     "theme": ("system", "light", "dark"),

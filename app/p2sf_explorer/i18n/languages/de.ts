@@ -1392,6 +1392,7 @@
 <message><source>lists are nested too deep or a number is too long; this is not a lens file</source><translation>Listen sind zu tief verschachtelt oder eine Zahl ist zu lang; das ist keine Objektivdatei</translation></message>
 <message><source>locked peak</source><translation>feste Spitze</translation></message>
 <message><source>log</source><translation>log</translation></message>
+<message><source>log, 8 decades</source><translation>log, 8 Dekaden</translation></message>
 <message><source>logarithm of brightness</source><translation>Logarithmus der Helligkeit</translation></message>
 <message><source>luminance</source><translation>Leuchtdichte</translation></message>
 <message><source>luminance, peak = 1</source><translation>Leuchtdichte, Spitze = 1</translation></message>
