@@ -67,6 +67,7 @@ from p2sf.threads import one_blas_thread
 AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
 PITCH_RINGS = 8  # of rays, to estimate the extent of the light
+PLANE_SHARE = 0.5  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
 
@@ -76,9 +77,9 @@ class Choice:
     """The method to use, its predicted 1 − R², its number of coefficients (0: rays), and the basis of the decision.
 
     ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
-    the tolerated 1 − R²; ``seidel_error`` and ``fitted_error``, that of ``fitted_numbers``, are predictions, None where
-    none was made. ``plane_wave_error``: predicted, of plane waves against spherical ones. ``fit``: the fit made for the
-    choice, if the method would make the same.
+    the tolerated 1 − R², less that of plane waves where it counts; ``seidel_error`` and ``fitted_error``, that of
+    ``fitted_numbers``, are predictions, None where none was made. ``plane_wave_error``: predicted, of plane waves
+    against spherical ones. ``fit``: the fit made for the choice, if the method would make the same.
     """
 
     method: str
@@ -209,8 +210,11 @@ def choose(lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False)
     steep = steepness(rays, xi, eta)
     bound = plane_wave_bound(lens, source, rays, weight, steep.light_um) if rays.passed.all() else inf
     if bound > CAUTION and worth_spherical(lens, source, clip):
-        tried = Choice("spherical", SETTLED_TOLERANCE**2, 0, int((~rays.passed).sum()), xi.size, allowed)
-        return replace(tried, plane_wave_error=plane_wave_error(lens, source, clip, MOST_TO_CHOOSE))
+        plane = plane_wave_error(lens, source, clip, MOST_TO_CHOOSE)
+        if plane > PLANE_SHARE * allowed:
+            tried = Choice("spherical", SETTLED_TOLERANCE**2, 0, int((~rays.passed).sum()), xi.size, allowed)
+            return replace(tried, plane_wave_error=plane)
+        allowed -= plane
     if not rays.passed.all():
         # Only rays represent an edge; six coefficients and fits do not.
         lost = int((~rays.passed).sum())
