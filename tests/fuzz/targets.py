@@ -37,7 +37,7 @@ from p2sf_explorer.state.link import state_of_link
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
 
 LAST = "last-input"  # the file with what a fuzzing process tried last, beside its folder of inputs
-ENDINGS = (".toml", ".zmx", ".seq", ".csv", ".json", ".txt", ".dat", ".roa", ".len")
+ENDINGS = (".toml", ".zmx", ".seq", ".csv", ".json", ".txt", ".dat", ".roa", ".len", ".fx")
 OPTIONS = (
     "--depth-mm",
     "--field-deg",

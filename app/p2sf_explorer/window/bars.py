@@ -87,7 +87,7 @@ class TopBar(QFrame):
         """Take a scale of type, which margins and gaps follow."""
         self._row.setContentsMargins(*(round(scale * margin) for margin in (10, 6, 10, 6)))
         self._gap = round(GAP * scale)
-        self.method.setMinimumWidth(round(88 * scale))  # a narrow window cuts its words rather than grow
+        self.method.setMinimumWidth(round(92 * scale))  # a narrow window cuts its words rather than grow
         self.fit()
 
     def minimumSizeHint(self) -> QSize:
@@ -116,7 +116,8 @@ class TopBar(QFrame):
             title = self.lens.sizeHint().width() - self.lens.minimumSizeHint().width()
             read = (title // 9, title // 16, title // 9, 0, 0)[less]  # as much as can be read
             if needed + read <= room:
-                return
+                break
+        self._row.activate()  # at once: parts that came and went may leave the layout at its first answer
 
     def _lay_out(self) -> None:
         self._row = row = QHBoxLayout(self)

@@ -6,6 +6,7 @@ import pytest
 from PySide6.QtWidgets import QApplication, QStyle, QStyleOptionComboBox
 
 from p2sf.errors import P2SFError
+from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.i18n.language import set_language, texts
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons import controller as teaching
@@ -94,7 +95,7 @@ def teaching_german(window, monkeypatch, tmp_path):
     monkeypatch.setattr(teaching, "own_folder", lambda: tmp_path)
     window.store.changed.disconnect(window.teaching.follow)
     set_language("de")
-    made = LessonController(window.store, window, window.lesson_room)
+    made = LessonController(window.store, window, window.lesson_room, lambda: LIGHT)
     yield made
     set_language("en")
     made.leave()

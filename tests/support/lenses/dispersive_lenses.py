@@ -16,6 +16,7 @@ class Sellmeier:
 
     index_d: float
     pole_um2: float = 0.012
+    range_um = None
 
     @property
     def label(self) -> str:
