@@ -96,8 +96,7 @@ def render(
     source : Source
         The point source; by default at infinity, on the axis.
     method : {"auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"}
-        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``, and
-        "spherical" where plane waves, which the others sum, would leave more than 0.001 of 1 − R².
+        How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``.
     pixels : int
         Samples along each side.
     pixel_um : float, optional

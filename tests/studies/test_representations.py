@@ -47,8 +47,8 @@ def error(found, wanted):
 def test_exact_pictures_are_traced_once(space, exact):
     points = space.random(2, 1)
     first = exact.at(points)
-    known = len(exact._known)
-    assert exact.at(points) is not first and len(exact._known) == known and exact.seconds > 0
+    known = len(exact._pictures)
+    assert exact.at(points) is not first and len(exact._pictures) == known and exact.seconds > 0
     assert first[0] == pytest.approx(traced_picture(space, next(points.sources())), abs=1e-7)
     assert first.sum((1, 2)) == pytest.approx(1, abs=1e-5)
 
