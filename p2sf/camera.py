@@ -373,7 +373,7 @@ class Camera(Settings):
         values, depths = real_array("image", image), self._depths(depth_mm)
         planned = self._plan(values, depths, rtol, clip)
         given = None if depths.size == 1 else depths
-        formed: np.ndarray = form_image(planned, values.reshape(*values.shape[:2], -1), given, **how)
+        formed: np.ndarray = form_image(planned, np.asarray(image).reshape(*values.shape[:2], -1), given, **how)
         return formed.reshape(values.shape)
 
     def sharpen(
@@ -414,8 +414,13 @@ class Camera(Settings):
         from p2sf import sharpen_image
 
         values, depths = real_array("photo", photo), self._depths(depth_mm)
+        if depths.size > 1:
+            raise RequestError(
+                "{parameter} has {count} depths; give one, which is made sharp", parameter="depth_mm", count=depths.size
+            )
+        pixels = np.asarray(photo).reshape(*values.shape[:2], -1)
         planned = self._plan(values, depths, rtol, clip)
-        sharp: np.ndarray = sharpen_image(planned, values.reshape(*values.shape[:2], -1), noise=noise, threads=threads)
+        sharp: np.ndarray = sharpen_image(planned, pixels, noise=noise, threads=threads)
         return sharp.reshape(values.shape)
 
     def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:

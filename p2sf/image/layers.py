@@ -22,7 +22,7 @@ CONTINUED, HIDING = 2, 4  # half widths of kernels about an edge: beyond the fir
 class DepthLayer(NamedTuple):
     """A layer's number among the depth nodes, its colours (rows, columns, channels), its opacity (rows, columns).
 
-    ``hiding``: the part of the opacity that hides farther layers; the rest only adds up with theirs.
+    ``hiding``: what hides farther layers, beside jumps in depth; elsewhere layers only add up.
     """
 
     number: int
@@ -42,13 +42,19 @@ def depth_layers(values: np.ndarray, depth_mm: np.ndarray, vergences: np.ndarray
     place, continued, hiding = flat, _beside_jumps(flat, CONTINUED * half), _beside_jumps(flat, HIDING * half)
     for number in range(len(vergences) - 1, -1, -1):
         reaching_on = np.clip(place - (number - 1), 0, 1) if number else np.ones_like(place)
-        opacity = np.where(continued, reaching_on, np.clip(1 - np.abs(flat - number), 0, 1))
+        share = np.clip(1 - np.abs(flat - number), 0, 1)
+        opacity = np.where(continued & (share == 0), reaching_on, share)
         if opacity.any():
-            yield DepthLayer(number, colours, opacity, opacity * hiding)
+            yield DepthLayer(number, colours, opacity, hiding * _hides(flat - number, opacity))
         nearest = _nearest_open(reaching_on >= 1)
         jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
         place = np.minimum(np.where(jumps, place[nearest], place), number - 1)
         colours = np.where(jumps[..., None], colours[nearest], colours)
+
+
+def _hides(beyond: np.ndarray, opacity: np.ndarray) -> np.ndarray:
+    """Return what hides farther layers: of two that share a pixel the farther one, for both, as they add up."""
+    return np.where((beyond > 0) & (beyond < 1), 1.0, np.where((beyond > -1) & (beyond < 0), 0.0, opacity))
 
 
 def _beside_jumps(place: np.ndarray, reach: int) -> np.ndarray:

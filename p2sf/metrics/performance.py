@@ -150,7 +150,7 @@ def _lateral_colour_um(lens: Lens, source: Source) -> float | None:
     ratios = [slope_ratio(lens, source.depth_mm, source.wavelength_um, wave) for wave in ends]
     every = Sources(source.depth_mm, source.field_slope * np.array(ratios), np.array(ends))
     short, long = pencil(seen_from(lens, source.azimuth_deg), every, np.zeros(1), np.zeros(1)).chief_y[..., 0].tolist()
-    return float(UM_PER_MM * (short - long))
+    return float(UM_PER_MM * (abs(short) - abs(long)))
 
 
 @dataclass(frozen=True)

@@ -40,8 +40,13 @@ def test_layers_of_a_slope_add_up_and_those_beside_an_edge_reach_on():
     assert not near.hiding.any() and (far.colours == colours).all()
     depth[0, -1] = 1 / 0.5e-4  # a jump of one and a half nodes
     _, middle, far = depth_layers(colours, depth, nodes, half=3)
-    assert middle.opacity[0] == pytest.approx([0, 0.4, 0.8, 1, 1, 0.5], abs=1e-6)
-    assert (middle.hiding == middle.opacity).all() and (far.opacity == 1).all()
+    assert middle.opacity[0] == pytest.approx([0, 0.4, 0.8, 1, 0.5, 0.5], abs=1e-6)
+    assert middle.hiding[0] == pytest.approx(
+        [0, 0, 0, 1, 1, 0], abs=1e-6
+    )  # of two layers that share a pixel, the farther one hides
+    assert far.opacity[0] == pytest.approx([1, 0.6, 0.2, 1, 1, 0.5], abs=1e-6) and far.hiding[0] == pytest.approx(
+        np.ones(6), abs=1e-6
+    )
 
 
 def test_what_is_hidden_takes_colour_and_depth_of_the_nearest_pixel_beside_it():
@@ -93,8 +98,9 @@ KEPT = ("edge", NEAR_MM), ("edge", BETWEEN_MM), ("wire", FAR_MM)
     ("shape", "focus_mm"),
     in_tiers([(shape, focus) for shape in SHAPES for focus in (NEAR_MM, BETWEEN_MM, FAR_MM)], KEPT),
 )
-def test_every_part_of_the_pupil_sees_what_lies_on_its_ray(shape, focus_mm):
-    """Rays of both depths, each looked up in the scene by itself.
+@pytest.mark.parametrize("between", [False, True], ids=["at nodes", "between nodes"])
+def test_every_part_of_the_pupil_sees_what_lies_on_its_ray(shape, focus_mm, between):
+    """Rays of both depths, each looked up in the scene by itself; depths at nodes, or halfway between two.
 
     With the focus between the two, each part of the pupil sees another part of both, and the mean of the products that
     the rays form is not the product of the means.
@@ -102,10 +108,13 @@ def test_every_part_of_the_pupil_sees_what_lies_on_its_ray(shape, focus_mm):
     scene = Scene(Sensor(41, 41, 20.0), GREEN, NEAR_MM, FAR_MM, focus_mm=focus_mm, f_number=4.0)
     made = preview_plan(scene.camera(find_lens("double_gauss_28")), scene)
     made = replace(made, recipe=BY_RAYS, counts=(1, 1), vergences=(1 / FAR_MM, 1 / NEAR_MM))
+    nodes = tuple(each * factor for each in made.vergences for factor in (0.99, 1.01)) if between else made.vergences
     near = np.broadcast_to(SHAPES[shape](np.arange(41)), (41, 41))
     texture = gaussian_filter(np.random.default_rng(3).normal(size=(41, 41)), 3)
     picture = np.where(near, 0.7, 0.3) + 0.15 * texture / texture.std()
-    found = form_image(made, picture[..., None], np.where(near, NEAR_MM, FAR_MM), BLUR)[..., 0]
+    found = form_image(replace(made, vergences=nodes), picture[..., None], np.where(near, NEAR_MM, FAR_MM), BLUR)[
+        ..., 0
+    ]
     seen = seen_through_pupil(made, near, picture)
     assert np.sqrt(np.mean((found - seen)[10:-10, 10:-10] ** 2)) < (0.03 if focus_mm == BETWEEN_MM else 0.01)
 

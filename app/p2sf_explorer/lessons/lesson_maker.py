@@ -120,14 +120,20 @@ class LessonMaker(QDialog):
         self.name.selectAll()
 
     def add_present(self) -> None:
-        """Add what is on screen as a step."""
-        self._put([self._store.state])
+        """Add what is on screen as a step; a lesson keeps the lens of its first."""
+        state = self._store.state
+        own, first = state.optics, (self.steps[0].state if self.steps else state).optics
+        if (own.lens, own.lens_text) != (first.lens, first.lens_text):
+            self.why.setText(tr("A lesson has one lens; make another lesson for this one"))
+            return
+        self._put([state])
 
     def add_history(self) -> None:
-        """Add the steps of undo of the present lens in place of the steps there are."""
-        kept = {step.state: step for step in self.steps if step.text or step.attempt}
-        self.steps = []
-        self._put(same_lens(self._store.history), kept)
+        """Add the steps of undo of the present lens; steps that have words are kept."""
+        history = same_lens(self._store.history)
+        kept = {step.state: step for step in self.steps}
+        self.steps = [step for step in self.steps if step.state not in history and (step.text or step.attempt)]
+        self._put(history, kept)
 
     def _put(self, states: list[State], kept: dict[State, RecordedStep] | None = None) -> None:
         for state in states:

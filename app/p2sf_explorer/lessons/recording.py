@@ -13,9 +13,9 @@ from p2sf.lensfile.source_text import write_text
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.setup import default_state, prescription, shipped_names
 from p2sf_explorer.lessons.changes import read_changes
-from p2sf_explorer.lessons.lesson import PERSONAL, parse_lesson
+from p2sf_explorer.lessons.lesson import ENTRY, PERSONAL, parse_lesson
 from p2sf_explorer.state.limits import ADDED
-from p2sf_explorer.state.state import ENTRIES, State, change, entry
+from p2sf_explorer.state.state import ENTRIES, State, entry
 from p2sf_explorer.state.terms import TERMS
 from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, with_workspace
 
@@ -107,11 +107,16 @@ def lesson_text(title: str, about: str, steps: Sequence[RecordedStep], lens: str
     for step in steps:
         made = written_changes(last, step.state)
         lines += [f"## {_line(step.title)}", *([f"set: {made}"] if made else []), ""]
-        lines += [f"{line}" if not line.startswith(("## ", "---")) else f" {line}" for line in step.text.splitlines()]
+        lines += [f" {line}" if _means_more(line) else line for line in step.text.splitlines()]
         lines += ["", f"try: {_line(step.attempt)}"] if step.attempt.strip() else []
         lines.append("")
         last = step.state
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _means_more(line: str) -> bool:
+    """Return whether a line of text would be read as a heading, a fence or an entry."""
+    return line.startswith(("## ", "---")) or bool(ENTRY.fullmatch(line))
 
 
 def _line(text: str) -> str:
@@ -132,21 +137,27 @@ def save_lesson(title: str, about: str, steps: Sequence[RecordedStep], folder: P
     first = steps[0].state.optics
     shipped = first.lens_text is None and first.lens in shipped_names()
     lens = first.lens if shipped else path.with_suffix(".toml").name
-    text = lesson_text(title, about or title, steps, lens)
+    text = lesson_text(title, _line(about) or title, steps, lens)
     folder.mkdir(parents=True, exist_ok=True)
     if not shipped:
-        write_text(lens_to_toml(prescription(change(steps[0].state, errors=()))), path.with_suffix(".toml"))
-    parse_lesson(text, path.stem, str(path))
-    write_text(text, path)
+        write_text(lens_to_toml(prescription(steps[0].state)), path.with_suffix(".toml"))
+    try:
+        parse_lesson(text, path.stem, str(path))
+        write_text(text, path)
+    except P2SFError:
+        if not shipped:
+            path.with_suffix(".toml").unlink(missing_ok=True)
+        raise
     return path
 
 
 def _free_path(folder: Path, title: str) -> Path:
-    """Return a path for a lesson of this title that no file has yet."""
+    """Return a path for a lesson of this title, and for its lens beside it, that no file has yet."""
     plain = unicodedata.normalize("NFKD", title.casefold()).encode("ascii", "ignore").decode()
     stem = SHORT.sub("_", plain).strip("_")[:40] or "lesson"
     names = (f"90_{stem}", *(f"90_{stem}_{number}" for number in range(2, 1000)))
-    return next(path for name in names if not (path := folder / f"{name}.md").exists())
+    paths = (folder / f"{name}.md" for name in names)
+    return next(path for path in paths if not path.exists() and not path.with_suffix(".toml").exists())
 
 
 def same_lens(steps: Sequence[State]) -> list[State]:

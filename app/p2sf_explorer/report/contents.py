@@ -6,6 +6,7 @@ from datetime import date
 from typing import TypeVar
 
 from p2sf.camera import Request, explicit_values, set_up
+from p2sf.conventions import NM_PER_UM
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.io.record import versions
 from p2sf.lens.lens import Lens
@@ -32,6 +33,7 @@ from p2sf_explorer.state.link import link
 from p2sf_explorer.state.state import ENTRIES, State, change
 
 T = TypeVar("T")
+OF_THE_SOURCE = "depth_mm", "field_deg", "field_x_deg", "wavelength_nm"
 EVERY = 2  # of the sensor positions that the window draws contrast at
 
 
@@ -174,11 +176,11 @@ def requested_state(name: str, request: Request) -> State:
     lens, first = find_lens(name), default_state(name)
     given = explicit_values(request)
     setup = set_up(lens, request)
-    given |= {"wavelength_nm": 1000 * setup.source.wavelength_um}
+    given |= {"wavelength_nm": NM_PER_UM * setup.source.wavelength_um}
     if given.keys() & {"field_deg", "object_height_mm", "image_height_mm"}:
         given["field_deg"] = setup.field_deg
     given = {key: value for key, value in given.items() if not key.endswith("_height_mm")}
     if all(key in ENTRIES and not (key in ("zoom", "focus_position") and isinstance(given[key], str)) for key in given):
         return change(first, **given)
-    source = {key: given[key] for key in ("depth_mm", "field_deg", "field_x_deg", "wavelength_nm") if key in given}
-    return change(first, lens_text=lens_to_toml(setup.lens), **source)
+    kept = {key: given[key] for key in (*OF_THE_SOURCE, "aim") if key in given}
+    return change(first, lens_text=lens_to_toml(setup.lens), **kept)

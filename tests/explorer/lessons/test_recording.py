@@ -5,6 +5,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
 from p2sf.errors import P2SFError
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.editing import edited_state
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
 from p2sf_explorer.lessons.lesson import read_lesson
@@ -51,13 +53,18 @@ def test_titles_that_are_alike_have_files_of_their_own(tmp_path):
 
 
 def test_what_is_written_cannot_break_the_lesson(tmp_path):
-    words = RecordedStep(START, "A\n## heading", "---\n## no step\nset: nothing", "a\nb")
-    try:
-        lesson = read_lesson(save_lesson("T", "a\nb", [words], tmp_path))
-    except P2SFError:
-        assert not list(tmp_path.iterdir())  # refused whole
-    else:
-        assert len(lesson.steps) == 1
+    text = "---\n## no step\nset: nothing\nnote: x\ntry: y"
+    lesson = read_lesson(save_lesson("T", " ", [RecordedStep(START, "A\n## heading", text, "a\nb")], tmp_path))
+    (step,) = lesson.steps
+    assert [line.strip() for line in step.text.splitlines()] == text.splitlines() and step.attempt == "a b"
+
+
+def test_the_lens_of_another_lesson_stays(tmp_path):
+    (tmp_path / "90_mine.toml").write_text("kept")
+    own = change(START, lens_text=lens_to_toml(find_lens("tessar")))
+    path = save_lesson("Mine", "", [RecordedStep(own, "A")], tmp_path)
+    assert path.stem == "90_mine_2" and path.with_suffix(".toml").is_file()
+    assert (tmp_path / "90_mine.toml").read_text() == "kept"
 
 
 def test_a_lesson_without_title_or_step_is_refused(tmp_path):
