@@ -23,8 +23,8 @@ from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
-from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import QUICK_LEVELS, Choice, PsfOptions, choose, render
+from p2sf.psf.huygens import sum_rays
+from p2sf.psf.methods import QUICK_LEVELS, Choice, PsfOptions, choose, reference_pupil, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import levels
@@ -99,7 +99,7 @@ def trial(lens: Lens, source: Source, tolerance: float) -> Trial | None:
         if pixel * PIXELS * float(c.na) / source.wavelength_um / 2 > STEEPEST:
             return None
         choice = choose(lens, source, tolerance)
-        reference = huygens_psf(lens, source, PIXELS, pixel)
+        reference = sum_rays(reference_pupil(lens, source), (PIXELS, pixel))
     except P2SFError:
         return None
 
@@ -116,7 +116,7 @@ def _cheaper(lens: Lens, source: Source, choice: Choice, pixel: float):
     if choice.method != "seidel":
         yield render(lens, source, "seidel", PIXELS, pixel)
     for level in levels(lens.aim)[: len(QUICK_LEVELS)]:
-        if choice.method in ("traced", "huygens") or level.numbers < choice.numbers:
+        if choice.method in ("traced", "huygens", "spherical") or level.numbers < choice.numbers:
             with suppress(GeometryError):
                 yield fitted_psf(lens, source, PIXELS, pixel, level.numbers)
 
@@ -138,7 +138,7 @@ def summary(outcomes: list[Trial]) -> str:
     lines = []
     for tolerance in TOLERANCES:
         some = [o for o in outcomes if o.tolerance == tolerance]
-        counts = {m: sum(o.method == m for o in some) for m in ("seidel", "fitted", "traced", "huygens")}
+        counts = {m: sum(o.method == m for o in some) for m in ("seidel", "fitted", "traced", "huygens", "spherical")}
         used = ", ".join(f"{method} {count}" for method, count in counts.items() if count)
         wrong, needless = sum(o.wrong for o in some), sum(o.needless for o in some)
         lines.append(f"R² ≥ {tolerance}: {len(some)} points, {used}; {wrong} wrong, {needless} needlessly expensive")

@@ -20,8 +20,8 @@ from p2sf.errors import P2SFError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf import huygens
 from p2sf.psf.compare import r_squared
-from p2sf.psf.huygens import first_counts, huygens_psf
-from p2sf.psf.methods import psf_of
+from p2sf.psf.huygens import first_counts, sum_rays
+from p2sf.psf.methods import psf_of, reference_pupil
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import Live, live
@@ -142,7 +142,7 @@ def on_samples(answer: Live, samples: int) -> float:
         else:
             step //= 2
     some = slice((count - samples * step) // 2, (count + samples * step) // 2, step)
-    reference = huygens_psf(setup.lens, setup.source, samples, psf.pixel_um * step, None, clip=clip)
+    reference = sum_rays(reference_pupil(setup.lens, setup.source, clip), (samples, psf.pixel_um * step), None)
     return r_squared(psf.values[some, some], reference.values)
 
 

@@ -52,7 +52,9 @@ def test_the_sum_is_that_over_the_sphere(name, number, waves):
 @pytest.mark.parametrize("number", [1, 3, 10, 30, 100, 1000])
 def test_the_sum_is_that_over_the_sphere_at_any_fresnel_number(name, number):
     for part in (-1.0, -0.5, 0.0, 0.45):  # at +N/2 waves the sensor is infinitely far
-        assert against_double_sum(name, number, part * min(10, number)) < 1e-6
+        assert (
+            against_double_sum(name, number, part * min(10, number), (200, 640) if number == 1000 else (96, 320)) < 1e-6
+        )
 
 
 def rays_of_segment(radius_mm: float, half_mm: float, distance_mm: float) -> tuple[Rays, np.ndarray]:
@@ -183,7 +185,7 @@ def test_contrast_and_energy_are_those_of_the_samples():
         for parts in (own, plane)
     )
     assert missed < 4e-3 < 7e-3 < off
-    assert wider == pytest.approx(1, abs=3e-3) and narrower < 0.99  # the light beyond the window counts
+    assert wider == pytest.approx(1, abs=3e-3) and 1 - narrower > 3 * abs(wider - 1)  # light beyond the window counts
     assert mtf_of(*own, frequency).predicted_error < 1e-3
 
 

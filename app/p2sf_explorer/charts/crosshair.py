@@ -35,7 +35,7 @@ def place_box(reading: Reading, chart: "Chart", taken: Iterable[QRectF] = ()) ->
     for count in range(max(1, len(reading.values))):
         shorter = replace(reading, values=reading.values[count:])
         box = box_place(marks, size_of(shorter, chart), room, clear, taken)
-        if not any(box.contains(mark) for mark in marks):
+        if box.height() <= room.height() and not any(box.contains(mark) for mark in marks):
             break
     return shorter, box
 

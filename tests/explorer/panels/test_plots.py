@@ -19,7 +19,7 @@ from p2sf_explorer.widgets.copying import copy_menu, data_of, picture_of
 from tests.support.windows.windows import at_rest
 
 # Tables, sliders, photos, a 3D scene; nothing until a picture is measured.
-WITHOUT = {"coefficients", "lens", "misalign", "first_order", "solid", "import", "image", "measured"}
+WITHOUT = {"coefficients", "lens", "misalign", "first_order", "solid", "import", "image", "measured", "performance"}
 KEYS = [entry.key for entry in REGISTRY if entry.key not in WITHOUT]
 LEFT, SHIFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.NoModifier
 
