@@ -102,7 +102,7 @@ class Psf:
     sum_over_peak : float or numpy.ndarray or None
         Sum of the samples in units of the unaberrated peak.
     fresnel_number : float or None
-        a²/(λz) of the exit pupil, of radius a at a distance z from the sensor; infinite of a pupil at infinity.
+        n'a²/(λz) of the exit pupil, of radius a at a distance z from the sensor; infinite of a pupil at infinity.
     plane_wave_error : float or None
         Predicted 1 − R² of plane waves, which every method but `spherical` sums, against spherical ones; None if not
         known. It is not part of ``predicted_error``.

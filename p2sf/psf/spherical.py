@@ -1,8 +1,8 @@
 """The `spherical` method: rays send spherical waves from the exit pupil, true at any Fresnel number (handbook 5.9).
 
-The other methods give each ray a plane wave, the limit of a distant exit pupil. With the Fresnel number N = a²/(λz) of
-a pupil of radius a at a distance z from the sensor, W waves of defocus act as W/(1 + 2W/N), to first order in W/N, for
-spherical waves (Li & Wolf 1984).
+The other methods give each ray a plane wave, the limit of a distant exit pupil. With the Fresnel number N = n'a²/(λz)
+of a pupil of radius a at a distance z from the sensor, W waves of defocus act as W/(1 + 2W/N), to first order in W/N,
+for spherical waves (Li & Wolf 1984).
 
 By theory a ray has the root of its light and of the area dS of the sphere that it spreads over: the field u on the
 sphere conserves energy, |u|²·dS = light·share, and Kirchhoff's integral adds up u·dS. That is the `radiometric`
@@ -46,7 +46,7 @@ def spherical_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
 
 @lru_cache(maxsize=64)
 def fresnel_number(lens: Lens, source: Source) -> float:
-    """Return a²/(λz) of the exit pupil of a source: a its RMS radius times √2, z its distance from the sensor.
+    """Return n'a²/(λz) of the exit pupil of a source: a its RMS radius times √2, z its distance from the sensor.
 
     Infinite of a pupil at infinity. Raises GeometryError where rays of the coarse pencil do not arrive.
     """

@@ -66,10 +66,10 @@ def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
 def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | None = None) -> Foci:
     """Return the foci of exact rays close to the chief ray, equivalent to Coddington's equations.
 
-    They are the two distances along the normal of the sensor, of a curved one along that at its vertex from where the
-    chief ray lands, at which neighbours of the chief ray in some direction of
-    the pupil, `NEAR` from it, cross it; the tangential focus is the one whose neighbours are closer to the direction of
-    the field. ``field_slope`` replaces that of ``source``.
+    They are the two distances at which neighbours of the chief ray in some direction of the pupil, `NEAR` from it,
+    cross it; the tangential focus is the one whose neighbours are closer to the direction of the field. Distances are
+    measured along the normal of the sensor; of a curved sensor along its axis, from the point where the chief ray
+    lands. ``field_slope`` replaces that of ``source``.
     """
     # At a distance z the neighbours are displaced by (M + zN)·(ξ, η), M and N the derivatives of position and slope:
     # this vanishes where −z is an eigenvalue of N⁻¹M.

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from html import escape
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -105,13 +106,15 @@ def _pdf_pages(report: LensReport, words: Style) -> list[Sheet]:
     return pages
 
 
+TITLE_ROOM = 780.0  # points of type times letters that the width of the page has room for
+REASON_LETTERS = 125  # of small type on a line
 MOST_ROWS = 24  # of the prescription on the first page; a page of its own holds twice as many
 ENDS = 0, 40, 66, 98, 126, 144, 178
 
 
 def _first_pages(report: LensReport, words: Style) -> list[Sheet]:
     first = Sheet()
-    first.write(report.title, 15, bold=True)
+    first.write(report.title, min(15.0, TITLE_ROOM / max(1, len(report.title))), bold=True)
     first.y += 1
     first.write(report.source.text(words), grey=True)
     draw_lens(first.axes(EDGE_MM + 8, first.y + 3, WIDE_MM - 2 * EDGE_MM - 8, 62), report.layout)
@@ -152,8 +155,8 @@ def _curve_page(report: LensReport, words: Style) -> Sheet:
     lengths = np.cumsum([max(map(len, [*head.split("\n"), "−00.00"])) for head in heads])
     ends = ((WIDE_MM - 2 * EDGE_MM) * lengths / lengths[-1]).tolist()
     page.table(heads, report.performance.rows(words), ends, min(7.5, 640.0 / lengths[-1]))
-    for why in report.performance.reasons:
-        page.write(why.text(words), 7, grey=True)
+    for line in (line for why in report.performance.reasons for line in wrap(why.text(words), REASON_LETTERS)):
+        page.write(line, 7, grey=True)
     high = (HIGH_MM - 22 - page.y) / 3
     for heading, drawings in curve_drawings(report, words):
         page.put(EDGE_MM, page.y + 4, heading.text(words), 10.5, bold=True)
