@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     )
     from p2sf.export.psf_cube import open_database
     from p2sf.glass.media import Medium, medium
+    from p2sf.image.exposure import expose, raw_numbers
     from p2sf.image.picture import form_image, sharpen_image
     from p2sf.io.psf_files import read_psf, write_psf
     from p2sf.io.psf_plot import draw_psf
@@ -104,6 +105,7 @@ __all__ = [
     "draw_psf",
     "encircled_energy",
     "energy_of_psf",
+    "expose",
     "fit_psf",
     "fit_zernike",
     "form_image",
@@ -117,6 +119,7 @@ __all__ = [
     "open_database",
     "plan",
     "psf_of_opd",
+    "raw_numbers",
     "read_psf",
     "render",
     "sharpen_image",
@@ -170,6 +173,7 @@ _ELSEWHERE = {
     "displaced": "p2sf.lens.misalignment",
     "draw_psf": "p2sf.io.psf_plot",
     "energy_of_psf": "p2sf.metrics.samples",
+    "expose": "p2sf.image.exposure",
     "fit_psf": "p2sf.measure.single_psf",
     "fit_zernike": "p2sf.metrics.opd_pupil",
     "form_image": "p2sf.image.picture",
@@ -180,6 +184,7 @@ _ELSEWHERE = {
     "open_database": "p2sf.export.psf_cube",
     "plan": "p2sf.scene.planning.plan",
     "psf_of_opd": "p2sf.psf.from_opd",
+    "raw_numbers": "p2sf.image.exposure",
     "read_psf": "p2sf.io.psf_files",
     "sharpen_image": "p2sf.image.picture",
     "tolerances": "p2sf.tolerance.yields",

@@ -25,26 +25,31 @@ from p2sf.cli.options import (
 )
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
+from p2sf.files.writing import write_beside
 from p2sf.image.charts import CHARTS, draw_chart
 from p2sf.image.deblur import photo_noise
+from p2sf.image.exposure import check_seed, expose, raw_numbers
 from p2sf.io.photo_files import WRITABLE, read_photo, write_photo
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
-from p2sf.scene import Plan, Scene, plan, read_scene, verify
+from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
+from p2sf.scene.scene import RGB
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
     from p2sf.image.lattice import Lattice
 
 CHART = "chart:"
+RAW = ".npy", ".dng"
 TELL_EVERY_S = 1.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
     "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db), f_number, zoom, focus_position, focus_mm, "
-    "aim, clip; [sensor] rows, columns, pixel_um, centre_mm; [depth] near_mm, far_mm or map; "
-    "[[channel]] name, wavelengths_nm, weights, by default red, green and blue."
+    "aim, clip; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, black_level, mosaic, "
+    "fill_factor; [depth] near_mm, far_mm or map; [[channel]] name, wavelengths_nm, weights, or [filters] curves, "
+    "light, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
@@ -132,6 +137,8 @@ class Shown:
         Sharpen the formed picture with the same kernels.
     noise
         Add noise of this standard deviation, white being 1.
+    seed
+        Of all noise; the same one gives the same picture.
     encoding
         What the picture file's numbers mean; whole numbers are sRGB and floats linear when not given.
     preview
@@ -142,10 +149,12 @@ class Shown:
     surround: Literal["edge", "black"] = "edge"
     deblur: Literal["wiener", "richardson-lucy"] | None = None
     noise: float = 0.0
+    seed: Whole = 0
     encoding: Literal["srgb", "linear"] | None = None
     preview: bool = False
 
     def __post_init__(self) -> None:
+        check_seed(self.seed)
         if not 0 <= self.noise < inf:
             raise RequestError(
                 "{parameter} is {value:g}; give a standard deviation of 0 or more", parameter="noise", value=self.noise
@@ -172,21 +181,25 @@ def image(
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
-    """Form the picture that the lens makes of a scene, and write it as .png or .tif."""
+    """Form the picture that the lens makes of a scene, and write it as .png or .tif, or raw as .npy or .dng."""
     if output is None:
         raise RequestError(
             "there is no {parameter}; say with -o where the picture goes, such as -o out.png", parameter="output"
         )
-    check_output(output, WRITABLE)
+    check_output(output, (*WRITABLE, *RAW))
     glass = find_lens(lens)
     asked = _read_scene(glass, scene)
     _check_kept(output, picture, asked)
+    _check_reading(output, asked, shown)
     values, encoding = source_picture(picture, asked, shown)
     with using_threads(threads):
         formed, facts = _form_picture(glass, asked, values, shown)
-    written = _for_file(formed, asked)
-    write_photo(output, written, encoding)
-    rows, columns = written.shape[:2]
+    if output.suffix.lower() in RAW:
+        encoding = "raw"
+        _write_raw(output, formed, asked.sensor)
+    else:
+        write_photo(output, _for_file(formed, asked), encoding)
+    rows, columns = formed.shape[:2]
     if as_json:
         about = {"file": str(output), "aim": asked.camera(glass).aim, "rows": rows, "columns": columns}
         return print_json({**about, "encoding": encoding, **facts})
@@ -201,6 +214,40 @@ def _check_kept(output: Path, picture: str, scene: Scene) -> None:
     """Raise RequestError where the output would overwrite the picture or the depth map it is made of."""
     for path in filter(None, (None if picture.startswith(CHART) else picture, scene.depth_map)):
         _check_not_input(output, path)
+
+
+def _check_reading(output: Path, scene: Scene, shown: Shown) -> None:
+    """Raise RequestError, before the work, for what does not go with how the sensor counts light."""
+    raw, sensor = output.suffix.lower() in RAW, scene.sensor
+    if output.suffix.lower() == ".dng" and len(scene.channels) != len(RGB):
+        raise RequestError(
+            "{path} holds red, green and blue, but the scene has {count} channels; choose .npy",
+            path=str(output),
+            count=len(scene.channels),
+        )
+    if raw and sensor.bits is None:
+        raise RequestError("{path} holds raw numbers; state the bits of the sensor in the scene", path=str(output))
+    for flag, reason in (
+        ("preview", Message("a preview does not count light as the sensor does") if raw or sensor.mosaic else None),
+        ("deblur", Message("a mosaic has no colours to sharpen") if sensor.mosaic else None),
+        ("noise", Message("the sensor has noise of its own") if sensor.full_well else None),
+    ):
+        if reason and getattr(shown, flag):
+            raise RequestError("{reason}; leave {parameter} out", reason=reason, parameter=flag)
+
+
+def _write_raw(output: Path, reading: np.ndarray, sensor: Sensor) -> None:
+    """Write raw numbers: (rows, columns[, channels]) uint16, or a DNG."""
+    from p2sf.io.dng import RawLevels, write_dng
+
+    numbers = raw_numbers(sensor, reading)
+    numbers = numbers[..., 0] if numbers.shape[-1] == 1 else numbers
+    if output.suffix.lower() == ".npy":
+        write_beside(output, lambda handle: np.save(handle, numbers))
+        return
+    dark, full = np.square(sensor.noise([0.0, 1 / sensor.fill_factor])).tolist()
+    white = sensor.black_level + (sensor.steps or 0)
+    write_dng(output, numbers, RawLevels(sensor.black_level, white, sensor.mosaic, (full - dark, dark)))
 
 
 def _check_not_input(output: Path, path: str) -> None:
@@ -247,27 +294,31 @@ def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -
     depth = depth_map(scene)  # before the plan, which takes seconds
     planned = _make_plan(glass, scene)
     warn(None if planned.meets else TOO_TIGHT)
-    formed = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)
+    light = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)
+    formed = expose(scene.sensor, light, shown.seed)
     facts = {"method": shown.method, "predicted_error": planned.predicted_error}
     if not shown.deblur:
         return formed, facts
     lattice = plan_lattice(planned, planned.vergences[0])  # of the scene's far end
-    return _sharpen(lattice, formed, shown), {**facts, "deblur": shown.deblur}
+    noise = float(scene.sensor.noise(np.mean(light))) or shown.noise
+    return _sharpen(lattice, formed, shown, noise), {**facts, "deblur": shown.deblur}
 
 
 def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
     if not shown.noise:
         return formed
-    noisy: np.ndarray = formed + np.random.default_rng(0).normal(0, shown.noise, formed.shape).astype(np.float32)
+    noisy: np.ndarray = formed + np.random.default_rng(shown.seed).normal(0, shown.noise, formed.shape).astype(
+        np.float32
+    )
     return noisy
 
 
-def _sharpen(lattice: "Lattice", formed: np.ndarray, shown: Shown) -> np.ndarray:
+def _sharpen(lattice: "Lattice", formed: np.ndarray, shown: Shown, noise: float) -> np.ndarray:
     """Return the picture sharpened with its kernels, assuming the noise of 8 bits at least."""
     from p2sf.image.deblur import LEAST_NOISE, richardson_lucy, wiener
 
     if shown.deblur == "wiener":
-        return wiener(formed, lattice, max(shown.noise, LEAST_NOISE))
+        return wiener(formed, lattice, max(noise, LEAST_NOISE))
     return richardson_lucy(formed, lattice)
 
 

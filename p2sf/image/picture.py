@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
 from p2sf.image.deblur import photo_noise, wiener
+from p2sf.image.exposure import expose
 from p2sf.image.form import Forming, check_picture, plan_lattice
 from p2sf.image.form import form_image as form
 from p2sf.scene.planning.plan import Plan
@@ -21,9 +22,10 @@ def form_image(
     *,
     method: Literal["patches", "lowrank"] = "patches",
     surround: Literal["edge", "black"] = "edge",
+    seed: int = 0,
     threads: int | None = None,
 ) -> np.ndarray:
-    """Form the picture that the sensor receives through the lens, with distortion, illumination, blur and pixels.
+    """Form the picture that the sensor reads through the lens, with distortion, illumination, blur and pixels.
 
     Parameters
     ----------
@@ -39,13 +41,16 @@ def form_image(
         With overlapping patches, or with a few kernels for the whole picture.
     surround : {"edge", "black"}
         What surrounds the picture: its outermost pixels repeated, or darkness.
+    seed : int, optional
+        Of the sensor's noise: the same one gives the same picture.
     threads : int, optional
         As for `render`.
 
     Returns
     -------
     numpy.ndarray
-        The formed picture, linear light, float32, shape (rows, columns, channels).
+        The formed picture, linear light, float32, shape (rows, columns, channels); (rows, columns, 1) behind a mosaic.
+        With noise, steps and limits of a sensor that states them, whose raw numbers are `p2sf.raw_numbers` of it.
 
     Raises
     ------
@@ -62,7 +67,7 @@ def form_image(
     """
     depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
     with using_threads(threads):
-        return form(planned, values, depths, Forming(method, surround))
+        return expose(planned.scene.sensor, form(planned, values, depths, Forming(method, surround)), seed)
 
 
 @check_arguments

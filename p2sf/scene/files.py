@@ -2,21 +2,26 @@
 
 import os
 import tomllib
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from p2sf.errors import RequestError
 from p2sf.lens.positions import PARAMETER
 from p2sf.messages import Message
+from p2sf.scene.filters import filter_channels
 from p2sf.scene.scene import CAMERA_PARAMETERS, LIMITS, RGB, USUAL_RTOL, Channel, Scene, limit_of
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", *LIMITS, *CAMERA_PARAMETERS, "clip", "sensor", "depth", "channel"},
-    "sensor": {"rows", "columns", "pixel_um", "centre_mm"},
+    "": {"name", "tolerance", "measure", *LIMITS, *CAMERA_PARAMETERS, "clip", "sensor", "depth", "filters", "channel"},
+    "sensor": {each.name for each in fields(Sensor)},
     "depth": {"near_mm", "far_mm", "map"},
+    "filters": {"curves", "light"},
     "channel": {"name", "wavelengths_nm", "weights"},
 }
+WHOLE = "rows", "columns", "bits", "black_level"
+COUNTING = "full_well", "read_noise", "fill_factor"
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
@@ -68,15 +73,32 @@ def scene_from(table: dict, path: Path) -> Scene:
     if "clip" in table:
         given["clip"] = _flag("clip", table["clip"])
     return Scene(
-        Sensor(
-            _whole(sensor, "rows"), _whole(sensor, "columns"), _number("pixel_um", sensor["pixel_um"]), _pair(sensor)
-        ),
-        channels=tuple(map(_channel, table["channel"])) if "channel" in table else RGB,
+        _sensor(sensor),
+        channels=_channels(table, path),
         near_mm=_number("near_mm", depth.get("near_mm", far)),
         far_mm=far,
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
         **given,
     )
+
+
+def _sensor(table: dict) -> Sensor:
+    given: dict[str, Any] = {key: _number(key, table[key]) for key in ("pixel_um", *COUNTING) if key in table}
+    given |= {key: _whole(table, key) for key in WHOLE if key in table}
+    return Sensor(**given, centre_mm=_pair(table), mosaic=table.get("mosaic"))
+
+
+def _channels(table: dict, path: Path) -> tuple[Channel, ...]:
+    """Return the colours: those of the file, of its filters, or red, green and blue."""
+    filters = table.get("filters")
+    if filters is None:
+        return tuple(map(_channel, table["channel"])) if "channel" in table else RGB
+    if not isinstance(filters, dict) or not isinstance(filters.get("curves"), str):
+        raise RequestError('there is no {key}; write a table [filters] with curves = "FILE.csv" under it', key="curves")
+    _check_keys(filters, "filters")
+    if "channel" in table:
+        raise RequestError("there are both [filters] and [[channel]]; keep one of them")
+    return filter_channels(path.parent / filters["curves"], filters.get("light", "equal"))
 
 
 def _place(key: str, value: Any) -> float | str:

@@ -117,6 +117,12 @@ class Scene:
         check_aim("aim", self.aim)
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
+        if self.sensor.mosaic is not None and len(self.channels) != len(RGB):
+            raise RequestError(
+                "the mosaic {mosaic} needs red, green and blue, but the scene has {count} channels; change one of them",
+                mosaic=self.sensor.mosaic,
+                count=len(self.channels),
+            )
 
     def _check_limit(self) -> None:
         """Raise RequestError for an error that cannot be asked for."""

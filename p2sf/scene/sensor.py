@@ -1,4 +1,4 @@
-"""The rectangle of the sensor and the positions of its pixels."""
+"""The rectangle of the sensor, the positions of its pixels, and how they count light."""
 
 from dataclasses import dataclass
 from math import hypot
@@ -9,36 +9,99 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_fields
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
+from p2sf.messages import Alternatives, ParameterName
+from p2sf.parameters import check_between
 
 LARGEST_SIDE = 2**15
+LARGEST_WELL = 1e9  # electrons, a thousand times what any pixel holds
+MOST_BITS = 16
+MOSAICS = ("rggb", "grbg", "gbrg", "bggr")
+"""Colours of a block of 2 × 2 pixels, row by row from the top."""
 
 
 @dataclass(frozen=True)
 class Sensor:
-    """Rows and columns of square pixels; the rectangle's centre lies at ``centre_mm`` (x, y up) from the axis."""
+    """Rows and columns of square pixels; the rectangle's centre lies at ``centre_mm`` (x, y up) from the axis.
+
+    The pixels are ideal unless it says how they count light. ``full_well``: electrons in a pixel that is full, as light
+    of 1 fills it, whose shot noise is then counted; ``read_noise``: electrons, RMS. ``bits`` of the raw numbers, whose
+    largest is a full pixel; ``black_level``: the number of a dark one. ``mosaic``: one of MOSAICS if each pixel sees
+    one of three colours. ``fill_factor``: the share of the light that arrives on the sensitive part of a pixel; it is
+    a factor only and does not sharpen the picture.
+    """
 
     rows: int
     columns: int
     pixel_um: float
     centre_mm: tuple[float, float] = (0.0, 0.0)
+    full_well: float | None = None
+    read_noise: float = 0.0
+    bits: int | None = None
+    black_level: int = 0
+    mosaic: str | None = None
+    fill_factor: float = 1.0
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for name in ("rows", "columns"):
-            count = getattr(self, name)
-            if not 1 <= count <= LARGEST_SIDE or count % 1:
-                raise RequestError(
-                    "sensor {name} is {count}; give a whole number from 1 to {most}",
-                    name=name,
-                    count=count,
-                    most=LARGEST_SIDE,
-                )
+        self._check_whole("rows", 1, LARGEST_SIDE)
+        self._check_whole("columns", 1, LARGEST_SIDE)
         if not 0 < self.pixel_um < 1e5:
             raise RequestError(
                 "sensor pixel_um is {pitch:g} µm; give a positive pitch below 0.1 m", pitch=self.pixel_um
             )
         if not np.isfinite(self.centre_mm).all():
             raise RequestError("sensor centre_mm is ({centre}); give two finite numbers", centre=tuple(self.centre_mm))
+        self._check_reading()
+
+    def _check_reading(self) -> None:
+        """Raise RequestError for a pixel that cannot count light."""
+        for name, other in (("read_noise", "full_well"), ("black_level", "bits")):
+            if getattr(self, name) and getattr(self, other) is None:
+                raise RequestError(
+                    "{parameter} means nothing without {other}; give both", parameter=name, other=ParameterName(other)
+                )
+        check_between("full_well", self.full_well, 1, LARGEST_WELL)
+        check_between("read_noise", self.read_noise, 0, LARGEST_WELL)
+        if self.bits is not None:
+            self._check_whole("bits", 1, MOST_BITS)
+            self._check_whole("black_level", 0, 2**self.bits - 2)
+        if not 0 < self.fill_factor <= 1:
+            raise RequestError("the fill factor is {fill:g}; give a part above 0 and up to 1", fill=self.fill_factor)
+        if self.mosaic not in (None, *MOSAICS):
+            raise RequestError(
+                'the mosaic "{mosaic}" is unknown; choose {choices}', mosaic=self.mosaic, choices=Alternatives(MOSAICS)
+            )
+
+    def _check_whole(self, name: str, low: int, most: int) -> None:
+        count = getattr(self, name)
+        if not low <= count <= most or count % 1:
+            raise RequestError(
+                "sensor {name} is {count}; give a whole number from {low} to {most}",
+                name=name,
+                count=count,
+                low=low,
+                most=most,
+            )
+
+    @property
+    def steps(self) -> int | None:
+        """Return by how many raw numbers a full pixel exceeds a dark one; None without ``bits``."""
+        return None if self.bits is None else 2**self.bits - 1 - self.black_level
+
+    def noise(self, light: ArrayLike) -> np.ndarray:
+        """Return the standard deviation of a pixel's reading below full well, light of 1 being a full one; shape kept.
+
+        Electrons have the variance of their mean, and a step between raw numbers adds a twelfth of its square (EMVA
+        Standard 1288, release 3.1, section 2.2).
+        """
+        variance = np.zeros(np.shape(light))
+        if self.full_well is not None:
+            electrons = np.maximum(light, 0) * self.fill_factor * self.full_well
+            variance = (electrons + self.read_noise**2) / self.full_well**2
+        if self.steps:
+            variance = variance + 1 / (12 * self.steps**2)
+        deviation: np.ndarray = np.sqrt(variance)
+        return deviation
 
     @property
     def pixel_mm(self) -> float:

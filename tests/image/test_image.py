@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import Cancelled, RequestError
-from p2sf.image import Forming, Progress, form_image, preview, with_noise
+from p2sf.image import Forming, Progress, form_image, preview
 from p2sf.image.charts import draw_chart
 from p2sf.image.form import blur
 from p2sf.image.geometry import distort, distortion_px, illumination
@@ -188,13 +188,6 @@ def test_progress_is_told_and_cancelling_is_heard():
     assert told[-1] == 1 and all(0 < part <= 1 for part in told)
     with pytest.raises(Cancelled):
         form_image(planned, picture, watch=Progress(cancelled=lambda: len(told) > 0))
-
-
-def test_noise_is_apart_and_has_the_variance_of_its_electrons():
-    noisy = with_noise(np.full((200, 200, 1), 0.25), 1000.0, 5.0, seed=3)
-    assert noisy.var() == pytest.approx((250 + 25) / 1e6, rel=0.05)
-    with pytest.raises(RequestError, match="full well"):
-        with_noise(noisy, 0.0)
 
 
 def test_what_does_not_fit_is_one_sentence():

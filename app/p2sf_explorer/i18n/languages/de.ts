@@ -37,6 +37,7 @@
 <message><source>Restore it</source><translation>Wiederherstellen</translation></message>
 <message><source>Save and open</source><translation>Speichern und öffnen</translation></message>
 <message><source>Search titles and texts</source><translation>Titel und Texte durchsuchen</translation></message>
+<message><source>sensor {name} is {count}; give a whole number from {low} to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von {low} bis {most} angeben</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
@@ -44,6 +45,12 @@
 <message><source>Telephoto</source><translation>Teleobjektiv</translation></message>
 <message><source>Text</source><translation>Text</translation></message>
 <message><source>The best focus is about {shift} µm away: {causes} act as defocus, {percent:.0f} % of variance</source><translation>Der beste Fokus ist etwa {shift} µm entfernt: {causes} wirken als Defokus, {percent:.0f} % der Varianz</translation></message>
+<message><source>the mosaic "{mosaic}" is unknown; choose {choices}</source><translation>das Mosaik „{mosaic}“ ist unbekannt; {choices} wählen</translation></message>
+<message><source>the mosaic {mosaic} needs red, green and blue, but the picture has {count} channels; change one of them</source><translation>das Mosaik {mosaic} braucht Rot, Grün und Blau, aber das Bild hat {count} Kanäle; eines von beiden ändern</translation></message>
+<message><source>the mosaic {mosaic} needs red, green and blue, but the scene has {count} channels; change one of them</source><translation>das Mosaik {mosaic} braucht Rot, Grün und Blau, aber die Szene hat {count} Kanäle; eines von beiden ändern</translation></message>
+<message><source>the sensor has no bits, and so no raw numbers; state them</source><translation>der Sensor hat keine Bits und darum keine Rohzahlen; sie angeben</translation></message>
+<message><source>there are both [filters] and [[channel]]; keep one of them</source><translation>es gibt [filters] und [[channel]]; nur eines davon behalten</translation></message>
+<message><source>there is no {key}; write a table [filters] with curves = "FILE.csv" under it</source><translation>{key} fehlt; eine Tabelle [filters] mit curves = "DATEI.csv" darunter schreiben</translation></message>
 <message><source>Title</source><translation>Titel</translation></message>
 <message><source>Wavefronts from a photograph of points</source><translation>Wellenfronten aus der Aufnahme von Punkten</translation></message>
 <message><source>What the stage shows; right-click to choose the parts of this line</source><translation>Was die Bühne zeigt; Rechtsklick wählt die Teile dieser Zeile</translation></message>
@@ -994,7 +1001,6 @@
 <message><source>a diffractive surface</source><translation>eine diffraktive Fläche</translation></message>
 <message><source>a frame of shape {shape}; give rows and columns of counts</source><translation>eine Aufnahme der Form {shape}; Zeilen und Spalten von Zählwerten angeben</translation></message>
 <message><source>a frame without a finite count; check the file and its dark and flat fields</source><translation>eine Aufnahme ohne einen endlichen Zählwert; die Datei und ihr Dunkel- und Hellbild prüfen</translation></message>
-<message><source>a full well of {well:g} and read noise of {noise:g} electrons; give positive ones</source><translation>eine Vollkapazität von {well:g} und ein Ausleserauschen von {noise:g} Elektronen; positive angeben</translation></message>
 <message><source>a glass needs a name and a formula number (NM name formula …); complete it</source><translation>ein Glas braucht Namen und Formelnummer (NM Name Formel …); ergänzen</translation></message>
 <message><source>a gradient index</source><translation>ein Gradientenindex</translation></message>
 <message><source>a lens file of this program, exactly as written</source><translation>eine Objektivdatei dieses Programms, genau wie geschrieben</translation></message>
@@ -1640,7 +1646,6 @@
 <message><source>sensor shift, µm</source><translation>Sensorversatz, µm</translation></message>
 <message><source>sensor stays</source><translation>Sensor bleibt</translation></message>
 <message><source>sensor {key} is {value:g}; give a whole number</source><translation>{key} des Sensors ist {value:g}; eine ganze Zahl angeben</translation></message>
-<message><source>sensor {name} is {count}; give a whole number from 1 to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von 1 bis {most} angeben</translation></message>
 <message><source>settled {ms} ms</source><translation>fertig {ms} ms</translation></message>
 <message><source>share of a panel beside the stage</source><translation>Anteil einer Ansicht neben der Bühne</translation></message>
 <message><source>share of the light, 1/µm²</source><translation>Anteil des Lichts, 1/µm²</translation></message>
@@ -2212,6 +2217,11 @@
 <message><source>track from the first surface to the sensor, mm</source><translation>Baulänge von der ersten Fläche bis zum Sensor, mm</translation></message>
 <message><source>{count} surfaces have radius 0; {number} is the stop</source><translation>{count} Flächen haben den Radius 0; {number} ist die Blende</translation></message>
 <message><source>{name} is {found}; write a number</source><translation>{name} ist {found}; eine Zahl schreiben</translation></message>
+<message><source>{parameter} means nothing without {other}; give both</source><translation>{parameter} bedeutet ohne {other} nichts; beide angeben</translation></message>
+<message><source>{path} cannot be read, {reason}; give the path of a CSV file</source><translation>{path} ist nicht lesbar, {reason}; den Pfad einer CSV-Datei angeben</translation></message>
+<message><source>{path} is not a table of numbers ({reason}); give nm and a column for each channel, names in the first line</source><translation>{path} ist keine Tabelle von Zahlen ({reason}); nm und eine Spalte je Kanal angeben, mit Namen in der ersten Zeile</translation></message>
+<message><source>{path}: give wavelengths that increase, from {low:g} to {high:g} nm, and behind each a response of 0 or more for every channel</source><translation>{path}: steigende Wellenlängen von {low:g} bis {high:g} nm angeben, und zu jeder eine Empfindlichkeit von 0 oder mehr für jeden Kanal</translation></message>
+<message><source>{path}: the curve of {name} has no light; correct it</source><translation>{path}: die Kurve von {name} hat kein Licht; sie berichtigen</translation></message>
 <message><source>{surface} has type {kind}, which is not read; only {known} are</source><translation>{surface} ist von der Art {kind}, die nicht gelesen wird; nur {known} werden gelesen</translation></message>
 <message><source>{what}: the file states {stated:.6g}, its surfaces give {found:.6g} ({off:+.2%})</source><translation>{what}: die Datei nennt {stated:.6g}, ihre Flächen ergeben {found:.6g} ({off:+.2%})</translation></message>
 <message><source>a .zos file is in a form of OpticStudio's own; open it there and save it as .zmx or .zar</source><translation>eine .zos-Datei hat eine eigene Form von OpticStudio; dort öffnen und als .zmx oder .zar speichern</translation></message>
