@@ -26,6 +26,7 @@ LAYERS = (
     "p2sf_explorer.files p2sf_explorer.handbook",
     "p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d",
+    "p2sf_explorer.course",
     "p2sf_explorer.panels p2sf_explorer.playback",
     "p2sf_explorer.window",
     "p2sf_explorer.application",

@@ -1,5 +1,6 @@
-"""`p2sf report`: what an engineer reads first of a lens as a table, and all of it as PDF, HTML or JSON."""
+"""`p2sf report`, what an engineer reads first of a lens, and `p2sf course`, what a lecturer reads of a class."""
 
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -16,6 +17,7 @@ Frequencies = Annotated[
     tuple[float, ...],
     Parameter(consume_multiple=True, negative="", help="Cycles per mm on the sensor; 10 and 30 when not given."),
 ]
+Results = Annotated[Path, Parameter(help="A folder with the files of results that students saved.")]
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
 
 
@@ -58,3 +60,24 @@ def report(
         print_json(report_record(made))
     for why in made.performance.reasons:
         warn(why)
+
+
+def course(*, results: Results, output: Output = None) -> None:
+    """Show the results of a class, students by tasks; write them as CSV with -o."""
+    check_output(output, (".csv",))
+    from p2sf_explorer.course.lectures import find_lectures, task_keys
+    from p2sf_explorer.course.results_table import read_folder, write_table
+
+    lectures, _ = find_lectures()
+    table = read_folder(results, task_keys(lectures.values()))
+    for fault in table.faults:
+        warn(fault.message)
+    if output:
+        write_table(table, output)
+        return
+    rows = []
+    for task in table.tasks:
+        found = table.summary(task)
+        wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
+        rows.append((task, str(found.tried), f"{100 * found.share_right:.0f} %", wrong))
+    print_table(str(results), ("task", "tried", "right", "wrong at first"), rows)

@@ -15,6 +15,8 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.lessons.changes import Changes, LessonError, apply_changes, beside, fault, read_changes
 from p2sf_explorer.lessons.claims import Claim, parse_claim
+from p2sf_explorer.lessons.task import Exercise
+from p2sf_explorer.lessons.task_parsing import TASK, TASK_WORDS, parse_task, parse_words
 from p2sf_explorer.state.limits import SLIDERS
 from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import TEACH, WORKSPACES, with_workspace
@@ -28,9 +30,9 @@ PERSONAL = (
     "colours",
     "scale_percent",
 )  # a lesson changes the optics and leaves these to whoever sits there
-HEADER = ("title", "about", "lens", "state")
-WORDS = ("try", "ask", "tell")
-STEP = ("set", "move", *WORDS, "claim")
+HEADER = ("title", "about", "lens", "state", "lesson")
+WORDS = ("try", "ask", "tell", "note")
+STEP = ("set", "move", *WORDS, "claim", *TASK)
 ENGLISH = "en"
 ENTRY = re.compile(r"([a-z]+):\s*(.*)")
 
@@ -40,7 +42,10 @@ Lines = list[tuple[int, str]]
 
 @dataclass(frozen=True)
 class Step:
-    """One page: what it sets, which slider to ``move``, its text, a question and its answer, and what it claims."""
+    """One page: what it sets, which slider to ``move``, its text, a question and its answer, and what it claims.
+
+    ``note`` is for who teaches; with a ``task`` the question is graded.
+    """
 
     title: str
     changes: Changes
@@ -50,11 +55,17 @@ class Step:
     question: str
     answer: str
     claims: tuple[Claim, ...]
+    note: str = ""
+    task: Exercise | None = None
 
 
 @dataclass(frozen=True)
 class Lesson:
-    """A lesson: its file's stem, title and one sentence about it, the lens and state it begins with, its steps."""
+    """A lesson: its file's stem, title and one sentence about it, the lens and state it begins with, its steps.
+
+    A lecture plays other ``lessons``, by their names. ``attempts`` is how many answers a task takes, 0 for any number;
+    a ``silent`` lesson notes answers and tells nothing of them.
+    """
 
     name: str
     title: str
@@ -63,6 +74,9 @@ class Lesson:
     changes: Changes
     steps: tuple[Step, ...]
     language: str = ENGLISH  # of its words
+    lessons: tuple[str, ...] = ()
+    attempts: int = 0
+    silent: bool = False
 
     def state(self, number: int, like: State = FIRST) -> State:
         """Return the state at a step (from 0), with the PERSONAL entries of ``like``; P2SFError where there is none."""
@@ -145,12 +159,34 @@ def with_words(lesson: Lesson, path: str | os.PathLike[str], language: str) -> L
             there=one if len(parts) == 1 else many,
             count=len(lesson.steps),
         )
-    steps = tuple(_step(part, where, WORDS) for part in parts)
-    translated = tuple(
-        replace(new, changes=old.changes, move=old.move, claims=old.claims)
-        for new, old in zip(steps, lesson.steps, strict=True)
+    steps = tuple(_with_words(old, part, where) for old, part in zip(lesson.steps, parts, strict=True))
+    return replace(lesson, title=found["title"], about=found["about"], steps=steps, language=language)
+
+
+def _with_words(step: Step, lines: Lines, where: str) -> Step:
+    """Return a step with the texts of its lines in another language."""
+    found, text = _entries_of_step(lines, where, (*WORDS, *TASK_WORDS))
+    attempt, question, answer, note = _words(found, lines[0][0], where)
+    return replace(
+        step,
+        title=lines[0][1][3:].strip(),
+        text=text,
+        attempt=attempt,
+        question=question,
+        answer=answer,
+        note=note,
+        task=_task_with_words(step.task, found, lines[0][0], where),
     )
-    return replace(lesson, title=found["title"], about=found["about"], steps=translated, language=language)
+
+
+def _task_with_words(task: Exercise | None, found: dict[str, Lines], number: int, where: str) -> Exercise | None:
+    name, words = parse_words(found)
+    if name != (task.name if task else ""):
+        wanted = task.name if task else Message("none")
+        raise fault(where, number, 'the task of this step is "{wanted}"; name the same', wanted=wanted)
+    if task and words.shape != task.words.shape:
+        raise fault(where, number, "the task has other options or hints than its original; say each in its place")
+    return task and task.with_words(words)
 
 
 def parse_lesson(text: str, name: str, where: str) -> Lesson:
@@ -162,7 +198,8 @@ def parse_lesson(text: str, name: str, where: str) -> Lesson:
         raise fault(
             where, head[-1][0] + 1, "there is no step; begin one with a line such as ## A point becomes a patch"
         )
-    return Lesson(name, *header, steps)
+    title, about, lens, changes, lessons = header
+    return Lesson(name, title, about, lens, changes, steps, lessons=lessons)
 
 
 def _halves(text: str, where: str) -> tuple[Lines, Lines]:
@@ -193,13 +230,14 @@ def _entries(lines: Lines, where: str, allowed: tuple[str, ...]) -> dict[str, tu
     return found
 
 
-def _header(lines: Lines, where: str) -> tuple[str, str, str, Changes]:
-    """Return title, sentence about the lesson, lens and changes."""
+def _header(lines: Lines, where: str) -> tuple[str, str, str, Changes, tuple[str, ...]]:
+    """Return title, sentence about the lesson, lens, changes and the lessons that it plays."""
     found = _entries(lines, where, HEADER)
     changes = read_changes(found["state"][1], found["state"][0], where) if "state" in found else ()
     lens = beside(found["lens"][1], where)
     _check_lens(lens, found["lens"][0], where)
-    return found["title"][1], found["about"][1], lens, changes
+    lessons = tuple(filter(None, (part.strip() for part in found.get("lesson", (0, ""))[1].split(","))))
+    return found["title"][1], found["about"][1], lens, changes, lessons
 
 
 def _parts(lines: Lines, where: str) -> list[Lines]:
@@ -215,7 +253,19 @@ def _parts(lines: Lines, where: str) -> list[Lines]:
     return parts
 
 
-def _step(lines: Lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
+def _step(lines: Lines, where: str) -> Step:
+    found, text = _entries_of_step(lines, where, STEP)
+    changes = tuple(change for number, value in found["set"] for change in read_changes(value, number, where))
+    attempt, question, answer, note = _words(found, lines[0][0], where)
+    claims = tuple(_claim(value, number, where) for number, value in found["claim"])
+    move, task = _move(found["move"], where), parse_task(found, where)
+    if task and not question:
+        raise fault(where, found["task"][0][0], "a task has no question; give both ask: and tell:")
+    return Step(lines[0][1][3:].strip(), changes, move, text, attempt, question, answer, claims, note, task)
+
+
+def _entries_of_step(lines: Lines, where: str, allowed: tuple[str, ...]) -> tuple[dict[str, Lines], str]:
+    """Return the lines of every entry of a step, and the text between them."""
     found: dict[str, Lines] = {name: [] for name in STEP}
     text: list[str] = []
     last: Lines | None = None
@@ -233,22 +283,15 @@ def _step(lines: Lines, where: str, allowed: tuple[str, ...] = STEP) -> Step:
         else:
             last = None
             text.append(line)
-    changes = tuple(change for number, value in found["set"] for change in read_changes(value, number, where))
-    words = {name: " ".join(value for _, value in found[name]) for name in WORDS}
-    if bool(words["ask"]) != bool(words["tell"]):
-        raise fault(where, lines[0][0], "a question and its answer go together; give both ask: and tell:")
-    move = _move(found["move"], where)
-    claims = tuple(_claim(value, number, where) for number, value in found["claim"])
-    return Step(
-        lines[0][1][3:].strip(),
-        changes,
-        move,
-        "\n".join(text).strip(),
-        words["try"],
-        words["ask"],
-        words["tell"],
-        claims,
-    )
+    return found, "\n".join(text).strip()
+
+
+def _words(found: dict[str, Lines], number: int, where: str) -> tuple[str, str, str, str]:
+    """Return what to try, a question, its answer, and a note to who teaches."""
+    attempt, question, answer, note = (" ".join(value for _, value in found[name]) for name in WORDS)
+    if bool(question) != bool(answer):
+        raise fault(where, number, "a question and its answer go together; give both ask: and tell:")
+    return attempt, question, answer, note
 
 
 def _move(found: Sequence[tuple[int, str]], where: str) -> str:

@@ -13,6 +13,8 @@ INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
 NO_UNIT = {"": 1.0}
 NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
+POWER = re.compile(r"\s*[×x*·]\s*10\^?([-+]?\d+|[⁻⁺]?[⁰¹²³⁴-⁹]+)")  # 6.7×10^-3, 6.7·10⁻³
+RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
 SHORTEST_TRAVEL = 1e-300  # to the end: the division overflows nowhere
 FAR_MM = 1e10  # as far as from pole to equator: more digits than anybody reads
 APERTURE = re.compile(r"^\s*([fF]\s*/?|1\s*:)\s*(?=[\d.,])")  # f/5.6, F5.6, f 5.6, 1:5.6
@@ -231,12 +233,13 @@ def read_f_number(text: str) -> float:
 
 
 def read_number(text: str, words: str, units: Mapping[str, float] = NO_UNIT) -> float:
-    """Return the number that a person typed, in the quantity's own unit; a true minus and a decimal comma may be used.
+    """Return the number that a person typed, in the quantity's own unit.
 
-    ``words`` name the quantity in English; ``units`` are the units that may follow the number, with their factors.
-    Anything else raises P2SFError.
+    A true minus, a decimal comma and ×10^ may be used. ``words`` name the quantity in English; ``units`` are the units
+    that may follow the number, with their factors. Anything else raises P2SFError.
     """
     plain = text.strip().replace("−", "-").replace(",", ".").lower()
+    plain = POWER.sub(lambda power: f"e{power[1].translate(RAISED)}", plain, count=1)
     found = NUMBER.fullmatch(plain)
     value, unit = (float(found[1]), found[2]) if found else (inf, "")
     if isinf(value):

@@ -38,6 +38,93 @@
 <message><source>Save and open</source><translation>Speichern und öffnen</translation></message>
 <message><source>Search titles and texts</source><translation>Titel und Texte durchsuchen</translation></message>
 <message><source>sensor {name} is {count}; give a whole number from {low} to {most}</source><translation>{name} des Sensors ist {count}; eine ganze Zahl von {low} bis {most} angeben</translation></message>
+<message><source>"{name}" is no name of a task; use small letters, digits and hyphens</source><translation>"{name}" ist kein Name einer Aufgabe; kleine Buchstaben, Ziffern und Bindestriche verwenden</translation></message>
+<message><source>"{name}:" does not go with "{kind}:"</source><translation>"{name}:" passt nicht zu "{kind}:"</translation></message>
+<message><source>"{text}" is no answer with its tolerance; write one such as {example}</source><translation>"{text}" ist keine Antwort mit Toleranz; eine wie {example} schreiben</translation></message>
+<message><source>After the course: {title}</source><translation>Nach dem Kurs: {title}</translation></message>
+<message><source>Before the course: {title}</source><translation>Vor dem Kurs: {title}</translation></message>
+<message><source>Not yet.</source><translation>Noch nicht.</translation></message>
+<message><source>Not yet: a factor of two is wrong. Radius or diameter?</source><translation>Noch nicht: Ein Faktor zwei stimmt nicht. Radius oder Durchmesser?</translation></message>
+<message><source>Not yet: that is too large.</source><translation>Noch nicht: Das ist zu groß.</translation></message>
+<message><source>Not yet: that is too small.</source><translation>Noch nicht: Das ist zu klein.</translation></message>
+<message><source>Not yet: the digits are right, and the power of ten is not. Check the unit.</source><translation>Noch nicht: Die Ziffern stimmen, die Zehnerpotenz nicht. Die Einheit prüfen.</translation></message>
+<message><source>Not yet: the size is right, and the sign is not.</source><translation>Noch nicht: Der Betrag stimmt, das Vorzeichen nicht.</translation></message>
+<message><source>Not yet: {measure} is {value} and has to be {bounds}.</source><translation>Noch nicht: {measure} ist {value}; verlangt ist {bounds}.</translation></message>
+<message><source>Not yet: “{first}” does not come before “{second}”.</source><translation>Noch nicht: „{first}“ kommt nicht vor „{second}“.</translation></message>
+<message><source>PSFs of the coarse picture</source><translation>Zahl der PSFs des groben Bildes</translation></message>
+<message><source>Petzval focus behind the sensor</source><translation>Petzval-Fokus hinter dem Sensor</translation></message>
+<message><source>RMS that six coefficients leave out</source><translation>RMS, den sechs Koeffizienten auslassen</translation></message>
+<message><source>RMS wavefront error</source><translation>RMS der Wellenfront</translation></message>
+<message><source>Right.</source><translation>Richtig.</translation></message>
+<message><source>R² against the Huygens sum</source><translation>R² gegen die Huygens-Summe</translation></message>
+<message><source>R² against the Huygens sum in the paper's window</source><translation>R² gegen die Huygens-Summe im Fenster der Veröffentlichung</translation></message>
+<message><source>a choice has two options or more, and a star before the right one</source><translation>eine Auswahl hat zwei Antworten oder mehr, und einen Stern vor der richtigen</translation></message>
+<message><source>a goal needs a way there; add a line such as solve: field_deg 10</source><translation>ein Ziel braucht einen Weg dorthin; eine Zeile wie solve: field_deg 10 anfügen</translation></message>
+<message><source>a number</source><translation>eine Zahl</translation></message>
+<message><source>a number in {unit}</source><translation>eine Zahl in {unit}</translation></message>
+<message><source>a task asks for one thing; give one of {names}</source><translation>eine Aufgabe fragt nach einem; eines von {names} angeben</translation></message>
+<message><source>a task has no question; give both ask: and tell:</source><translation>eine Aufgabe hat keine Frage; ask: und tell: angeben</translation></message>
+<message><source>a task needs a name; add a line such as task: my-first-task</source><translation>eine Aufgabe braucht einen Namen; eine Zeile wie task: my-first-task anfügen</translation></message>
+<message><source>a wrong answer needs a hint; write it behind {colons}</source><translation>eine falsche Antwort braucht einen Hinweis; ihn hinter {colons} schreiben</translation></message>
+<message><source>a wrong order has the numbers of all items, such as 2 1 3</source><translation>eine falsche Reihenfolge hat die Nummern aller Einträge, etwa 2 1 3</translation></message>
+<message><source>above {wanted}</source><translation>über {wanted}</translation></message>
+<message><source>an f-number, such as f/8</source><translation>eine Blendenzahl, etwa f/8</translation></message>
+<message><source>an order has two different items or more, parted by semicolons</source><translation>eine Reihenfolge hat zwei verschiedene Einträge oder mehr, durch Semikolons getrennt</translation></message>
+<message><source>answer</source><translation>Antwort</translation></message>
+<message><source>astigmatism W22</source><translation>Astigmatismus W22</translation></message>
+<message><source>below {wanted}</source><translation>unter {wanted}</translation></message>
+<message><source>brightest ring over the peak</source><translation>hellster Ring gegen das Maximum</translation></message>
+<message><source>centroid of the light in y</source><translation>Schwerpunkt des Lichts in y</translation></message>
+<message><source>choose one of the answers</source><translation>eine der Antworten wählen</translation></message>
+<message><source>coma W31</source><translation>Koma W31</translation></message>
+<message><source>defocus Wd</source><translation>Defokus Wd</translation></message>
+<message><source>distortion W11</source><translation>Verzeichnung W11</translation></message>
+<message><source>error of the database by the paper's table 1</source><translation>Fehler der Datenbank nach Tabelle 1 der Veröffentlichung</translation></message>
+<message><source>error of the database with exact interpolation</source><translation>Fehler der Datenbank bei genauer Interpolation</translation></message>
+<message><source>error of the database with linear interpolation</source><translation>Fehler der Datenbank bei linearer Interpolation</translation></message>
+<message><source>field curvature W20</source><translation>Bildfeldwölbung W20</translation></message>
+<message><source>focal length</source><translation>Brennweite</translation></message>
+<message><source>focus of red behind that of blue</source><translation>Fokus für Rot hinter dem für Blau</translation></message>
+<message><source>gain of sharpening</source><translation>Gewinn durch Schärfen</translation></message>
+<message><source>image height</source><translation>Bildhöhe</translation></message>
+<message><source>intensity in the centre over the peak</source><translation>Intensität in der Mitte gegen das Maximum</translation></message>
+<message><source>it has more than {count} bytes</source><translation>sie hat mehr als {count} Bytes</translation></message>
+<message><source>it holds no results of the course</source><translation>sie enthält keine Ergebnisse des Kurses</translation></message>
+<message><source>it is damaged</source><translation>sie ist beschädigt</translation></message>
+<message><source>it was written by another version of the program</source><translation>eine andere Version des Programms hat sie geschrieben</translation></message>
+<message><source>its entry {entry} is damaged</source><translation>ihr Eintrag {entry} ist beschädigt</translation></message>
+<message><source>number of corners of the blur</source><translation>Zahl der Ecken des Flecks</translation></message>
+<message><source>number of spikes</source><translation>Zahl der Strahlen des Sterns</translation></message>
+<message><source>numbers that the method keeps</source><translation>Zahlen, die das Verfahren behält</translation></message>
+<message><source>numerical aperture</source><translation>numerische Apertur</translation></message>
+<message><source>put all items into an order</source><translation>alle Einträge in eine Reihenfolge bringen</translation></message>
+<message><source>radius of 80 % of the light</source><translation>Radius für 80 % des Lichts</translation></message>
+<message><source>radius of the Airy disc</source><translation>Radius des Airy-Scheibchens</translation></message>
+<message><source>radius of the first dark ring</source><translation>Radius des ersten dunklen Rings</translation></message>
+<message><source>rays that the method traces</source><translation>Strahlen, die das Verfahren rechnet</translation></message>
+<message><source>sagittal contrast at 50/mm</source><translation>sagittaler Kontrast bei 50/mm</translation></message>
+<message><source>sagittal focus behind the sensor</source><translation>sagittaler Fokus hinter dem Sensor</translation></message>
+<message><source>sagittal focus of real rays behind the sensor</source><translation>sagittaler Fokus wirklicher Strahlen hinter dem Sensor</translation></message>
+<message><source>spherical aberration W40</source><translation>Öffnungsfehler W40</translation></message>
+<message><source>spikes over the gaps between them</source><translation>Strahlen des Sterns gegen die Lücken dazwischen</translation></message>
+<message><source>spread of the light in x</source><translation>Streuung des Lichts in x</translation></message>
+<message><source>spread of the light in y</source><translation>Streuung des Lichts in y</translation></message>
+<message><source>surface of the stop</source><translation>Fläche der Blende</translation></message>
+<message><source>tangential contrast at 50/mm</source><translation>tangentialer Kontrast bei 50/mm</translation></message>
+<message><source>tangential focus behind the sensor</source><translation>tangentialer Fokus hinter dem Sensor</translation></message>
+<message><source>tangential focus of real rays behind the sensor</source><translation>tangentialer Fokus wirklicher Strahlen hinter dem Sensor</translation></message>
+<message><source>the answer "{text}" is too large; write a number such as 12.5</source><translation>die Antwort "{text}" ist zu groß; eine Zahl wie 12,5 schreiben</translation></message>
+<message><source>the answer has the unit {unit}; write the wrong one in it</source><translation>die Antwort hat die Einheit {unit}; die falsche in ihr schreiben</translation></message>
+<message><source>the task has other options or hints than its original; say each in its place</source><translation>die Aufgabe hat andere Antworten oder Hinweise als ihr Original; jeden an seiner Stelle sagen</translation></message>
+<message><source>the task of this step is "{wanted}"; name the same</source><translation>die Aufgabe dieses Schritts heißt "{wanted}"; dieselbe nennen</translation></message>
+<message><source>{given} numbers are given, {count} are asked for</source><translation>{given} Zahlen sind angegeben, {count} gefragt</translation></message>
+<message><source>{measure} has the unit {unit}; leave the unit out, and ask for a number in it</source><translation>{measure} hat die Einheit {unit}; die Einheit weglassen und nach einer Zahl in ihr fragen</translation></message>
+<message><source>{path} cannot be read: {why}</source><translation>{path} kann nicht gelesen werden: {why}</translation></message>
+<message><source>{path} holds no files of results (.json)</source><translation>{path} enthält keine Ergebnisdateien (.json)</translation></message>
+<message><source>{path} is no folder; choose the one that holds the files of results</source><translation>{path} ist kein Ordner; den mit den Ergebnisdateien wählen</translation></message>
+<message><source>Not yet: this is not the lens of the task. Set the task up again.</source><translation>Noch nicht: Das ist nicht das Objektiv der Aufgabe. Die Aufgabe neu einstellen.</translation></message>
+<message><source>Not yet: waves were added by hand. Set the task up again.</source><translation>Noch nicht: Es wurden Wellen von Hand addiert. Die Aufgabe neu einstellen.</translation></message>
+<message><source>Not yet: the lens was misaligned or aligned. Set the task up again.</source><translation>Noch nicht: Das Objektiv wurde dejustiert oder justiert. Die Aufgabe neu einstellen.</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
