@@ -36,6 +36,11 @@ STEP = ("set", "move", *WORDS, "claim", *TASK)
 ENGLISH = "en"
 ENTRY = re.compile(r"([a-z]+):\s*(.*)")
 
+# Names begin with the number under which a lesson was written, which links keep; this is the order to learn in.
+COURSE = "01 02 17 18 03 21 04 09 05 19 06 20 07 08 10 13 14 16".split()
+APPENDIX = "11 12 15".split()
+NUMBER = re.compile(r"\d+(?=_)")
+
 Lines = list[tuple[int, str]]
 """Lines of a file with their numbers, from 1."""
 
@@ -90,8 +95,15 @@ class Lesson:
 
 @lru_cache(maxsize=1)
 def shipped_lessons() -> tuple[Lesson, ...]:
-    """Return the lessons of the program's folder in the order of their files' names; a bad one raises P2SFError."""
+    """Return the lessons of the program's folder in the order of the course; a bad one raises P2SFError."""
     return tuple(read_lesson(path) for path in lesson_files())
+
+
+def place_in_course(name: str) -> tuple[int, str]:
+    """Return what lessons are sorted by: those of `COURSE`, then those of `APPENDIX`, then others by their names."""
+    order = COURSE + APPENDIX
+    number = NUMBER.match(name)
+    return (order.index(number[0]) if number and number[0] in order else len(order)), name
 
 
 def own_folder() -> Path:
@@ -104,7 +116,7 @@ def own_folder() -> Path:
 def found_lessons(
     folders: tuple[Path, ...], language: str = ENGLISH
 ) -> tuple[dict[str, Lesson], tuple[P2SFError, ...]]:
-    """Return the lessons of these folders by name, in the order of names, and the errors of files that are none.
+    """Return the lessons of these folders by name, in the order of the course, and the errors of files that are none.
 
     A lesson of a later folder replaces one of the same name. Its text is taken from the file of the same name in the
     folder ``language`` beside it, where there is one.
@@ -119,12 +131,13 @@ def found_lessons(
                 found[path.stem] = with_words(found[path.stem], words, language)
         except P2SFError as error:
             faults.append(error)
-    return dict(sorted(found.items())), tuple(faults)
+    return {name: found[name] for name in sorted(found, key=place_in_course)}, tuple(faults)
 
 
 def lesson_files(folder: Path = FOLDER) -> tuple[Path, ...]:
     """Return the lesson files of a folder, in order."""
-    return tuple(sorted(path for path in folder.glob("*.md") if path.name != "README.md"))
+    found = (path for path in folder.glob("*.md") if path.name != "README.md")
+    return tuple(sorted(found, key=lambda path: place_in_course(path.stem)))
 
 
 def read_lesson(path: str | os.PathLike[str]) -> Lesson:

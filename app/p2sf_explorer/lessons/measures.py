@@ -198,6 +198,28 @@ def _beside_centre(live: Live) -> tuple[float, float]:
     return float(fine[dark]), float(values[dark:].max() / values[0])
 
 
+def _valley_over_peak(live: Live) -> float:
+    """Return the light midway between two equal points an Airy radius apart along x over that at either of them.
+
+    Brightness adds: 2·I(r/2) / (I(0) + I(r)), 0.735 for a perfect lens (Rayleigh 1879).
+    """
+    from scipy.interpolate import CubicSpline
+
+    psf = live.psf
+    light = CubicSpline(psf.x_um, psf.values[np.abs(psf.y_um).argmin()])
+    at_point, midway, at_other = light(live.airy_radius_um * np.array([0.0, 0.5, 1.0]))
+    return float(2 * midway / (at_point + at_other))
+
+
+def _signed_contrast(live: Live) -> float:
+    """Return the tangential contrast, below 0 where black and white change places: the sign of Σ light·cos 2πνy."""
+    psf = live.psf
+    light = psf.values.sum(1, dtype=float)
+    away_mm = (psf.y_um - light @ psf.y_um / light.sum()) / UM_PER_MM
+    found = mtf_of(measured_parts(measure_request(live)), "", np.array([CONTRAST_PER_MM]))
+    return float(np.copysign(found.tangential[0], light @ np.cos(2 * np.pi * CONTRAST_PER_MM * away_mm)))
+
+
 def _around(live: Live, radii_um: np.ndarray) -> np.ndarray:
     """Return the mean intensity on these circles about the chief ray, by direction over one turn."""
     from scipy.interpolate import RectBivariateSpline
@@ -243,6 +265,7 @@ MEASURES: dict[str, Measure] = {
     "radius_80_um": of_live(lambda live: _energy(live).radius_80_um),
     "dark_ring_um": of_live(lambda live: _beside_centre(live)[0]),
     "ring_over_peak": of_live(lambda live: _beside_centre(live)[1]),
+    "valley_over_peak": of_live(_valley_over_peak),
     "spikes": of_live(lambda live: _runs(_rays_of_star(live))),
     "spike_over_gap": of_live(lambda live: _rays_of_star(live).max() / np.median(_rays_of_star(live))),
     "blur_corners": of_live(lambda live: _runs(_blur(live))),
@@ -251,6 +274,7 @@ MEASURES: dict[str, Measure] = {
     "spread_y_um": _spread("y"),
     "contrast_tangential": _contrast("tangential"),
     "contrast_sagittal": _contrast("sagittal"),
+    "signed_contrast_tangential": of_live(_signed_contrast),
     **{f"{which}_focus_um": focus_um(which) for which in ASTIGMATISM},
     **{f"real_{which}_focus_um": ray_focus_um(which) for which in ("sagittal", "tangential")},
     "distortion_percent": distortion_percent,

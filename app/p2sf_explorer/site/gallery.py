@@ -39,7 +39,8 @@ def states() -> dict[str, State]:
     pair = new_state(theme="light", pinned=new_state(f_number=8.0), linked=("field_deg",), playback_slider="field_deg")
     for side in CHOICES["shown"]:
         shown[f"compare_{side}"] = change(pair, shown=side)
-    shown["lesson"] = change(shipped_lessons()[4].state(1, new_state(theme="light")), lesson_told=True)
+    coma = next(lesson for lesson in shipped_lessons() if lesson.name == "05_coma")
+    shown["lesson"] = change(coma.state(1, new_state(theme="light")), lesson_told=True)
     shown["german"] = new_state(theme="light", language="de", tab="first_order")
     first = new_state(theme="light")
     return shown | matrices() | {f"{ONE_SIZE}{key}": change(first, **on_stage(first.display, key)) for key in panels}

@@ -6,8 +6,8 @@ from pathlib import Path
 import p2sf
 from p2sf.cli import command_line_markdown
 from p2sf_explorer.handbook.pages import PAGES
+from p2sf_explorer.lessons.lesson import APPENDIX, Lesson, Step, shipped_lessons
 from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
-from p2sf_explorer.lessons.lesson import Lesson, Step, shipped_lessons
 from p2sf_explorer.site.notebooks import SHOWN as NOTEBOOKS
 from p2sf_explorer.site.notebooks import notebook_text
 from p2sf_explorer.site.python_beside import with_python
@@ -99,9 +99,10 @@ def command_line_page() -> str:
 def lessons_page() -> str:
     """Return the list of lessons."""
     rows = [f"1. [{lesson.title}]({lesson.name}.md): {lesson.about}" for lesson in shipped_lessons()]
+    appendix = len(rows) - len(APPENDIX)
     return "\n".join(
-        ("# Lessons", "", "F3 opens them in the window, where every slider can be moved.", "", *rows, "",
-         "A lesson is a file: [write one](format.md).", "")
+        ("# Lessons", "", "F3 opens them in the window, where every slider can be moved.", "", *rows[:appendix], "",
+         "## Appendix", "", *rows[appendix:], "", "A lesson is a file: [write one](format.md).", "")
     )  # fmt: skip
 
 

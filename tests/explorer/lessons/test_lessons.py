@@ -111,6 +111,15 @@ def test_the_course_is_whole():
     assert shipped_lessons() == tuple(LESSONS)
 
 
+def test_lessons_come_in_the_order_of_the_course_and_own_ones_behind_them(tmp_path):
+    numbers = [int(lesson.name[:2]) for lesson in LESSONS]
+    assert numbers == [1, 2, 17, 18, 3, 21, 4, 9, 5, 19, 6, 20, 7, 8, 10, 13, 14, 16, 11, 12, 15]
+    for name in ("99_own", "00_own", "own"):
+        (tmp_path / f"{name}.md").write_text(GOOD, encoding="utf-8")
+    found, _ = found_lessons((FOLDER, tmp_path))
+    assert list(found) == [*(lesson.name for lesson in LESSONS), "00_own", "99_own", "own"]
+
+
 def test_steps_go_on_from_one_another_and_a_lens_begins_anew():
     lesson = parsed(GOOD)
     first, second = lesson.state(0), lesson.state(1)

@@ -91,7 +91,7 @@ def test_bad_words_are_one_sentence_and_the_lesson_is_told_as_it_was_written(tmp
 @pytest.fixture
 def teaching_german(window, monkeypatch, tmp_path):
     """Yield what teaches in German, in place of the window's own, and a person's own lesson, which is in English."""
-    (tmp_path / "99_own.md").write_bytes((FOLDER / NAMES[2]).read_bytes())
+    (tmp_path / "99_own.md").write_bytes((FOLDER / "03_defocus.md").read_bytes())
     monkeypatch.setattr(teaching, "own_folder", lambda: tmp_path)
     window.store.changed.disconnect(window.teaching.follow)
     set_language("de")
@@ -118,7 +118,7 @@ def test_the_page_speaks_german_and_says_once_where_it_cannot(teaching_german, w
     assert panel.title.text() == "A quarter of a wave" and panel.choice.count() == len(NAMES) + 1
     teaching_german.begin("03_defocus")
     assert (
-        panel.title.text() == "Eine viertel Welle" and panel.choice.currentText() == "3  Defokus, und die Grenze 10 λ"
+        panel.title.text() == "Eine viertel Welle" and panel.choice.currentText() == "5  Defokus, und die Grenze 10 λ"
     )
 
 

@@ -253,6 +253,21 @@ def beside_centre(state: State) -> tuple[float, float]:
     return float(radius[dark]), float(values[dark:].max() / values[0])
 
 
+def valley_over_peak(state: State) -> float:
+    """Return the light midway between two points an Airy radius apart, over that at either: plain sums, added."""
+    radius = airy_radius(state)
+    places = np.array([-radius / 2, 0.0, radius / 2])  # about the middle, with the points at its ends
+    one, other = (intensity(state, places + shift, np.zeros(1), FEW_CELLS)[0] for shift in (radius / 2, -radius / 2))
+    both = one + other
+    return float(both[1] / both[0])
+
+
+def signed_contrast(state: State) -> float:
+    """Return the real part of the OTF along y about the centroid at 50 cycles per mm."""
+    found = sums(state)
+    return float(np.interp(50.0, found.frequency, found.y.real))
+
+
 def around(state: State, radii_um: np.ndarray) -> np.ndarray:
     """Return the mean intensity on circles by direction, 2° apart, of what was put into the pupil by hand.
 
@@ -485,6 +500,7 @@ REFEREE: dict[str, Callable[[State], float]] = {
     "radius_80_um": radius_80,
     "dark_ring_um": lambda state: beside_centre(state)[0],
     "ring_over_peak": lambda state: beside_centre(state)[1],
+    "valley_over_peak": valley_over_peak,
     "spikes": lambda state: bright_directions(spikes(state)),
     "spike_over_gap": lambda state: float(spikes(state).max() / np.median(spikes(state))),
     "blur_corners": lambda state: bright_directions(blur(state)),
@@ -493,6 +509,7 @@ REFEREE: dict[str, Callable[[State], float]] = {
     "spread_y_um": spread(0),
     "contrast_tangential": contrast("y"),
     "contrast_sagittal": contrast("x"),
+    "signed_contrast_tangential": signed_contrast,
     "petzval_focus_um": third_order_focus(-0.5),
     "sagittal_focus_um": third_order_focus(0.0),
     "tangential_focus_um": third_order_focus(1.0),
