@@ -1,8 +1,9 @@
-"""The blur of a lattice as a linear operator, for methods that apply it and its transpose many times.
+"""The blur of a lattice as a linear operator, and its transpose.
 
-The picture is cut into blocks between the nodes. A block's blur is the sum over its corner nodes n of K_n ⊛ (w_n·x)
-with hat weights w_n, which is added up in the spectrum: four forward transforms and one inverse, one and four for the
-transpose. The kernels' spectra are computed once. The sum is that of `overlap.overlap_add` (Nagy & O'Leary 1998, §3).
+A source pixel's light is spread by the weighted kernels of the four nodes around it, so that its sum is kept: kernels
+are interpolated linearly between nodes (overlap-add, Nagy & O'Leary 1998, §3). The picture is cut into blocks between
+the nodes. A block's blur is the sum over its corner nodes n of K_n ⊛ (w_n·x) with hat weights w_n, which is added up in
+the spectrum: four forward transforms and one inverse, one and four for the transpose. Blocks without light take none.
 """
 
 from collections.abc import Iterator
@@ -14,8 +15,9 @@ from math import ceil, log2
 import numpy as np
 
 from p2sf.image.lattice import Lattice
+from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.threads import for_each, map_threads, one_blas_thread
+from p2sf.threads import for_each, one_blas_thread
 
 SHORTEST, LONGEST = (
     16,
@@ -41,29 +43,41 @@ class Blocks:
 
 @dataclass(frozen=True, eq=False)
 class BlurOperator:
-    """The blur H of a lattice on pictures (rows, columns, channels) of one shape, black beyond their edge.
+    """The blur H of a lattice on pictures (rows, columns, planes) of one shape, black beyond their edge.
 
+    ``channels``: the channel whose kernels blur each plane; by default there are as many planes as channels.
     ``threads`` (`p2sf.threads`) share the blocks; the result is identical to the last bit for any number.
     """
 
     lattice: Lattice
     shape: tuple[int, int]
     threads: int | None = None
+    channels: tuple[int, ...] | None = None
 
-    @one_blas_thread
     def forward(self, values: np.ndarray) -> np.ndarray:
         """Return the blurred picture H·values on its own pixels, float32."""
+        half = self.lattice.half
+        return self.spread(values)[half : half + self.shape[0], half : half + self.shape[1]]
+
+    @one_blas_thread
+    def spread(self, values: np.ndarray, watch: Progress | None = None) -> np.ndarray:
+        """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, planes) float32.
+
+        ``watch`` is asked for cancellation at every block.
+        """
         half, planes = self.lattice.half, np.moveaxis(np.asarray(values, np.float32), -1, 0)
         out = np.zeros((len(planes), *(n + 2 * half for n in self.shape)), np.float32)
 
-        def take(found: tuple[int, range, np.ndarray]) -> None:
+        def take(found: tuple[int, np.ndarray, np.ndarray]) -> None:
             row, columns, blurred = found
             for column, block in zip(columns, blurred, strict=True):
                 down, right = self._extent(row, column, 2 * half)
                 out[:, down, right] += block[:, : down.stop - down.start, : right.stop - right.start]
+            if watch is not None:
+                watch.check()
 
-        for_each(lambda job: (*job, self._blur_blocks(planes, *job)), self._jobs, take, self.threads)
-        return np.moveaxis(out[:, half : half + self.shape[0], half : half + self.shape[1]], 0, -1)
+        for_each(lambda job: (job[0], *self._blur_blocks(planes, *job)), self._jobs, take, self.threads)
+        return np.moveaxis(out, 0, -1)
 
     @one_blas_thread
     def transposed(self, values: np.ndarray) -> np.ndarray:
@@ -72,7 +86,7 @@ class BlurOperator:
         planes = np.pad(np.moveaxis(np.asarray(values, np.float32), -1, 0), ((0, 0), (half, half), (half, half)))
         out = np.empty((len(planes), *self.shape), np.float32)
 
-        def take(found: tuple[int, range, np.ndarray]) -> None:
+        def take(found: tuple[int, np.ndarray, np.ndarray]) -> None:
             row, columns, weighted = found
             for column, block in zip(columns, weighted, strict=True):
                 down, right = self._extent(row, column)
@@ -81,8 +95,8 @@ class BlurOperator:
         for_each(lambda job: (*job, self._correlate_blocks(planes, *job)), self._jobs, take, self.threads)
         return np.moveaxis(out, 0, -1)
 
-    def _blur_blocks(self, planes: np.ndarray, row: int, columns: range) -> np.ndarray:
-        """Return Σ K_n ⊛ (w_n·x) of some blocks of a row, (blocks, channels, *fast).
+    def _blur_blocks(self, planes: np.ndarray, row: int, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return Σ K_n ⊛ (w_n·x) of those of a row of blocks that have light: their columns, (blocks, planes, *fast).
 
         The weights are products of one along rows and one along columns, so that the transform along the columns' axis
         is done before the weights of the other are applied.
@@ -91,37 +105,44 @@ class BlurOperator:
 
         rows, across = self._axes
         blocks = self._gather(planes, row, columns, 0)
-        weighted = blocks[:, None] * across.weights[columns.start : columns.stop, :, None, None]
+        lit = blocks.any((1, 2, 3))
+        blocks, columns = blocks[lit], columns[lit]
+        if not len(columns):
+            return columns, blocks
+        weighted = blocks[:, None] * across.weights[columns, :, None, None]
         half_done = scipy.fft.rfft(weighted, across.fast)
         total: np.ndarray | None = None
         for node, weight in enumerate(rows.weights[row]):
             spectra = scipy.fft.fft(half_done * weight[:, None], rows.fast, axis=-2, overwrite_x=True)
-            spectra *= self._spectra_at(row, node, columns)
+            self._times_kernels(spectra, row, node, columns)
             part = spectra.sum(1)
             total = part if total is None else np.add(total, part, out=total)
         blurred: np.ndarray = scipy.fft.irfft2(total, (rows.fast, across.fast), overwrite_x=True)
-        return blurred
+        return columns, blurred
 
-    def _correlate_blocks(self, planes: np.ndarray, row: int, columns: range) -> np.ndarray:
-        """Return Σ w_n·(K_n ⋆ y) of some blocks of a row, (blocks, channels, longest row, longest column)."""
+    def _correlate_blocks(self, planes: np.ndarray, row: int, columns: np.ndarray) -> np.ndarray:
+        """Return Σ w_n·(K_n ⋆ y) of some blocks of a row, (blocks, planes, longest row, longest column)."""
         import scipy.fft
 
         rows, across = self._axes
         spectra = scipy.fft.rfft2(
             self._gather(planes, row, columns, 2 * self.lattice.half), (rows.fast, across.fast), overwrite_x=True
         )
-        total: np.ndarray | None = None
+        # conj(x)·K is the conjugate of x·conj(K).
+        conjugate, total = np.conj(spectra, out=spectra), None
         for node, weight in enumerate(rows.weights[row]):
-            products = spectra[:, None] * np.conj(self._spectra_at(row, node, columns))
+            products = np.repeat(conjugate[:, None], across.weights.shape[1], axis=1)
+            self._times_kernels(products, row, node, columns)
+            np.conj(products, out=products)
             part = scipy.fft.ifft(products, axis=-2, overwrite_x=True)[..., : len(weight), :] * weight[:, None]
             total = part if total is None else np.add(total, part, out=total)
         length = across.weights.shape[-1]
         both = scipy.fft.irfft(total, across.fast, overwrite_x=True)[..., :length]
-        weighted: np.ndarray = (both * across.weights[columns.start : columns.stop, :, None, None]).sum(1)
+        weighted: np.ndarray = (both * across.weights[columns, :, None, None]).sum(1)
         return weighted
 
-    def _gather(self, planes: np.ndarray, row: int, columns: range, more: int) -> np.ndarray:
-        """Return blocks of a row, each ``more`` pixels longer each way, (blocks, channels, rows, columns)."""
+    def _gather(self, planes: np.ndarray, row: int, columns: np.ndarray, more: int) -> np.ndarray:
+        """Return blocks of a row, each ``more`` pixels longer each way, (blocks, planes, rows, columns)."""
         longest = (axis.weights.shape[-1] + more for axis in self._axes)
         out = np.zeros((len(columns), len(planes), *longest), np.float32)
         for block, column in zip(out, columns, strict=True):
@@ -136,54 +157,54 @@ class BlurOperator:
             slice(int(columns.starts[column]), int(columns.stops[column]) + more),
         )
 
-    def _spectra_at(self, row: int, node: int, columns: range) -> np.ndarray:
-        """Return the spectra at one of a row of blocks' node rows, (blocks, nodes, channels, frequencies)."""
+    def _times_kernels(self, spectra: np.ndarray, row: int, node: int, columns: np.ndarray) -> None:
+        """Multiply spectra of a row of blocks, (blocks, nodes, planes, frequencies), by those of a line of nodes."""
         rows, across = self._axes
-        last, count = (len(self.lattice.row_nodes) - 1, len(self.lattice.column_nodes) - 1), across.weights.shape[1]
+        last = len(self.lattice.row_nodes) - 1, len(self.lattice.column_nodes) - 1
         a = min(rows.first[row] + node, last[0])  # a node beyond the last one has no weight
-        b = np.minimum(across.first[columns.start : columns.stop, None] + np.arange(count), last[1])
-        if self._all_spectra is not None:
-            kept: np.ndarray = self._all_spectra[a][b]
-            return kept
-        wanted = range(b.min(), b.max() + 1)
-        found: np.ndarray = self._spectra(a, wanted)[b - wanted.start]
-        return found
+        for block, first in zip(spectra, across.first[columns].tolist(), strict=True):
+            for number, planes in enumerate(block):
+                kernels = self._spectrum(a, min(first + number, last[1]))
+                for plane, channel in zip(planes, self.channels or range(len(planes)), strict=True):
+                    plane *= kernels[channel]
 
     @cached_property
     def _axes(self) -> tuple[Blocks, Blocks]:
         return best_blocks((self.lattice.row_nodes, self.lattice.column_nodes), self.shape, 2 * self.lattice.half)
 
     @cached_property
-    def _jobs(self) -> list[tuple[int, range]]:
-        """Return which blocks are transformed together: the row, and a range of columns."""
+    def _jobs(self) -> list[tuple[int, np.ndarray]]:
+        """Return which blocks are transformed together: the row, and their columns."""
         rows, columns = self._axes
-        together = max(1, TOGETHER // (rows.fast * columns.fast * self.lattice.channels))
+        together = max(1, TOGETHER // (rows.fast * columns.fast * len(self.channels or range(self.lattice.channels))))
         count = len(columns.starts)
         starts = range(0, count, ceil(count / ceil(count / together)))
-        return [(row, range(s, min(s + starts.step, count))) for row in range(len(rows.starts)) for s in starts]
+        parts = [np.arange(s, min(s + starts.step, count)) for s in starts]
+        return [(row, part) for row in range(len(rows.starts)) for part in parts]
 
     @cached_property
-    def _all_spectra(self) -> np.ndarray | None:
-        """Return all spectra, (row nodes, column nodes, channels, frequencies) complex64, or None if they are large."""
+    def _kept(self) -> dict[tuple[int, int], np.ndarray] | None:
+        """Return where the kernels' spectra are kept from use to use, None if they are large."""
         a, b = (len(nodes) for nodes in (self.lattice.row_nodes, self.lattice.column_nodes))
         rows, columns = self._axes
         if 8 * a * b * self.lattice.channels * rows.fast * (columns.fast // 2 + 1) > KEPT_BYTES:
             return None
-        return np.stack(map_threads(lambda line: self._spectra(line, range(b)), range(a), self.threads))
+        return {}
 
-    def _spectra(self, line: int, columns: range) -> np.ndarray:
-        """Return the spectra of some nodes of a line, (nodes, channels, frequencies)."""
+    def _spectrum(self, a: int, b: int) -> np.ndarray:
+        """Return the spectra of a node's kernels, (channels, frequencies) complex64."""
         import scipy.fft
 
-        size = 2 * self.lattice.half + 1
-        kernels = np.zeros((len(columns), self.lattice.channels, size, size), np.float32)
-        for padded, column in zip(kernels, columns, strict=True):
-            kernel = self.lattice.kernels[line][column]
-            edge = (size - kernel.shape[-1]) // 2
-            padded[:, edge : size - edge, edge : size - edge] = kernel
+        if self._kept is not None and (a, b) in self._kept:
+            return self._kept[a, b]
+        size, kernel = 2 * self.lattice.half + 1, self.lattice.kernels[a][b]
+        padded, edge = np.zeros((len(kernel), size, size), np.float32), (size - kernel.shape[-1]) // 2
+        padded[:, edge : size - edge, edge : size - edge] = kernel
         rows, across = self._axes
-        spectra: np.ndarray = scipy.fft.rfft2(kernels, (rows.fast, across.fast))
-        return spectra
+        spectrum: np.ndarray = scipy.fft.rfft2(padded, (rows.fast, across.fast))
+        if self._kept is not None:
+            self._kept[a, b] = spectrum
+        return spectrum
 
 
 def best_blocks(nodes: tuple[np.ndarray, np.ndarray], shape: tuple[int, int], more: int) -> tuple[Blocks, Blocks]:
@@ -203,7 +224,7 @@ def _cost(rows: Blocks, columns: Blocks) -> float:
 
 def _options(nodes: np.ndarray, pixels: int, more: int) -> Iterator[Blocks]:
     """Yield ways to cut an axis: for several lengths, the cells between nodes merged up to it, or split down to it."""
-    cells = np.unique([0, *np.ceil(nodes[1:-1]).astype(int), pixels])
+    cells = np.unique([0, *np.clip(np.ceil(nodes[1:-1]).astype(int), 0, pixels), pixels])
     cell, length = int(np.diff(cells).max()), SHORTEST
     while length <= max(LONGEST, 2 * more):
         if length >= cell:

@@ -11,7 +11,6 @@ import numpy as np
 from p2sf.errors import RequestError
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.lattice import Lattice
-from p2sf.image.overlap import support
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each, one_blas_thread
@@ -70,6 +69,12 @@ def wiener(
 
     for_each(sharpen_patch, product(range(len(by_row)), range(len(by_column))), take, threads)
     return np.moveaxis(out, 0, -1)
+
+
+def support(weight: np.ndarray) -> slice:
+    """Return the range in which a window is not zero."""
+    inside = np.flatnonzero(weight)
+    return slice(int(inside[0]), int(inside[-1]) + 1) if inside.size else slice(0, 1)
 
 
 def _wiener_filter(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.ndarray:

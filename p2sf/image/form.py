@@ -3,25 +3,29 @@
 See handbook 10.1.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache, cached_property
+from threading import Lock
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import real_array
 from p2sf.errors import RequestError
-from p2sf.image.geometry import distort, illumination
-from p2sf.image.lattice import Lattice, build_lattice
-from p2sf.image.layers import DepthLayer, depth_layers
-from p2sf.image.lowrank import decompose, low_rank_blur
-from p2sf.image.overlap import overlap_add
+from p2sf.image.blur_operator import BlurOperator
+from p2sf.image.geometry import illumination, region_of, resample, source_places
+from p2sf.image.lattice import Lattice, NodeKernels, known_kernels
+from p2sf.image.layers import CONTINUED, DepthMap, map_depths
+from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
+from p2sf.image.region import Region, tiles, whole
 from p2sf.messages import Alternatives
+from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
-from p2sf.threads import map_threads, one_blas_thread
+from p2sf.threads import for_each, map_threads, one_blas_thread
 
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
@@ -29,6 +33,9 @@ LIGHT_HEIGHTS = 4, 9  # heights at which illumination is computed, for a preview
 SAME_DEPTH = 1e-6  # a relative difference due to float32
 LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
+TILE = 1024  # pixels a side of what is formed at a time: larger ones share more, and take more memory
+TILE_STEPS = 64  # of progress
+KEPT_BYTES = 2**28  # of kernels of depth nodes; those least recently used are computed again when they are needed
 
 
 @dataclass(frozen=True)
@@ -76,23 +83,198 @@ def form_image(
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given if it is
-    known. Raises RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when
-    ``watch`` is cancelled.
+    known. Threads (`p2sf.threads`) share tiles of the picture, which bound the memory. Raises RequestError for shapes
+    that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is cancelled.
     """
     picture, watch = check_picture(planned.scene, values), watch or Progress()
+    kernels = DepthKernels(planned, watch)
     if depth_mm is None:
-        placed, lattice = _placed_and_lattice(planned, picture, how, watch, lattice)
-        return _cropped_blur(planned, placed, lattice, how, watch)
-    _check_depths(planned.scene, depth_mm)
-    light, covered, passing = np.zeros_like(picture), np.zeros_like(picture[..., :1]), np.ones_like(picture[..., :1])
-    for layer in depth_layers(picture, np.asarray(depth_mm), np.array(planned.vergences), _largest_half(planned)):
-        lattice = _with_middle_twice(plan_lattice(planned, planned.vergences[layer.number], watch))
-        blurred = _cropped_blur(planned, _placed_layer(planned, layer, how), lattice, how, watch)
-        light += passing * blurred[..., :-2]
-        covered += passing * blurred[..., -2:-1]
-        passing *= np.clip(1 - blurred[..., -1:], 0, 1)
-    found: np.ndarray = light / np.maximum(covered, LEAST_COVERAGE)
-    return found
+        kernels.keep(0, lattice or kernels.over(0, whole(picture.shape)))
+        depths, half = None, kernels.over(0, whole(picture.shape)).half
+    else:
+        _check_depths(planned.scene, depth_mm)
+        half = _largest_half(planned)
+        depths = map_depths(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2], half)
+    former = _Former(planned, picture, depths, how, half, kernels, watch)
+    out, parts = np.empty_like(picture), list(tiles(picture.shape, TILE))
+    watch.expect(TILE_STEPS * len(parts))
+
+    def take(formed: tuple[Region, np.ndarray]) -> None:
+        region, light = formed
+        out[region.within(whole(out.shape))] = light
+        watch.advance(TILE_STEPS)
+
+    for_each(lambda region: (region, former.form(region)), parts, take)
+    return out
+
+
+class DepthKernels:
+    """The kernels of a plan's depth nodes, computed where they are needed and kept up to KEPT_BYTES."""
+
+    def __init__(self, planned: Plan, watch: Progress) -> None:
+        self._planned, self._watch = planned, watch
+        self._nodes: dict[int, NodeKernels] = {}
+        self._lock = Lock()
+
+    def keep(self, number: int, lattice: Lattice) -> None:
+        """Take the kernels of a depth node over the whole picture."""
+        self._nodes[number] = known_kernels(lattice)
+
+    def over(self, number: int, region: Region) -> Lattice:
+        """Return the kernels of a depth node over a part of the picture."""
+        with self._lock:
+            nodes = self._nodes.pop(number, None) or node_kernels(self._planned, self._planned.vergences[number])
+            self._nodes[number] = nodes  # the last one is the one used most recently
+            while len(self._nodes) > 1 and sum(each.bytes for each in self._nodes.values()) > KEPT_BYTES:
+                del self._nodes[next(iter(self._nodes))]
+        return nodes.over(region, self._watch)
+
+
+@dataclass(frozen=True, eq=False)
+class _Former:
+    """What forms tiles of a picture; ``half``: the largest half width of a kernel, pixels."""
+
+    planned: Plan
+    picture: np.ndarray
+    depths: DepthMap | None
+    how: Forming
+    half: int
+    kernels: DepthKernels
+    watch: Progress
+
+    def form(self, tile: Region) -> np.ndarray:
+        """Return a tile of the formed picture."""
+        reach = tile.grown(self.half)
+        inside = reach.meet(whole(self.picture.shape))
+        placed = _Placing(self, inside)
+        if self.depths is None:
+            planes, box = self._surrounded(placed.light(inside), inside, reach)
+            blurred, spread = self._blur(0, planes, box, tuple(range(planes.shape[-1])))
+            return blurred[tile.within(spread)]
+        return self._add_layers(tile, reach, placed.layers(self.depths))
+
+    def _add_layers(self, tile: Region, reach: Region, layers: Iterator[tuple[int, np.ndarray, Region]]) -> np.ndarray:
+        """Return the light of the layers from near to far, each behind those before it, over what they cover."""
+        count = self.picture.shape[-1]
+        light, covered = (np.zeros((*tile.shape, n), np.float32) for n in (count, 1))
+        passing = np.ones_like(covered)
+        for number, planes, box in layers:
+            planes, box = self._surrounded(planes, box, reach)
+            colours = (*range(count), *[count // 2] * (planes.shape[-1] - count))
+            blurred, spread = self._blur(number, planes, box, colours)
+            seen = spread.meet(tile)
+            if seen.empty:
+                continue
+            part, at = blurred[seen.within(spread)], seen.within(tile)
+            light[at] += passing[at] * part[..., :count]
+            covered[at] += passing[at] * part[..., count : count + 1]
+            if planes.shape[-1] > count + 1:
+                passing[at] *= np.clip(1 - part[..., -1:], 0, 1)
+        light /= np.maximum(covered, LEAST_COVERAGE)
+        return light
+
+    def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:
+        """Return pixels of a box with those beyond the picture's edge as far as ``reach``, and the larger box."""
+        rows, columns = self.picture.shape[:2]
+        if self.how.surround != "edge":
+            return planes, box
+        wide = Region(
+            min(reach.top, 0) if box.top == 0 else box.top,
+            max(reach.bottom, rows) if box.bottom == rows else box.bottom,
+            min(reach.left, 0) if box.left == 0 else box.left,
+            max(reach.right, columns) if box.right == columns else box.right,
+        )
+        down, right = (box.top - wide.top, wide.bottom - box.bottom), (box.left - wide.left, wide.right - box.right)
+        return (np.pad(planes, (down, right, (0, 0)), mode="edge") if wide != box else planes), wide
+
+    def _blur(
+        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...]
+    ) -> tuple[np.ndarray, Region]:
+        """Return planes of a box blurred by kernels of these channels, with all light, and where that lies."""
+        if self.how.method == "lowrank":
+            parts = self._low_rank(number)
+            blurred = low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
+            return blurred, box.grown(parts[0].mean.shape[0] // 2)
+        lattice = self.kernels.over(number, box)
+        blurred = BlurOperator(lattice, box.shape, channels=channels).spread(planes, self.watch)
+        return blurred, box.grown(lattice.half)
+
+    @cached_property
+    def _low_rank(self) -> Callable[[int], list[LowRank]]:
+        """Return the function from a depth node to the low ranks of its channels."""
+        tolerance = RANK_TOLERANCE * self.planned.allowed_error
+
+        @cache
+        def parts_of(number: int) -> list[LowRank]:
+            lattice = self.kernels.over(number, whole(self.picture.shape))
+            return map_threads(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
+
+        return parts_of
+
+
+class _Placing:
+    """The picture on the pixels of a region ``inside``, with distortion and illumination."""
+
+    def __init__(self, former: _Former, inside: Region) -> None:
+        self._former, self._inside, self._all = former, inside, whole(former.picture.shape)
+        planned, sensor = former.planned, former.planned.scene.sensor
+        self._places: np.ndarray | None = None
+        self._shade: np.ndarray | None = None
+        if former.how.geometry:
+            seen = planned.sensor_map(planned.vergences[0])
+            self._places = source_places(seen, sensor, inside)
+            self._shade = illumination(seen, sensor, LIGHT_HEIGHTS[former.how.spline > 1], inside)[..., None]
+
+    def light(self, box: Region) -> np.ndarray:
+        """Return the picture's colours on the pixels of a box."""
+        return self._shaded(self._moved(self._former.picture, self._all, box, self._former.how.spline), box)
+
+    def layers(self, depths: DepthMap) -> Iterator[tuple[int, np.ndarray, Region]]:
+        """Yield each layer's number, its colours and behind them its opacity, and the box that holds it.
+
+        Where it hides others, that part of its opacity which does so is the last plane.
+        """
+        source = self._inside if self._places is None else region_of(self._places, self._all)
+        if depths.hiding[source.within(self._all)].any():
+            source = source.grown(CONTINUED * self._former.half).meet(self._all)
+        picture, lit = self._former.picture[source.within(self._all)], self.light(self._inside)
+        for layer in depths.over(source).layers(picture):
+            box = self._box(layer.opacity, source)
+            if box.empty:
+                continue
+            planes = [layer.opacity, layer.hiding] if layer.hiding.any() else [layer.opacity]
+            opacity = self._moved(np.stack(planes, axis=-1), source, box, 1)
+            if layer.colours is picture:
+                colours = lit[box.within(self._inside)]
+            else:
+                colours = self._shaded(self._moved(layer.colours, source, box, self._former.how.spline), box)
+            yield layer.number, np.concatenate([colours * opacity[..., :1], opacity], axis=-1), box
+
+    def _box(self, opacity: np.ndarray, source: Region) -> Region:
+        """Return the pixels on which a layer lands that shows where its opacity, over ``source``, is not 0."""
+        rows, columns = (np.flatnonzero((opacity > 0).any(axis)) for axis in (1, 0))
+        if not rows.size:
+            return Region(0, 0, 0, 0)
+        top, left = source.top + int(rows[0]), source.left + int(columns[0])
+        found = Region(top, source.top + int(rows[-1]) + 1, left, source.left + int(columns[-1]) + 1)
+        if self._places is None:
+            return found.meet(self._inside)
+        row = np.clip(self._places[0], source.top, source.bottom - 1)  # outermost pixels are repeated
+        column = np.clip(self._places[1], source.left, source.right - 1)
+        lit = (row > found.top - 1) & (row < found.bottom) & (column > found.left - 1) & (column < found.right)
+        down, right = (np.flatnonzero(lit.any(axis)) for axis in (1, 0))
+        if not down.size:
+            return Region(0, 0, 0, 0)
+        first, last = self._inside.top, self._inside.left
+        return Region(first + int(down[0]), first + int(down[-1]) + 1, last + int(right[0]), last + int(right[-1]) + 1)
+
+    def _moved(self, values: np.ndarray, given: Region, box: Region, order: int) -> np.ndarray:
+        if self._places is None:
+            return values[box.within(given)]
+        return resample(values, self._places[:, *box.within(self._inside)], order, given)
+
+    def _shaded(self, values: np.ndarray, box: Region) -> np.ndarray:
+        return values if self._shade is None else values * self._shade[box.within(self._inside)]
 
 
 def _largest_half(planned: Plan) -> int:
@@ -100,32 +282,6 @@ def _largest_half(planned: Plan) -> int:
     corner = [0.0], [planned.scene.sensor.corners_mm()[1]]
     ends = (planned.vergences[0], planned.vergences[-1])
     return max(int(planned.kernels(len(planned.colours) // 2, v).points(*corner).half_widths()[0]) for v in ends)
-
-
-def _placed_layer(planned: Plan, layer: DepthLayer, how: Forming) -> np.ndarray:
-    """Return the light of a layer with distortion and illumination, and behind the colours its opacity, twice.
-
-    The second is that part of it which hides.
-    """
-    both, vergence = np.stack([layer.opacity, layer.hiding], axis=-1), planned.vergences[0]
-    lit = _distort_and_shade(planned, layer.colours, vergence, how)
-    if how.geometry:
-        both = distort(both, planned.sensor_map(vergence), planned.scene.sensor, order=1)
-    return np.concatenate([lit * both[..., :1], both], axis=-1)
-
-
-def _placed_and_lattice(
-    planned: Plan, values: np.ndarray, how: Forming, watch: Progress, lattice: Lattice | None
-) -> tuple[np.ndarray, Lattice]:
-    """Return the picture with distortion and illumination, and in parallel the kernels of the scene's far end."""
-    vergence = planned.vergences[0]
-    if lattice is not None:
-        return _distort_and_shade(planned, values, vergence, how), lattice
-    placed = []
-    found = plan_lattice(
-        planned, vergence, watch, beside=lambda: placed.append(_distort_and_shade(planned, values, vergence, how))
-    )
-    return placed[0], found
 
 
 def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
@@ -164,27 +320,10 @@ def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:
         )
 
 
-def _distort_and_shade(planned: Plan, values: np.ndarray, vergence: float, how: Forming) -> np.ndarray:
-    """Return the picture with distortion and illumination."""
-    if not how.geometry:
-        return values
-    sensor, seen = planned.scene.sensor, planned.sensor_map(vergence)
-    shade = illumination(seen, sensor, LIGHT_HEIGHTS[how.spline > 1])
-    lit: np.ndarray = distort(values, seen, sensor, how.spline) * shade[..., None]
-    return lit
+def node_kernels(planned: Plan, vergence: float, most_half: int = LARGEST_WINDOW) -> NodeKernels:
+    """Return the kernels of every channel on the plan's nodes at one depth, to be computed when needed.
 
-
-def plan_lattice(
-    planned: Plan,
-    vergence: float,
-    watch: Progress | None = None,
-    most_half: int = LARGEST_WINDOW,
-    beside: Callable[[], object] | None = None,
-) -> Lattice:
-    """Return the kernels of every channel on the plan's nodes at one depth.
-
-    No kernel extends beyond ``most_half`` pixels: light beyond is dropped, and the rest has unit sum. ``beside`` as in
-    `build_lattice`.
+    No kernel extends beyond ``most_half`` pixels: light beyond is dropped, and the rest has unit sum.
     """
     sensor = planned.scene.sensor
     channels = [planned.kernels(number, vergence) for number in range(len(planned.colours))]
@@ -196,32 +335,13 @@ def plan_lattice(
         of_channels = (light.kernels(halves) for light in lights)
         return [np.stack(several) for several in zip(*of_channels, strict=True)]
 
-    shape = sensor.rows, sensor.columns
-    return build_lattice(kernels_at, shape, planned.counts, planned.mirrored, watch, beside)
+    rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), planned.counts, strict=True))
+    return NodeKernels(kernels_at, rows, columns, planned.mirrored)
 
 
-def _with_middle_twice(lattice: Lattice) -> Lattice:
-    """Return a lattice with the middle channel twice more at the end, for what a layer covers and hides."""
-    middle = lattice.channels // 2
-    lines = [[np.concatenate([k, k[[middle, middle]]]) for k in line] for line in lattice.kernels]
-    return Lattice(lattice.row_nodes, lattice.column_nodes, lines)
-
-
-def _cropped_blur(planned: Plan, values: np.ndarray, lattice: Lattice, how: Forming, watch: Progress) -> np.ndarray:
-    """Return the blurred picture on its own pixels."""
-    border = lattice.half if how.surround == "edge" else 0
-    if border:
-        values = np.pad(values, ((border, border), (border, border), (0, 0)), mode="edge")
-    whole = blur(values, lattice, how.method, RANK_TOLERANCE * planned.allowed_error, watch, border)
-    cut = lattice.half + border
-    return whole[cut : whole.shape[0] - cut, cut : whole.shape[1] - cut]
-
-
-def blur(
-    values: np.ndarray, lattice: Lattice, method: str, tolerance: float, watch: Progress | None = None, border: int = 0
-) -> np.ndarray:
-    """Return the blurred picture with all light that leaves it, by patches or by low rank."""
-    if method == "patches":
-        return overlap_add(values, lattice, watch, border)
-    parts = map_threads(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
-    return low_rank_blur(values, parts, watch, border)
+def plan_lattice(
+    planned: Plan, vergence: float, watch: Progress | None = None, most_half: int = LARGEST_WINDOW
+) -> Lattice:
+    """Return the kernels of every channel on the plan's nodes at one depth; ``most_half`` as in `node_kernels`."""
+    sensor = planned.scene.sensor
+    return node_kernels(planned, vergence, most_half).over(whole((sensor.rows, sensor.columns)), watch)

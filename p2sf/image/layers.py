@@ -7,12 +7,15 @@ pixel takes colour and depth of the nearest pixel in its row or column that is n
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
+from p2sf.image.region import Region, whole
 
 FAR = 2**30  # pixels, more than any picture has
 JUMP = 0.5  # of the distance between depth nodes, from one pixel to the next
@@ -31,25 +34,51 @@ class DepthLayer(NamedTuple):
     hiding: np.ndarray
 
 
-def depth_layers(values: np.ndarray, depth_mm: np.ndarray, vergences: np.ndarray, half: int) -> Iterator[DepthLayer]:
-    """Yield the layers of a picture, (rows, columns, channels), from near to far, but for those that show nothing.
+@dataclass(frozen=True, eq=False)
+class DepthMap:
+    """Where pixels lie among the depth nodes, counted from 0, (rows, columns) float32, and which are beside jumps.
 
-    ``vergences`` increase: the farthest layer is number 0. Between two nodes opacity is linear in 1/depth; beyond them
-    it is that of the end. ``half``: the largest half width of a kernel, pixels. Raises RequestError for a map that does
-    not fit.
+    ``continued``: those about which hidden surfaces go on; ``hiding``: those where nearer layers hide farther ones.
     """
-    flat, colours = _places(depth_mm, vergences, values.shape[:2]), values
-    place, continued, hiding = flat, _beside_jumps(flat, CONTINUED * half), _beside_jumps(flat, HIDING * half)
-    for number in range(len(vergences) - 1, -1, -1):
-        reaching_on = np.clip(place - (number - 1), 0, 1) if number else np.ones_like(place)
-        share = np.clip(1 - np.abs(flat - number), 0, 1)
-        opacity = np.where(continued & (share == 0), reaching_on, share)
-        if opacity.any():
-            yield DepthLayer(number, colours, opacity, hiding * _hides(flat - number, opacity))
-        nearest = _nearest_open(reaching_on >= 1)
-        jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
-        place = np.minimum(np.where(jumps, place[nearest], place), number - 1)
-        colours = np.where(jumps[..., None], colours[nearest], colours)
+
+    place: np.ndarray
+    continued: np.ndarray
+    hiding: np.ndarray
+
+    def over(self, region: Region) -> "DepthMap":
+        """Return the map of a part of the picture."""
+        at = region.within(whole(self.place.shape))
+        return DepthMap(self.place[at], self.continued[at], self.hiding[at])
+
+    def layers(self, values: np.ndarray) -> Iterator[DepthLayer]:
+        """Yield the layers of a picture, (rows, columns, channels), from near to far, but for those that show nothing.
+
+        Between two nodes opacity is linear in 1/depth.
+        """
+        place, colours, hides = self.place, values, bool(self.hiding.any())
+        for number in range(ceil(place.max()), int(place.min()) - 1, -1):
+            opacity = np.clip(1 - np.abs(self.place - number), 0, 1)
+            if not hides:
+                yield DepthLayer(number, colours, opacity, np.zeros_like(opacity))
+                continue
+            reaching_on = np.clip(place - (number - 1), 0, 1) if number else np.ones_like(place)
+            opacity = np.where(self.continued & (opacity == 0), reaching_on, opacity)
+            if opacity.any():
+                yield DepthLayer(number, colours, opacity, self.hiding * _hides(self.place - number, opacity))
+            nearest = _nearest_open(reaching_on >= 1)
+            jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
+            place = np.minimum(np.where(jumps, place[nearest], place), number - 1)
+            colours = np.where(jumps[..., None], colours[nearest], colours)
+
+
+def map_depths(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...], half: int) -> DepthMap:
+    """Return the places of a picture's depths, (rows, columns) mm, among nodes.
+
+    ``vergences`` increase: the farthest node is number 0, and beyond the ends depths count as these. ``half``: the
+    largest half width of a kernel, pixels. Raises RequestError for a map that does not fit.
+    """
+    place = _places(depth_mm, vergences, shape)
+    return DepthMap(place, _beside_jumps(place, CONTINUED * half), _beside_jumps(place, HIDING * half))
 
 
 def _hides(beyond: np.ndarray, opacity: np.ndarray) -> np.ndarray:

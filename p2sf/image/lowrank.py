@@ -12,6 +12,7 @@ import numpy as np
 
 from p2sf.image.lattice import Lattice, common_size
 from p2sf.image.progress import Progress
+from p2sf.image.region import Region, whole
 from p2sf.threads import for_each
 
 TILE = 256
@@ -56,31 +57,30 @@ def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int
 
 
 def low_rank_blur(
-    values: np.ndarray, parts: list[LowRank], watch: Progress | None = None, border: int = 0
+    values: np.ndarray, parts: list[LowRank], watch: Progress | None = None, region: Region | None = None
 ) -> np.ndarray:
     """Return the blurred picture with all light that leaves it, (rows + 2·half, columns + 2·half, channels) float32.
 
-    Strengths are cubic splines between the nodes. ``border`` and threads as in `overlap.overlap_add`. Tiles bound the
-    memory.
+    ``values`` are the pixels of a ``region``, by default all, each channel with its own of the ``parts``. Strengths are
+    cubic splines between the nodes. Tiles bound the memory; ``watch`` is asked for cancellation at each of them.
     """
     values, size = np.asarray(values, np.float32), parts[0].mean.shape[0]
+    region = region or whole(values.shape)
     rows, columns, channels = values.shape
     out = np.zeros((rows + size - 1, columns + size - 1, channels), np.float32)
-    watch = watch or Progress()
-    watch.expect(channels * -(-rows // TILE) * -(-columns // TILE))
     for channel, part in enumerate(parts):
         for_each(
-            _tiles_blur(values[..., channel], part, border),
+            _tiles_blur(values[..., channel], part, region),
             product(range(0, rows, TILE), range(0, columns, TILE)),
-            _adding(out[..., channel], watch),
+            _adding(out[..., channel], watch or Progress()),
         )
     return out
 
 
-def _tiles_blur(plane: np.ndarray, part: LowRank, border: int) -> Callable[[Corner], tuple[Corner, np.ndarray]]:
+def _tiles_blur(plane: np.ndarray, part: LowRank, region: Region) -> Callable[[Corner], tuple[Corner, np.ndarray]]:
     """Return the function that blurs the tile at a corner (top, left) of one channel and returns both."""
     (rows, columns), size = plane.shape, part.mean.shape[0]
-    maps = [_spline(n, np.arange(p) - border) for n, p in ((part.row_nodes, rows), (part.column_nodes, columns))]
+    maps = [_spline(n, at) for n, at in ((part.row_nodes, region.rows), (part.column_nodes, region.columns))]
     fast, spectra = _spectra(part, min(TILE, rows), min(TILE, columns))
 
     def blur_at(corner: Corner) -> tuple[Corner, np.ndarray]:
@@ -98,7 +98,7 @@ def _adding(out: np.ndarray, watch: Progress) -> Callable[[tuple[Corner, np.ndar
     def take(found: tuple[Corner, np.ndarray]) -> None:
         (top, left), tile = found
         out[top : top + tile.shape[0], left : left + tile.shape[1]] += tile
-        watch.advance()
+        watch.check()
 
     return take
 

@@ -27,10 +27,14 @@ class Progress:
         with self._lock:
             self.expected += steps
 
-    def advance(self, steps: int = 1) -> None:
-        """Add work done; raise Cancelled if the caller has cancelled it."""
+    def check(self) -> None:
+        """Raise Cancelled if the caller has cancelled the work."""
         if self.cancelled and self.cancelled():
             raise Cancelled("the picture was cancelled before it was done")
+
+    def advance(self, steps: int = 1) -> None:
+        """Add work done; raise Cancelled if the caller has cancelled it."""
+        self.check()
         with self._lock:
             self.done += steps
             part = min(self.done / max(self.expected, 1), 1.0)

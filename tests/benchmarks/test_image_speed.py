@@ -13,10 +13,10 @@ from time import perf_counter, process_time
 import pytest
 
 from p2sf.image import Forming, form_image, plan_lattice, preview
+from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import richardson_lucy
 from p2sf.image.lowrank import decompose, low_rank_blur
-from p2sf.image.overlap import overlap_add
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan
 
@@ -113,7 +113,7 @@ def test_what_cost_grows_with(benchmark, planned):
         axes.grid(alpha=0.3, which="both")
         print(f"{name}: " + ", ".join(f"{x:g} → {t:.2f} s" for x, t in points))
     FigureCanvasAgg(figure).print_png("image_cost.png")
-    benchmark.pedantic(lambda: overlap_add(picture, lattice), rounds=1)
+    benchmark.pedantic(lambda: BlurOperator(lattice, (ROWS, COLUMNS)).spread(picture), rounds=1)
 
 
 def _by_rank(picture, lattice, rank: int):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from p2sf.errors import Cancelled, RequestError
-from p2sf.image import Forming, Progress, form_image, preview
+from p2sf.image import Forming, Progress, form, form_image, preview
+from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
-from p2sf.image.form import blur
 from p2sf.image.geometry import distort, distortion_px, illumination
 from p2sf.image.lattice import build_lattice
-from p2sf.image.lowrank import decompose
+from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
@@ -40,6 +40,13 @@ def by_definition():
     noise = np.random.default_rng(1).random((SIDE, SIDE, 1)).astype(np.float32)
     pictures = np.concatenate([pictures, noise], axis=-1)
     return pictures, direct_sum(pictures, lambda row, column: comet(row, column), HALF)
+
+
+def blur(picture, lattice, method, tolerance):
+    """Return the blurred picture with all light that leaves it, by patches or by low rank."""
+    if method == "patches":
+        return BlurOperator(lattice, picture.shape[:2]).spread(picture)
+    return low_rank_blur(picture, [decompose(lattice, n, tolerance) for n in range(lattice.channels)])
 
 
 def each(kernel_at):
@@ -169,6 +176,26 @@ def test_an_even_object_stays_even_without_its_shading():
             out = form_image(planned, np.full((60, 80, 1), 0.5), depth, Forming(method, geometry=False))
             # Light is kept and not evenness: kernels that change hand a pixel a little more or less than it gave.
             assert np.abs(out - 0.5).max() < 2e-3
+
+
+@pytest.mark.parametrize("method", ["patches", "lowrank"])
+@pytest.mark.parametrize("depth", ["one", "slope", "edge"])
+def test_tiles_join_without_a_seam(monkeypatch, method, depth):
+    """Tiles as wide as a few kernels, against a single one: the same light to float32, with distortion and edges."""
+    scene = Scene(Sensor(90, 120, 80.0, (0.0, 6.0)), GREEN, 3000.0, focus_mm=3000.0, f_number=5.6)
+    planned = preview_plan(scene.camera(find_lens("double_gauss_28")), scene)
+    planned = replace(planned, counts=(3, 4), vergences=(0.0, 1 / 6000, 1 / 3000))
+    picture, slope = draw_chart("landscape", 90, 120)[..., :1], 1 / np.linspace(0, 1 / 3000, 90)[1:]
+    depths = {
+        "one": None,
+        "slope": np.append(np.inf, slope)[:, None] * np.ones((1, 120)),
+        "edge": np.where(np.hypot(*np.mgrid[-45:45, -60:60]) < 30, 3000.0, np.inf),
+    }
+    made = []
+    for side in (1024, 32):
+        monkeypatch.setattr(form, "TILE", side)
+        made.append(form_image(planned, picture, depths[depth], Forming(method)))
+    np.testing.assert_allclose(made[1], made[0], atol=3e-6)  # some tens of roundings of white
 
 
 def test_a_preview_shows_the_same_picture():

@@ -7,7 +7,7 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from p2sf.image import Forming, form_image
-from p2sf.image.layers import depth_layers
+from p2sf.image.layers import map_depths
 from p2sf.image.lowrank import _spline
 from p2sf.image.preview import BY_RAYS, preview_plan
 from p2sf.lensfile.library import find_lens
@@ -27,19 +27,24 @@ def planned(focus_mm: float, vergences: tuple[float, ...]):
     return replace(preview_plan(scene.camera(find_lens("double_gauss_28")), scene), vergences=vergences)
 
 
+def layers(colours: np.ndarray, depth: np.ndarray, nodes: np.ndarray):
+    """Return the layers of a picture blurred by kernels of 7 pixels."""
+    return map_depths(depth, nodes, depth.shape, half=3).layers(colours)
+
+
 def test_layers_of_a_slope_add_up_and_those_beside_an_edge_reach_on():
     """The same five pixels, far from an edge of depth and beside one."""
     nodes = np.array([0.0, 1e-4, 3e-4])
     depth = 1 / np.array([[1e-14, 0.4e-4, 0.8e-4, 1e-4, 2e-4, 3e-4]])
     colours = np.arange(6.0).reshape(1, 6, 1)
-    near, middle, far = depth_layers(colours, depth, nodes, half=3)
+    near, middle, far = layers(colours, depth, nodes)
     assert (near.number, middle.number, far.number) == (2, 1, 0)
     assert near.opacity[0] == pytest.approx([0, 0, 0, 0, 0.5, 1], abs=1e-6)
     assert middle.opacity[0] == pytest.approx([0, 0.4, 0.8, 1, 0.5, 0], abs=1e-6)
     assert near.opacity + middle.opacity + far.opacity == pytest.approx(np.ones((1, 6)), abs=1e-6)
     assert not near.hiding.any() and (far.colours == colours).all()
     depth[0, -1] = 1 / 0.5e-4  # a jump of one and a half nodes
-    _, middle, far = depth_layers(colours, depth, nodes, half=3)
+    _, middle, far = layers(colours, depth, nodes)
     assert middle.opacity[0] == pytest.approx([0, 0.4, 0.8, 1, 0.5, 0.5], abs=1e-6)
     # Of two layers that share a pixel, the farther one hides what is behind both.
     assert middle.hiding[0] == pytest.approx([0, 0, 0, 1, 1, 0], abs=1e-6)
@@ -51,11 +56,11 @@ def test_what_is_hidden_takes_colour_and_depth_of_the_nearest_pixel_beside_it():
     """A post of two pixels, before a wall on its left and the sky on its right; and a picture of one depth."""
     depth = np.array([[2.0, 2.0, 1.0, 1.0, np.inf]]) * 1000
     nodes = np.array([0.0, 1 / 2000, 1 / 1000])
-    near, middle, far = depth_layers(np.arange(5.0).reshape(1, 5, 1), depth, nodes, half=3)
+    near, middle, far = layers(np.arange(5.0).reshape(1, 5, 1), depth, nodes)
     assert near.opacity[0].tolist() == [0, 0, 1, 1, 0]
     assert middle.opacity[0].tolist() == [1, 1, 1, 0, 0] and middle.colours[0, :, 0].tolist() == [0, 1, 1, 4, 4]
     assert far.colours[0, :, 0].tolist() == [4, 4, 4, 4, 4]
-    (only,) = depth_layers(np.ones((2, 3, 1)), np.full((2, 3), 500.0), np.array([0.0, 1e-3]), half=3)
+    (only,) = layers(np.ones((2, 3, 1)), np.full((2, 3), 500.0), np.array([0.0, 1e-3]))
     assert only.number == 1 and (only.opacity == 1).all() and not only.hiding.any()
 
 
