@@ -12,11 +12,14 @@ from PySide6.QtWidgets import QLabel, QSplitter, QWidget
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
+from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.language import current_language
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_list import LessonList, content
 from p2sf_explorer.lessons.lesson_maker import LessonMaker
-from p2sf_explorer.lessons.lesson_panel import LessonPanel
+from p2sf_explorer.lessons.lesson_panel import Around, LessonPanel
+from p2sf_explorer.lessons.task_desk import TaskDesk
 from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
@@ -26,8 +29,20 @@ SLIDER_SHARE = 0.38  # of the column's height for the sliders below the page of 
 PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to all that they need
 
 
+Finder = Callable[[str], tuple[dict[str, Lesson], tuple[P2SFError, ...]]]
+"""What finds lessons in a language: by name, and the errors of files that are none."""
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated; here is the original")
+
+
+def no_lectures(language: str) -> tuple[dict[str, Lesson], tuple[P2SFError, ...]]:
+    """Return no lectures."""
+    return {}, ()
+
+
+def progress_path() -> Path:
+    """Return where a person's answers are kept."""
+    return recent.recent_path().with_name("course.json")
 
 
 class SliderColumn(Protocol):
@@ -55,14 +70,26 @@ class LessonRoom:
 class LessonController(QObject):
     """Owns the page of the lesson, made when the first one begins; the state says which lesson and step are on."""
 
-    def __init__(self, store: Store, window: QWidget, room: LessonRoom, theme: Callable[[], Tokens]) -> None:
+    def __init__(
+        self,
+        store: Store,
+        window: QWidget,
+        room: LessonRoom,
+        theme: Callable[[], Tokens],
+        find_lectures: Finder = no_lectures,
+    ) -> None:
         super().__init__(window)
+        self._find_lectures = find_lectures
+        self._lectures: dict[str, Lesson] | None = None
+        self.desk = TaskDesk(store, progress_path, self)
         self.store, self._window, self._room, self._theme = store, window, room, theme
         self.list: LessonList | None = None
         self.maker: LessonMaker | None = None
         self.panel: LessonPanel | None = None
         self._lessons: dict[str, Lesson] = {}
         self._told_untranslated = False
+        self._on_offer: tuple[Lesson, ...] = ()
+        self.desk.answered.connect(lambda: self.follow(self.store.state))
         room.column.installEventFilter(self)
         room.column.splitterMoved.connect(self._keep_shares)
         self._by_hand = False  # the shares of page and sliders are a person's
@@ -84,7 +111,7 @@ class LessonController(QObject):
         """Return a command for each lesson, found by all its words."""
         return tuple(
             Command(lesson.title, partial(self.begin, name), (), "Lesson", content(lesson), worded=True)
-            for name, lesson in self.lessons().items()
+            for name, lesson in (self.lessons() | self.lectures()).items()
         )
 
     def open_list(self) -> None:
@@ -104,8 +131,6 @@ class LessonController(QObject):
     def open_made(self, path: str) -> None:
         """Begin a lesson that has just been written."""
         self._lessons = {}
-        if self.panel:
-            self.panel.list_lessons(tuple(self.lessons().values()))
         self.begin(Path(path).stem)
         self.store.said.emit(Message("Saved {name}", name=Path(path).name))
 
@@ -117,15 +142,31 @@ class LessonController(QObject):
     def lessons(self) -> dict[str, Lesson]:
         """Return the lessons by name; the banner tells of a bad file, and the others open."""
         if not self._lessons:
-            self._lessons, faults = found_lessons((FOLDER, own_folder()), current_language())
-            if faults:  # after the picture of the step, which takes the banner away
-                QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
+            self._lessons = self._told_of(found_lessons((FOLDER, own_folder()), current_language()))
         return self._lessons
+
+    def lectures(self) -> dict[str, Lesson]:
+        """Return the lectures and concept checks by name."""
+        if self._lectures is None:
+            self._lectures = self._told_of(self._find_lectures(current_language()))
+        return self._lectures
+
+    def _told_of(self, found: tuple[dict[str, Lesson], tuple[P2SFError, ...]]) -> dict[str, Lesson]:
+        lessons, faults = found
+        if faults:  # after the picture of the step, which takes the banner away
+            QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
+        return lessons
+
+    def shelf(self, name: str) -> dict[str, Lesson]:
+        """Return the lessons or lectures among which one of this name stands, none where there is none."""
+        if name in self.lessons():
+            return self.lessons()
+        return self.lectures() if name in self.lectures() else {}
 
     def workspace(self) -> Workspace | None:
         """Return how the step under way arranges the window, None without one."""
         place = self.store.state.lesson
-        lesson = self.lessons().get(place.name) if place.name else None
+        lesson = self.shelf(place.name).get(place.name)
         return arrangement(lesson.state(min(place.step, len(lesson.steps) - 1)).display) if lesson else None
 
     def toggle(self) -> None:
@@ -140,16 +181,38 @@ class LessonController(QObject):
         self._go(name, 0)
 
     def move(self, step: int) -> None:
-        """Go a step on or back; from the last one on to the next lesson, and after the last lesson out."""
-        state, names = self.store.state, list(self.lessons())
-        if state.lesson.name not in names:
+        """Go a step on or back; from the last one back to the lecture, on to the next lesson, or out after the last."""
+        state, shelf = self.store.state, self.shelf(self.store.state.lesson.name)
+        if not shelf:
             return
         number = state.lesson.step + step
-        if 0 <= number < len(self.lessons()[state.lesson.name].steps):
+        if 0 <= number < len(shelf[state.lesson.name].steps):
             self._go(state.lesson.name, number)
+        elif number > 0 and (lecture := self._lecture_before()):
+            self._go(lecture.lesson.name, lecture.lesson.step)
         elif number > 0:
-            following = names[names.index(state.lesson.name) + 1 :]
-            self._go(following[0], 0) if following else self.leave()
+            following = self._following(state.lesson.name)
+            self._go(following, 0) if following else self.leave()
+
+    def _following(self, name: str) -> str:
+        """Return the name of the lesson after this one, "" after the last."""
+        names = list(self.shelf(name))
+        return next(iter(names[names.index(name) + 1 :]), "")
+
+    def _lecture_before(self) -> State | None:
+        """Return the state of the lecture that plays the present lesson, None where it was begun by itself."""
+        name = self.store.state.lesson.name
+        before = self.store.latest(lambda state: state.lesson.name != name)
+        lecture = self.lectures().get(before.lesson.name) if before else None
+        return before if lecture and name in lecture.lessons else None
+
+    def _end(self, name: str) -> str:
+        """Return where *Next* leads from the last step."""
+        if self._lecture_before():
+            return tr("Back to the lecture")
+        if not self._following(name):
+            return tr("End")
+        return tr("Next lecture") if name in self.lectures() else tr("Next lesson")
 
     def reveal(self) -> None:
         """Show the answer of the present step."""
@@ -166,24 +229,49 @@ class LessonController(QObject):
             self.store.said.emit(NOTHING_BEFORE)
 
     def _go(self, name: str, number: int) -> None:
+        shelf = self.shelf(name)
+        if name not in shelf:
+            return  # a link of a text that leads elsewhere
         try:
-            self.store.replace(self.lessons()[name].state(number, self.store.state))
+            self.store.replace(shelf[name].state(number, self.store.state))
         except P2SFError as error:
             self.store.refused.emit(error)
 
     def follow(self, state: State) -> None:
         """Show the page of the state's lesson and point to the slider it is about; hide it where there is none."""
-        lesson = self.lessons().get(state.lesson.name) if state.lesson.name else None
+        shelf = self.shelf(state.lesson.name) if state.lesson.name else {}
+        lesson = shelf.get(state.lesson.name)
         slider = ""
         if lesson:
             number = min(int(state.lesson.step), len(lesson.steps) - 1)
             slider = lesson.steps[number].move
             self.panel = self.panel or self._new_panel()
-            self.panel.show_step(lesson, number, state.lesson.told)
+            self._list(shelf)
+            self._show_step(lesson, number, state.lesson.told)
             self._tell_untranslated(lesson)
         if self.panel:
             self.panel.setVisible(lesson is not None)
         self._point(slider)
+
+    def _show_step(self, lesson: Lesson, number: int, told: bool) -> None:
+        if self.panel is None:
+            return
+        task = lesson.steps[number].task
+        if told:
+            self.desk.note_told(lesson, number)
+        view = self.desk.view(lesson, task) if task else None
+        may_ask = view is None or (not view.silent and (view.left is None or view.closed))
+        lessons = self.lessons()
+        blocks = ((name, lessons[name].title) for name in lesson.lessons if name in lessons) if number == 0 else ()
+        around = Around(told and may_ask, may_ask, self._end(lesson.name), tuple(blocks))
+        self.panel.show_step(lesson, number, around)
+        self.desk.show(lesson, number)
+
+    def _list(self, shelf: dict[str, Lesson]) -> None:
+        """Offer the lessons of a shelf in the page's list."""
+        if self.panel and self._on_offer != tuple(shelf.values()):
+            self._on_offer = tuple(shelf.values())
+            self.panel.list_lessons(self._on_offer)
 
     @property
     def active(self) -> bool:
@@ -197,7 +285,8 @@ class LessonController(QObject):
             QTimer.singleShot(0, lambda: self.store.said.emit(UNTRANSLATED))
 
     def _new_panel(self) -> LessonPanel:
-        made = LessonPanel(tuple(self.lessons().values()), self._window)
+        made = LessonPanel((), self._window)
+        self.desk.serve(made.task)
         made.chosen.connect(self.begin)
         made.moved.connect(self.move)
         made.asked.connect(self.reveal)

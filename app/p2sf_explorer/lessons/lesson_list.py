@@ -25,20 +25,21 @@ class LessonList(QDialog):
     """Lessons by title and sentence; ``chosen``: the name of one. Pictures come one by one."""
 
     chosen = Signal(str)
+    title = "Lessons"
 
     def __init__(self, lessons: Callable[[], dict[str, Lesson]], parent: QWidget) -> None:
         super().__init__(parent)
         self._lessons = lessons
-        self.setWindowTitle(tr("Lessons"))
+        self.setWindowTitle(tr(self.title))
         self.sought, self.list = QLineEdit(self), QListWidget(self)
         self.sought.setPlaceholderText(tr("Search titles and texts"))
         self.sought.setAccessibleName(tr("Search titles and texts"))
         self.sought.setClearButtonEnabled(True)
-        self.list.setAccessibleName(tr("Lessons"))
+        self.list.setAccessibleName(tr(self.title))
         self.list.setWordWrap(True)
         self.list.setIconSize(QSize(PICTURE_PX, PICTURE_PX))
         self.list.setSpacing(2)
-        column = QVBoxLayout(self)
+        self.column = column = QVBoxLayout(self)
         column.addWidget(self.sought)
         column.addWidget(self.list, 1)
         self.sought.textChanged.connect(self._find)
@@ -71,7 +72,7 @@ class LessonList(QDialog):
         self.list.clear()
         for number, (name, lesson) in enumerate(self._lessons().items(), 1):
             if all(word in content(lesson) for word in words):
-                item = QListWidgetItem(f"{number}  {lesson.title}\n{lesson.about}", self.list)
+                item = QListWidgetItem(self.line(number, lesson), self.list)
                 item.setData(NAME, name)
                 item.setIcon(self._pictures.get(name, self._blank()))
         if self.list.count():
@@ -80,6 +81,10 @@ class LessonList(QDialog):
             nothing = QListWidgetItem(tr("No lesson has these words; try fewer."), self.list)
             nothing.setFlags(Qt.ItemFlag.NoItemFlags)
         self._timer.start()
+
+    def line(self, number: int, lesson: Lesson) -> str:
+        """Return the lines of a lesson, the ``number``-th of all."""
+        return f"{number}  {lesson.title}\n{lesson.about}"
 
     def _blank(self) -> QIcon:
         pixmap = QPixmap(self.list.iconSize())

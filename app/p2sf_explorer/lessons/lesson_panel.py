@@ -1,6 +1,9 @@
 """The page of a lesson beside the panels: text, what to try, a question and its answer, Back and Next."""
 
-from PySide6.QtCore import QEvent, QRectF, Qt, Signal
+from dataclasses import dataclass
+from html import escape
+
+from PySide6.QtCore import QEvent, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QTextDocument
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
@@ -8,9 +11,23 @@ from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.lesson import Lesson
 from p2sf_explorer.lessons.offer import tool
+from p2sf_explorer.lessons.task_panel import TaskPanel
 from p2sf_explorer.widgets.card import chooser, select
 
 LINE_PX = 15.0  # height of a line of text at scale 1
+
+
+@dataclass(frozen=True)
+class Around:
+    """What is around a step: whether its answer is ``told``, or may be asked for, and where *Next* at the end leads.
+
+    ``blocks`` are names and titles of the lessons that a lecture plays.
+    """
+
+    told: bool
+    may_ask: bool = True
+    end: str = ""
+    blocks: tuple[tuple[str, str], ...] = ()
 
 
 class LessonPanel(QFrame):
@@ -37,12 +54,18 @@ class LessonPanel(QFrame):
             wrapped_label("task", Qt.TextFormat.RichText),
         )
         self.question, self.answer = wrapped_label("sentence"), wrapped_label("task", Qt.TextFormat.RichText)
+        self.blocks = wrapped_label("muted", Qt.TextFormat.RichText)
+        for label in (self.blocks, self.text):
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
+            label.linkActivated.connect(self.chosen)
+        self.task = TaskPanel()
+        self.task.hide()
         self.reveal = QPushButton(tr("Show the answer"))
         self.reveal.setToolTip(tr("Show the answer (Alt+Down)"))
         self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
         self.back.setToolTip(tr("The step before (Alt+Left)"))
         self.next.setToolTip(tr("The next step (Alt+Right)"))
-        self._shown: tuple[Lesson, int, bool] | None = None
+        self._shown: tuple[Lesson, int, Around] | None = None
         self._to_answer = False
         self._lay_out()
         self._connect()
@@ -63,7 +86,8 @@ class LessonPanel(QFrame):
         inner = QVBoxLayout(page)
         inner.setContentsMargins(0, 0, SPACE, 0)
         inner.setSpacing(10)
-        for part in (self.about, self.title, self.text, self.attempt, self.question, self.reveal, self.answer):
+        first = self.about, self.blocks, self.title, self.text, self.attempt
+        for part in (*first, self.question, self.task, self.reveal, self.answer):
             inner.addWidget(part)
         inner.addStretch(1)
         self.area = QScrollArea()
@@ -106,18 +130,21 @@ class LessonPanel(QFrame):
         self.back.clicked.connect(lambda: self.moved.emit(-1))
         self.next.clicked.connect(lambda: self.moved.emit(1))
         self.area.verticalScrollBar().rangeChanged.connect(self._on_range)
+        self.task.judged.connect(lambda: QTimer.singleShot(0, lambda: self.area.ensureWidgetVisible(self.task.check)))
 
-    def show_step(self, lesson: Lesson, number: int, told: bool) -> None:
-        """Show a step of a lesson, with its answer when it was ``told``."""
-        if (lesson, number, told) == self._shown:
+    def show_step(self, lesson: Lesson, number: int, around: Around) -> None:
+        """Show a step of a lesson, with its answer when it was told."""
+        if (lesson, number, around) == self._shown:
             return
-        new = self._shown is None or (lesson, number) != self._shown[:2]
-        self._shown = lesson, number, told
+        new, told = self._shown is None or (lesson, number) != self._shown[:2], around.told
+        self._shown = lesson, number, around
         step, last = lesson.steps[number], len(lesson.steps) - 1
         select(self.choice, lesson.name)
         self.choice.setToolTip(lesson.title)  # the longest one is wider than the page
+        links = (f'<a href="{escape(name)}">{escape(title)}</a>' for name, title in around.blocks)
         texts = (
             (self.about, lesson.about if number == 0 else ""),
+            (self.blocks, tr("Lessons of this lecture: {links}", links=" · ".join(links)) if around.blocks else ""),
             (self.title, step.title),
             (self.text, rich(local(step.text))),
             (self.attempt, rich(local(f"**{tr('Try')}** {step.attempt}") if step.attempt else "")),
@@ -127,11 +154,12 @@ class LessonPanel(QFrame):
         for label, text in texts:
             label.setText(unbroken(text))
             label.setVisible(bool(text))
-        self.reveal.setVisible(bool(step.question) and not told)
+        self.reveal.setText(tr("Show the solution") if step.task else tr("Show the answer"))
+        self.reveal.setVisible(bool(step.question) and not told and around.may_ask)
         self.count.setText(tr("step {k} of {n}", k=number + 1, n=last + 1))
         self.progress.show_step(number, last + 1)
         self.back.setEnabled(number > 0)
-        self.next.setText(tr("Next") if number < last else tr("Next lesson"))
+        self.next.setText(tr("Next") if number < last else around.end)
         self._to_answer = told and not new
         if new:
             self.area.verticalScrollBar().setValue(0)

@@ -1,4 +1,4 @@
-"""Four ways to begin, over the window at the very first start; they can be skipped, and never come again."""
+"""The ways to begin, over the window at the very first start; they can be skipped, and never come again."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,11 +11,12 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.tr import tr
 
-SIZE = 760, 340
+SIZE = 760, 400
 WELCOME = "How the light of a point spreads, live"
 INTRO = "Drag depth, field and wavelength; the picture follows. Where do you want to begin?"
 WAYS = (
     ("Look at a lens", "Choose among lenses from the singlet to the zoom"),
+    ("Course", "Six lectures with tasks, to work through or to give"),
     ("Teach", "Lessons with pictures, three minutes each"),
     ("Open my lens file", "Zemax, CODE V, OSLO, a table …"),
     ("Measure a photo", "Wavefronts from a photograph of points"),
@@ -24,9 +25,10 @@ WAYS = (
 
 @dataclass(frozen=True)
 class Beginnings:
-    """What the four ways lead to, in the order of `WAYS`."""
+    """What the ways lead to, in the order of `WAYS`."""
 
     look: Callable[[], object]
+    course: Callable[[], object]
     teach: Callable[[], object]
     open: Callable[[], object]
     measure: Callable[[], object]
@@ -45,7 +47,7 @@ class StartScreen(QFrame):
         intro.setWordWrap(True)
         intro.setStyleSheet(f"color: {theme.muted};")
         self.buttons = [self._way(*words, theme) for words in WAYS]
-        runs = beginnings.look, beginnings.teach, beginnings.open, beginnings.measure
+        runs = beginnings.look, beginnings.course, beginnings.teach, beginnings.open, beginnings.measure
         for button, run in zip(self.buttons, runs, strict=True):
             button.clicked.connect(lambda _=False, run=run: self._begin(run))
         self.skip = QPushButton(tr("Skip"), self)
@@ -54,7 +56,8 @@ class StartScreen(QFrame):
         grid = QGridLayout()
         grid.setSpacing(theme.px(10))
         for number, button in enumerate(self.buttons):
-            grid.addWidget(button, number // 2, number % 2)
+            wide = 2 if number == len(self.buttons) - 1 and number % 2 == 0 else 1
+            grid.addWidget(button, number // 2, number % 2, 1, wide)
         column = QVBoxLayout(self)
         column.setContentsMargins(*(theme.px(side) for side in (24, 20, 24, 18)))
         column.setSpacing(theme.px(10))

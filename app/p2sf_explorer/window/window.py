@@ -28,6 +28,8 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.live import Live, Refused
 from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
+from p2sf_explorer.course.course import Course
+from p2sf_explorer.course.lectures import find_lectures
 from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.files.opening import REPORT_TAB, Refusal
 from p2sf_explorer.i18n.messages import said
@@ -124,7 +126,8 @@ class MainWindow(QMainWindow):
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
         self.lesson_room = LessonRoom(self.left_parts, self.controls)
-        self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme)
+        self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme, find_lectures)
+        self.course = Course(self.store, self.teaching, lambda: self._theme, self)
         access = PanelAccess(
             live=lambda: self.live,
             theme=lambda: self._theme,
@@ -143,7 +146,7 @@ class MainWindow(QMainWindow):
         self.top.put_workspaces(WorkspaceBar(self.workspaces, self.top))
         self.commands = Actions(self, self.store, self.top, access)
         own = self.tabs, self.workspaces, self.view, self.presentation
-        for part in (self.sharing, self.compare, self.play, self.teaching, *own):
+        for part in (self.sharing, self.compare, self.play, self.teaching, self.course, *own):
             for command in part.commands():
                 self.commands.add(command)
         self.commands.sources.append(self.teaching.listed)
@@ -198,9 +201,10 @@ class MainWindow(QMainWindow):
         self.resize(*FIRST_SIZE)
 
     def show_start(self) -> StartScreen:
-        """Show the four ways to begin."""
+        """Show the ways to begin."""
         ways = Beginnings(
             look=self.top.lens.open_gallery,
+            course=self.course.open_list,
             teach=self.teaching.open_list,
             open=self.commands.ask_open,
             measure=lambda: self.take_stage("measured"),
@@ -533,6 +537,7 @@ class MainWindow(QMainWindow):
         self.play.stop()
         self.commands.stop()
         self.teaching.stop()
+        self.course.stop()
         self.top.tolerance.stop()
         self.measuring.stop()
         self.deferred.stop()

@@ -1,4 +1,4 @@
-"""The start screen: four ways to begin, skipped or taken, and never shown twice."""
+"""The start screen: the ways to begin, skipped or taken, and never shown twice."""
 
 import pytest
 from PySide6.QtCore import Qt
@@ -36,12 +36,12 @@ def test_it_stands_in_the_window_and_escape_skips_it(window, qtbot, screen):
 
 
 def test_measuring_a_photo_puts_its_panel_on_the_stage(window, qtbot, screen):
-    qtbot.mouseClick(screen.buttons[3], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.buttons[4], Qt.MouseButton.LeftButton)
     assert window.store.state.display.stage == "measured" and not screen.isVisible()
 
 
 def test_teaching_opens_the_lessons(window, qtbot, screen):
-    qtbot.mouseClick(screen.buttons[1], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.buttons[2], Qt.MouseButton.LeftButton)
     assert window.teaching.list.isVisible()
     window.teaching.list.hide()
 

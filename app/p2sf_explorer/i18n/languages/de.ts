@@ -125,6 +125,50 @@
 <message><source>Not yet: this is not the lens of the task. Set the task up again.</source><translation>Noch nicht: Das ist nicht das Objektiv der Aufgabe. Die Aufgabe neu einstellen.</translation></message>
 <message><source>Not yet: waves were added by hand. Set the task up again.</source><translation>Noch nicht: Es wurden Wellen von Hand addiert. Die Aufgabe neu einstellen.</translation></message>
 <message><source>Not yet: the lens was misaligned or aligned. Set the task up again.</source><translation>Noch nicht: Das Objektiv wurde dejustiert oder justiert. Die Aufgabe neu einstellen.</translation></message>
+<message><source>Another version of the course: its tasks may differ</source><translation>Eine andere Version des Kurses: Ihre Aufgaben können andere sein</translation></message>
+<message><source>Answer</source><translation>Antwort</translation></message>
+<message><source>Back to the lecture</source><translation>Zurück zur Vorlesung</translation></message>
+<message><source>Check</source><translation>Prüfen</translation></message>
+<message><source>Check the answer (Enter)</source><translation>Die Antwort prüfen (Eingabe)</translation></message>
+<message><source>Course</source><translation>Kurs</translation></message>
+<message><source>Course…</source><translation>Kurs …</translation></message>
+<message><source>Down</source><translation>Nach unten</translation></message>
+<message><source>End</source><translation>Ende</translation></message>
+<message><source>Folder with the files of results</source><translation>Ordner mit den Ergebnisdateien</translation></message>
+<message><source>Hint {number} of {count}</source><translation>Hinweis {number} von {count}</translation></message>
+<message><source>Items to be put in order</source><translation>Einträge, die zu ordnen sind</translation></message>
+<message><source>Lessons of this lecture: {links}</source><translation>Lektionen dieser Vorlesung: {links}</translation></message>
+<message><source>Make a lesson with questions of what is on screen</source><translation>Aus dem, was zu sehen ist, eine Lektion mit Fragen machen</translation></message>
+<message><source>Make your own…</source><translation>Selbst eine machen …</translation></message>
+<message><source>Move the chosen item down</source><translation>Den gewählten Eintrag nach unten schieben</translation></message>
+<message><source>Move the chosen item up</source><translation>Den gewählten Eintrag nach oben schieben</translation></message>
+<message><source>Next lecture</source><translation>Nächste Vorlesung</translation></message>
+<message><source>Open a folder of such files as a table</source><translation>Einen Ordner solcher Dateien als Tabelle öffnen</translation></message>
+<message><source>Results of a class</source><translation>Ergebnisse eines Kurses</translation></message>
+<message><source>Results of a class…</source><translation>Ergebnisse eines Kurses …</translation></message>
+<message><source>Right, at attempt {number}.</source><translation>Richtig, beim {number}. Versuch.</translation></message>
+<message><source>Save as CSV…</source><translation>Als CSV speichern …</translation></message>
+<message><source>Save my results of the course…</source><translation>Meine Ergebnisse des Kurses speichern …</translation></message>
+<message><source>Save my results…</source><translation>Meine Ergebnisse speichern …</translation></message>
+<message><source>Set lens and sliders as the task begins</source><translation>Objektiv und Regler so einstellen, wie die Aufgabe beginnt</translation></message>
+<message><source>Set up again</source><translation>Neu einstellen</translation></message>
+<message><source>Show the next hint; the file of results counts them</source><translation>Den nächsten Hinweis zeigen; die Ergebnisdatei zählt sie</translation></message>
+<message><source>Show the solution</source><translation>Lösung zeigen</translation></message>
+<message><source>Six lectures with tasks, to work through or to give</source><translation>Sechs Vorlesungen mit Aufgaben, zum Durcharbeiten oder zum Halten</translation></message>
+<message><source>There are no answers yet; work through a lecture first</source><translation>Noch gibt es keine Antworten; zuerst eine Vorlesung durcharbeiten</translation></message>
+<message><source>Up</source><translation>Nach oben</translation></message>
+<message><source>Work through the lectures alone, or give them with F5. Answers are kept on this computer, and sent nowhere.</source><translation>Zum Durcharbeiten, oder zum Halten mit F5. Antworten bleiben auf diesem Rechner und werden nirgendwohin geschickt.</translation></message>
+<message><source>Write the table for a spreadsheet: attempts, hints, time and last answer of each task</source><translation>Die Tabelle für eine Tabellenkalkulation schreiben: Versuche, Hinweise, Zeit und letzte Antwort jeder Aufgabe</translation></message>
+<message><source>Write what you answered to a file for your lecturer</source><translation>Die eigenen Antworten in eine Datei für die Lehrenden schreiben</translation></message>
+<message><source>Your answer is noted.</source><translation>Die Antwort ist notiert.</translation></message>
+<message><source>Your name, as your lecturer knows it</source><translation>Ihr Name, wie die Lehrenden ihn kennen</translation></message>
+<message><source>{count} of {all} questions answered</source><translation>{count} von {all} Fragen beantwortet</translation></message>
+<message><source>{count} of {all} tasks right</source><translation>{count} von {all} Aufgaben richtig</translation></message>
+<message><source>{count} students</source><translation>{count} Studierende</translation></message>
+<message><source>{count} tried it; wrong at first: {wrong}</source><translation>{count} haben sie versucht; zuerst falsch: {wrong}</translation></message>
+<message><source>{path} cannot be written</source><translation>{path} kann nicht geschrieben werden</translation></message>
+<message><source>✓ first time · ✓ 3 third attempt · ✗ 2 not in two · ◌ solution shown · under a task: share right</source><translation>✓ auf Anhieb · ✓ 3 beim dritten Versuch · ✗ 2 nicht in zweien · ◌ Lösung gezeigt · unter einer Aufgabe: Anteil richtig</translation></message>
+<message><source>Lecture {number}: {title}</source><translation>Vorlesung {number}: {title}</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>

@@ -1,0 +1,119 @@
+"""The results of a class: students by tasks, how many got each right, and the files that could not be read."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from p2sf.errors import P2SFError
+from p2sf.messages import Message
+from p2sf_explorer.charts.theme import Tokens
+from p2sf_explorer.course.results_table import ResultTable, write_table
+from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord
+from p2sf_explorer.widgets.plain_table import PlainTable
+
+SIZE = 900, 520
+KEY = "✓ first time · ✓ 3 third attempt · ✗ 2 not in two · ◌ solution shown · under a task: share right"
+FIRST = ("Name", "Right", "Course")
+
+
+class ResultsWindow(QDialog):
+    """A table with a row a student; ``done`` is told what was written."""
+
+    def __init__(
+        self, table: ResultTable, version: str, done: Callable[[Message | P2SFError], object], parent: QWidget
+    ):
+        super().__init__(parent)
+        self._table, self._done = table, done
+        self.setWindowTitle(tr("Results of a class"))
+        self.table = PlainTable((*FIRST, *("",) * len(table.tasks)), "Results of a class")
+        self.table.setRowCount(len(table.rows))
+        for row, (path, result) in enumerate(table.rows):
+            self._fill(row, path, result, version)
+        self._head()
+        key, self.faults = QLabel(tr(KEY), self), QLabel(self)
+        key.setObjectName("muted")
+        self.faults.setObjectName("warning")
+        for label in (key, self.faults):
+            label.setWordWrap(True)
+        self.faults.setText("\n".join(f"⚠ {said(fault)}" for fault in table.faults))
+        self.faults.setVisible(bool(table.faults))
+        self.save, close = QPushButton(tr("Save as CSV…"), self), QPushButton(tr("Close"), self)
+        self.save.setToolTip(
+            tr("Write the table for a spreadsheet: attempts, hints, time and last answer of each task")
+        )
+        self.save.clicked.connect(self.ask_save)
+        close.clicked.connect(self.close)
+        foot = QHBoxLayout()
+        foot.addWidget(QLabel(tr("{count} students", count=len(table.rows)), self))
+        foot.addStretch(1)
+        foot.addWidget(self.save)
+        foot.addWidget(close)
+        column = QVBoxLayout(self)
+        for part in (key, self.table, self.faults):
+            column.addWidget(part)
+        column.addLayout(foot)
+
+    def restyle(self, theme: Tokens) -> None:
+        """Take the scale of a theme."""
+        self.table.restyle(theme)
+        self.resize(*(theme.px(side) for side in SIZE))
+
+    def _head(self) -> None:
+        """Name every task with the share that got it right, and in its tip the commonest wrong answers."""
+        for column, task in enumerate(self._table.tasks, len(FIRST)):
+            found = self._table.summary(task)
+            lecture, _, name = task.partition(JOINT)
+            item = QTableWidgetItem(f"{lecture}\n{name}\n{100 * found.share_right:.0f} %")
+            wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
+            tip = tr("{count} tried it; wrong at first: {wrong}", count=found.tried, wrong=wrong or "–")
+            item.setToolTip(f"{task}\n{tip}")
+            self.table.setHorizontalHeaderItem(column, item)
+
+    def _fill(self, row: int, path: Path, result: CourseResult, version: str) -> None:
+        right = sum(record.right for record in result.tasks.values())
+        self.table.put(row, 0, result.name or path.stem).setToolTip(path.name)
+        self.table.put(row, 1, str(right), right=True)
+        other = result.course != version
+        self.table.put(row, 2, f"⚠ {result.course}" if other else result.course).setToolTip(
+            tr("Another version of the course: its tasks may differ") if other else ""
+        )
+        for column, task in enumerate(self._table.tasks, len(FIRST)):
+            record = result.tasks.get(task)
+            cell = self.table.put(row, column, sign(record) if record else "")
+            if record:
+                cell.setToolTip(", ".join(record.answers))
+
+    def ask_save(self) -> None:
+        """Ask for a name and write the table as CSV."""
+        path, _ = QFileDialog.getSaveFileName(self, tr("Save as CSV…"), "results.csv", "CSV (*.csv)")
+        if path:
+            self.write(Path(path if Path(path).suffix else f"{path}.csv"))
+
+    def write(self, path: Path) -> None:
+        """Write the table as CSV."""
+        try:
+            write_table(self._table, path)
+        except P2SFError as error:
+            self._done(error)
+            return
+        self._done(Message("Saved {name}", name=path.name))
+
+
+def sign(record: TaskRecord) -> str:
+    """Return a cell: right or not, and the attempts it took where these were not one."""
+    count = f" {record.attempts}" if record.attempts > 1 else ""
+    if record.right:
+        return f"✓{count}"
+    return f"◌{count}" if record.told else f"✗{count}" if record.answers else ""
