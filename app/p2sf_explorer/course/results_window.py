@@ -18,7 +18,7 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.course.results_table import ResultTable, write_table
-from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord
 from p2sf_explorer.widgets.plain_table import PlainTable
@@ -47,7 +47,7 @@ class ResultsWindow(QDialog):
         self.faults.setObjectName("warning")
         for label in (key, self.faults):
             label.setWordWrap(True)
-        self.faults.setText("\n".join(f"⚠ {said(fault)}" for fault in table.faults))
+        self.faults.setText("\n".join(f"⚠ {fault.message.text(WINDOW)}" for fault in table.faults))
         self.faults.setVisible(bool(table.faults))
         self.save, close = QPushButton(tr("Save as CSV…"), self), QPushButton(tr("Close"), self)
         self.save.setToolTip(
