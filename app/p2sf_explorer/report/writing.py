@@ -18,10 +18,11 @@ from p2sf_explorer.compute.matrix.tiles import figures
 from p2sf_explorer.report.contents import LensReport
 from p2sf_explorer.report.figures import curve_drawings, draw_lens, draw_matrix, matrix_scale
 from p2sf_explorer.report.pages import (
+    A4,
     EDGE_MM,
-    HIGH_MM,
+    HEADING,
     LINE_MM,
-    WIDE_MM,
+    Lettering,
     Sheet,
     html_page,
     html_table,
@@ -101,8 +102,8 @@ def _pdf_pages(report: LensReport, words: Style) -> list[Sheet]:
         pages.append(_matrix_page(heading, found, words, report if number == 1 else None))
     for number, page in enumerate(pages, 1):
         for line, text in enumerate(closing_lines(report, words)):
-            page.put(EDGE_MM, HIGH_MM - 13 + 3 * line, text, 6.0, grey=True)
-        page.put(WIDE_MM - EDGE_MM, HIGH_MM - 13, f"{number}/{len(pages)}", 6.5, "right", grey=True)
+            page.put(EDGE_MM, A4.high_mm - 13 + 3 * line, text, Lettering(6.0, grey=True))
+        page.put(A4.wide_mm - EDGE_MM, A4.high_mm - 13, f"{number}/{len(pages)}", Lettering(6.5, "right", grey=True))
     return pages
 
 
@@ -114,25 +115,25 @@ ENDS = 0, 40, 66, 98, 126, 144, 178
 
 def _first_pages(report: LensReport, words: Style) -> list[Sheet]:
     first = Sheet()
-    first.write(report.title, min(15.0, TITLE_ROOM / max(1, len(report.title))), bold=True)
+    first.write(report.title, Lettering(min(15.0, TITLE_ROOM / max(1, len(report.title))), bold=True))
     first.y += 1
-    first.write(report.source.text(words), grey=True)
-    draw_lens(first.axes(EDGE_MM + 8, first.y + 3, WIDE_MM - 2 * EDGE_MM - 8, 62), report.layout)
+    first.write(report.source.text(words), Lettering(grey=True))
+    draw_lens(first.axes(EDGE_MM + 8, first.y + 3, first.inner_mm - 8, 62), report.layout)
     first.y += 78
-    first.write(Message("First order").text(words), 10.5, bold=True)
-    top, wide = first.y + 1, (WIDE_MM - 2 * EDGE_MM - 12) / 3
+    first.write(Message("First order").text(words), HEADING)
+    top, wide = first.y + 1, (first.inner_mm - 12) / 3
     for column, rows in enumerate(report.first_order):
         x = EDGE_MM + column * (wide + 6)
         for row, (name, value, _) in enumerate(rows):
             y = top + row * LINE_MM
-            first.put(x, y, Message(name).text(words), 7.2, grey=True)
-            first.put(x + wide, y, value.text(words), 7.2, "right")
+            first.put(x, y, Message(name).text(words), Lettering(7.2, grey=True))
+            first.put(x + wide, y, value.text(words), Lettering(7.2, "right"))
             first.rule(y + LINE_MM - 0.9, x, wide)
     first.y = top + LINE_MM * max(map(len, report.first_order)) + 5
     pages, left = [first], prescription_rows(report, words)
     while left:
         page = pages[-1]
-        page.write(Message("Prescription").text(words), 10.5, bold=True)
+        page.write(Message("Prescription").text(words), HEADING)
         room = MOST_ROWS if page is first else 2 * MOST_ROWS
         page.table(column_heads(words), [_cut(row) for row in left[:room]], ENDS, 7.2)
         left = left[room:]
@@ -149,21 +150,21 @@ def _cut(row: Sequence[str]) -> list[str]:
 
 def _curve_page(report: LensReport, words: Style) -> Sheet:
     page = Sheet()
-    page.write(Message("Performance").text(words), 10.5, bold=True)
+    page.write(Message("Performance").text(words), HEADING)
     page.y += 1
     heads = performance_heads(report, words)
     lengths = np.cumsum([max(map(len, [*head.split("\n"), "−00.00"])) for head in heads])
-    ends = ((WIDE_MM - 2 * EDGE_MM) * lengths / lengths[-1]).tolist()
+    ends = (page.inner_mm * lengths / lengths[-1]).tolist()
     page.table(heads, report.performance.rows(words), ends, min(7.5, 640.0 / lengths[-1]))
     for line in (line for why in report.performance.reasons for line in wrap(why.text(words), REASON_LETTERS)):
-        page.write(line, 7, grey=True)
-    high = (HIGH_MM - 22 - page.y) / 3
+        page.write(line, Lettering(7, grey=True))
+    high = (A4.high_mm - 22 - page.y) / 3
     for heading, drawings in curve_drawings(report, words):
-        page.put(EDGE_MM, page.y + 4, heading.text(words), 10.5, bold=True)
+        page.put(EDGE_MM, page.y + 4, heading.text(words), HEADING)
         if isinstance(drawings, Message):
             page.put(EDGE_MM, page.y + 11, drawings.text(words))
         else:
-            wide = (WIDE_MM - 2 * EDGE_MM) / len(drawings)
+            wide = page.inner_mm / len(drawings)
             for number, draw in enumerate(drawings):
                 draw(page.axes(EDGE_MM + 12 + number * wide, page.y + 11, wide - 16, high - 24))
         page.y += high
@@ -172,7 +173,7 @@ def _curve_page(report: LensReport, words: Style) -> Sheet:
 
 def _matrix_page(heading: Message, found: Any, words: Style, last: LensReport | None) -> Sheet:
     page = Sheet()
-    page.write(heading.text(words), 10.5, bold=True)
+    page.write(heading.text(words), HEADING)
     if isinstance(found, Message):
         page.write(found.text(words))
     else:
@@ -184,16 +185,17 @@ def _matrix_page(heading: Message, found: Any, words: Style, last: LensReport | 
         page.figure.subplots_adjust(*room)
     if last:
         lines = [last.link[start : start + 150] for start in range(0, min(len(last.link), 1350), 150)]
-        page.y = HIGH_MM - 34
+        page.y = A4.high_mm - 34
         page.write(
-            Message("Opens in P2SF Explorer: copy this link, then paste it into the window").text(words), 8, bold=True
+            Message("Opens in P2SF Explorer: copy this link, then paste it into the window").text(words),
+            Lettering(8, bold=True),
         )
         for line in (
             lines
             if len(last.link) <= 1350
             else [Message("the HTML report has the link, which is too long here").text(words)]
         ):
-            page.write(line, 5, grey=True)
+            page.write(line, Lettering(5, grey=True))
     return page
 
 
