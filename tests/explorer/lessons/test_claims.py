@@ -1,15 +1,17 @@
-"""Every claim of a lesson by a road of its own, so that a fault of the program is not what the lesson teaches."""
+"""Every claim of a lesson or lecture by a road of its own, so that a fault of the program is not what it teaches."""
 
 import pytest
 
+from p2sf_explorer.course.lectures import FOLDER as COURSE_FOLDER
 from p2sf_explorer.lessons.changes import apply_changes
 from p2sf_explorer.lessons.claims import Claim, holds
+from p2sf_explorer.lessons.lesson import FOLDER as LESSON_FOLDER
 from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
 from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.state.state import State
 from tests.support.windows.lesson_measures import OWN_ACCOUNT, REFEREE
 
-LESSONS = [read_lesson(path) for path in lesson_files()]
+LESSONS = [read_lesson(path) for folder in (LESSON_FOLDER, COURSE_FOLDER) for path in lesson_files(folder)]
 CLAIMS = [
     pytest.param(lesson.state(number), claim, id=f"{lesson.name}-{number + 1}-{claim.text}")
     for lesson in LESSONS

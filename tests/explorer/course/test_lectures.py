@@ -1,0 +1,148 @@
+"""The shipped lectures: what they claim is measured, foreseen answers are judged, German is whole, texts are easy."""
+
+import re
+
+import pytest
+
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.quantities import QUANTITIES
+from p2sf_explorer.compute.setup import state_ranges
+from p2sf_explorer.course.lectures import CHECK, FOLDER, tasks_of
+from p2sf_explorer.i18n.language import texts
+from p2sf_explorer.lessons.changes import apply_changes, read_changes
+from p2sf_explorer.lessons.claims import holds, measure_claim
+from p2sf_explorer.lessons.lesson import COURSE, lesson_files, read_lesson, shipped_lessons, with_words
+from p2sf_explorer.lessons.task import ChoiceAnswer, GoalAnswer, NumericAnswer, OrderAnswer
+from tests.long.reading_age import HIGHEST, read_all
+from tests.support.reading_age import GRADES, syllables
+
+LECTURES = [read_lesson(path) for path in lesson_files(FOLDER)]
+GERMAN = [with_words(lesson, FOLDER / "de" / f"{lesson.name}.md", "de") for lesson in LECTURES]
+STEPS = [(lesson, number, step) for lesson in LECTURES for number, step in enumerate(lesson.steps)]
+CLAIMS = [
+    pytest.param(lesson, number, claim, id=f"{lesson.name}-{number + 1}-{claim.text}")
+    for lesson, number, step in STEPS
+    for claim in step.claims
+]
+TASKS = [
+    pytest.param(lesson.state(number), step.task, id=step.task.name) for lesson, number, step in STEPS if step.task
+]
+NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
+EMPHASISED = re.compile(r"(?<!\*)\*([^*]+)\*(?!\*)")
+FORESEEN = 40
+# Where a student ends who makes the foreseen mistakes, in the order of the file.
+MISTAKES = {
+    "l1-goal": ("f_number 15.28, wavelength_nm 540", "f_number 7", "f_number 5"),
+    "l2-coma": ("field_deg 0.5", "f_number file", "f_number 6"),
+    "l3-focus": ("depth_mm inf", "f_number 32", "focus_mm 5000"),
+    "l4-red": ("wavelength_nm 587.6", "f_number 32", "sensor_shift_um -50", "sensor_shift_um 200"),
+    "l5-contrast": ("f_number file", "f_number 22", "f_number 5"),
+    "l6-slope": ("field_deg 0", "f_number 11", "field_deg 10", "depth_mm 2000"),
+}
+
+
+@pytest.mark.parametrize(("lesson", "number", "claim"), CLAIMS)
+def test_a_claim_is_what_the_program_measures(lesson, number, claim):
+    value = measure_claim(claim, lesson.state(number))
+    assert holds(claim, value), f"{claim.text}: measured {value:.6g}"
+
+
+@pytest.mark.parametrize(("state", "task"), TASKS)
+def test_right_answers_are_right_and_foreseen_wrong_ones_get_their_own_hint(state, task):
+    answer = task.answer
+    if isinstance(answer, NumericAnswer):
+        right = [str(part.target(state)) for part in answer.parts]
+        wrong = [(f"{part.target(state)} {part.unit}", hint) for part, hint in answer.wrong]
+    elif isinstance(answer, ChoiceAnswer):
+        right = [str(answer.right + 1)]
+        wrong = [(str(k + 1), hint) for k, hint in enumerate(answer.hints) if k != answer.right]
+    elif isinstance(answer, OrderAnswer):
+        right = [" ".join(str(k + 1) for k in range(len(answer.items)))]
+        wrong = [(" ".join(str(k + 1) for k in order), hint) for order, hint in answer.wrong]
+    else:
+        right, wrong = [""], []
+    now = apply_changes(state, answer.solution) if isinstance(answer, GoalAnswer) else state
+    assert task.judge(";".join(right), state, now).right
+    for text, hint in wrong:
+        judged = task.judge(text, state, state)
+        assert (judged.right, judged.hint) == (False, hint) and hint
+    if isinstance(answer, GoalAnswer):
+        assert not task.judge("", state, state).right, "nothing is left to do"
+        for moves, (_, hint) in zip(MISTAKES[task.name], answer.wrong, strict=True):
+            judged = task.judge("", state, apply_changes(state, read_changes(moves, 1, "a mistake")))
+            assert (judged.right, judged.hint) == (False, hint), moves
+
+
+def test_there_are_six_lectures_of_three_tasks_and_ten_questions():
+    lectures = [lesson for lesson in LECTURES if lesson.name != CHECK]
+    assert [lesson.name for lesson in lectures] == [f"lecture_{k}" for k in range(1, 7)]
+    for lesson in lectures:
+        named = [step.task for step in lesson.steps if step.task and step.title.startswith("Task ")]
+        assert len(named) == 3 and all(task.hints or isinstance(task.answer, ChoiceAnswer) for task in named)
+        assert lesson.steps[0].note and "- " in lesson.steps[0].text
+    assert len(tasks_of(next(lesson for lesson in LECTURES if lesson.name == CHECK))) == 10
+    names = [task.name for lesson in LECTURES for task in tasks_of(lesson)]
+    assert len(set(names)) == len(names)
+
+
+def test_forty_wrong_answers_and_more_are_foreseen_each_with_a_hint_of_its_own():
+    lectures = [lesson for lesson in LECTURES if lesson.name != CHECK]
+    words = [task.words for lesson in lectures for task in tasks_of(lesson)]
+    hints = [(*one.wrong, *filter(None, one.option_hints)) for one in words]
+    assert all(len(set(one)) == len(one) for one in hints)
+    assert len({hint for one in hints for hint in one}) >= FORESEEN
+
+
+def test_the_lessons_that_lectures_play_are_shipped_and_all_of_the_course_is_played():
+    shipped = {lesson.name for lesson in shipped_lessons()}
+    played = {name for lesson in LECTURES for name in lesson.lessons}
+    assert played <= shipped
+    assert {name[:2] for name in played} == set(COURSE)
+
+
+@pytest.mark.parametrize(("lesson", "number", "step"), STEPS, ids=[f"{a.name}-{b + 1}" for a, b, _ in STEPS])
+def test_every_page_has_a_picture_and_sliders_reach_what_it_sets(lesson, number, step):
+    state = lesson.state(number)
+    assert compute.live(state, "preview").psf.values.sum() == pytest.approx(1, abs=1e-3)
+    limits = state_ranges(state)
+    for quantity in QUANTITIES:
+        value, scale = quantity.shown(state, limits), quantity.scale(limits)
+        if quantity.key != "focus_mm":
+            assert scale.value(scale.travel(value)) == pytest.approx(value), quantity.title
+
+
+def told(step) -> str:
+    words = step.task.words if step.task else None
+    parts = [step.title, step.text, step.attempt, step.question, step.answer, step.note]
+    if words:
+        parts += [*words.labels, *words.options, *words.option_hints, *words.items, *words.wrong, *words.hints]
+    return "\n".join(parts)
+
+
+@pytest.mark.parametrize(("lesson", "said"), zip(LECTURES, GERMAN, strict=True), ids=[one.name for one in LECTURES])
+def test_german_has_the_same_parts_numbers_and_controls(lesson, said):
+    known = texts("de")
+    assert said.title != lesson.title and said.about != lesson.about
+    for old, new in zip(lesson.steps, said.steps, strict=True):
+        numbers = [{found.replace(",", ".") for found in NUMBER.findall(told(step))} for step in (old, new)]
+        assert numbers[0] == numbers[1], old.title
+        for part in ("text", "attempt", "question", "answer", "note"):
+            assert bool(getattr(new, part)) == bool(getattr(old, part)), f"{old.title}: {part}"
+        for control in EMPHASISED.findall(told(old)):
+            assert f"*{known.get(control, control)}*" in told(new), control
+
+
+def test_texts_are_for_pupils_of_sixteen():
+    grades = {(name, language): GRADES[language](text) for name, language, text in read_all()}
+    assert {key: grade for key, grade in grades.items() if grade > HIGHEST} == {}
+
+
+def test_the_indices_are_those_of_their_authors():
+    """By hand: 6 words of a syllable; 5 words, 3 of three syllables and more than six letters, 2 of one syllable."""
+    assert GRADES["en"]("The cat sat on the mat.") == pytest.approx(0.39 * 6 + 11.8 - 15.59)
+    expected = 0.1935 * 60 + 0.1672 * 5 + 0.1297 * 60 - 0.0327 * 40 - 0.875
+    assert GRADES["de"]("Das Objektiv macht unscharfe Bildränder.") == pytest.approx(expected)
+    counts = {"wave": 1, "waves": 1, "people": 2, "closed": 1, "aperture": 3, "spherical": 3, "quarter": 2}
+    assert {word: syllables(word, "en") for word in counts} == counts
+    german = {"Blendenzahl": 3, "Öffnungsfehler": 4, "Bild": 1, "Welle": 2, "breiter": 2, "Pupille": 3}
+    assert {word: syllables(word, "de") for word in german} == german
