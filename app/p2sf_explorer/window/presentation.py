@@ -50,6 +50,11 @@ class Presentation(QObject):
         self._escape.setEnabled(False)
         self._escape.activated.connect(self.stop)
 
+    @property
+    def beside(self) -> bool:
+        """Return whether the controls stand on a screen of their own."""
+        return self._desk is not None
+
     def commands(self) -> tuple[Command, ...]:
         """Return the command that begins and ends presenting."""
         return (Command("Present: the stage on the full screen, or back (Esc)", self.toggle, ("F5",), "View"),)

@@ -34,6 +34,7 @@ from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.files.opening import REPORT_TAB, Refusal
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.controller import LessonController, LessonRoom
+from p2sf_explorer.lessons.hall import Hall
 from p2sf_explorer.panels import BackgroundPanel, FilmedPanel, Panel, PreparingPanel, build
 from p2sf_explorer.panels.coefficients.panel import CoefficientsPanel
 from p2sf_explorer.panels.psf import PsfPanel
@@ -127,6 +128,7 @@ class MainWindow(QMainWindow):
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
         self.lesson_room = LessonRoom(self.left_parts, self.controls)
         self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme, find_lectures)
+        self.hall = Hall(self.teaching, self.room.stage, self)
         self.course = Course(self.store, self.teaching, lambda: self._theme, self)
         access = PanelAccess(
             live=lambda: self.live,
@@ -146,7 +148,7 @@ class MainWindow(QMainWindow):
         self.top.put_workspaces(WorkspaceBar(self.workspaces, self.top))
         self.commands = Actions(self, self.store, self.top, access)
         own = self.tabs, self.workspaces, self.view, self.presentation
-        for part in (self.sharing, self.compare, self.play, self.teaching, self.course, *own):
+        for part in (self.sharing, self.compare, self.play, self.teaching, self.hall, self.course, *own):
             for command in part.commands():
                 self.commands.add(command)
         self.commands.sources.append(self.teaching.listed)
@@ -443,6 +445,7 @@ class MainWindow(QMainWindow):
         self.controls.make_slim(on)
         self._placed_from = None
         self.refresh(self.store.state)
+        self.hall.present(on, self.presentation.beside)
 
     def _homes(self, display: Display) -> dict[str, Home]:
         """Return where the panels on show stand inside the window."""

@@ -169,6 +169,12 @@
 <message><source>{path} cannot be written</source><translation>{path} kann nicht geschrieben werden</translation></message>
 <message><source>✓ first time · ✓ 3 third attempt · ✗ 2 not in two · ◌ solution shown · under a task: share right</source><translation>✓ auf Anhieb · ✓ 3 beim dritten Versuch · ✗ 2 nicht in zweien · ◌ Lösung gezeigt · unter einer Aufgabe: Anteil richtig</translation></message>
 <message><source>Lecture {number}: {title}</source><translation>Vorlesung {number}: {title}</translation></message>
+<message><source>Click, or press T, to stop the countdown or let it go on</source><translation>Klicken, oder T drücken, hält den Countdown an oder lässt ihn weiterlaufen</translation></message>
+<message><source>{count} seconds left</source><translation>noch {count} Sekunden</translation></message>
+<message><source>Page Down goes on, Page Up back, B blanks the screen, T stops the countdown</source><translation>Bild ab geht weiter, Bild auf zurück, B macht den Schirm schwarz, T hält den Countdown an</translation></message>
+<message><source>Notes</source><translation>Notizen</translation></message>
+<message><source>Next: {title}</source><translation>Danach: {title}</translation></message>
+<message><source>Notes of the lesson in a window of their own</source><translation>Notizen zur Lektion in einem eigenen Fenster</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
