@@ -15,7 +15,7 @@ from p2sf.arguments import real_array
 from p2sf.errors import RequestError
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.geometry import illumination, region_of, resample, source_places
-from p2sf.image.lattice import Lattice, NodeKernels, known_kernels
+from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels
 from p2sf.image.layers import CONTINUED, DepthMap, map_depths
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
@@ -35,6 +35,7 @@ LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
 TILE = 1024  # pixels a side of what is formed at a time: larger ones share more, and take more memory
 TILE_STEPS = 64  # of progress
+BETWEEN = 0.2  # of the scene's tolerance: the allowed error of kernels between computed nodes
 KEPT_BYTES = 2**28  # of kernels of depth nodes; those least recently used are computed again when they are needed
 
 
@@ -87,13 +88,12 @@ def form_image(
     that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is cancelled.
     """
     picture, watch = check_picture(planned.scene, values), watch or Progress()
-    kernels = DepthKernels(planned, watch)
+    kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)
     if depth_mm is None:
-        kernels.keep(0, lattice or kernels.over(0, whole(picture.shape)))
         depths, half = None, kernels.over(0, whole(picture.shape)).half
     else:
         _check_depths(planned.scene, depth_mm)
-        half = _largest_half(planned)
+        half = max(_corner_halves(planned))
         depths = map_depths(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2], half)
     former = _Former(planned, picture, depths, how, half, kernels, watch)
     out, parts = np.empty_like(picture), list(tiles(picture.shape, TILE))
@@ -111,19 +111,23 @@ def form_image(
 class DepthKernels:
     """The kernels of a plan's depth nodes, computed where they are needed and kept up to KEPT_BYTES."""
 
-    def __init__(self, planned: Plan, watch: Progress) -> None:
-        self._planned, self._watch = planned, watch
-        self._nodes: dict[int, NodeKernels] = {}
+    def __init__(self, planned: Plan, watch: Progress, lattice: Lattice | None = None) -> None:
+        """Take the ``lattice`` of the far end, if it is known; else measure how many nodes must be computed."""
+        self._planned, self._watch, self._step = planned, watch, 1
         self._lock = Lock()
-
-    def keep(self, number: int, lattice: Lattice) -> None:
-        """Take the kernels of a depth node over the whole picture."""
-        self._nodes[number] = known_kernels(lattice)
+        if lattice is not None:
+            self._nodes = {0: known_kernels(lattice)}
+            return
+        halves = _corner_halves(planned)
+        measured = {0, len(halves) - 1, int(np.argmin(halves))}  # the ends and the sharpest
+        self._nodes = {number: node_kernels(planned, planned.vergences[number]) for number in measured}
+        self._step = choose_step(list(self._nodes.values()), BETWEEN * planned.allowed_error, watch)
 
     def over(self, number: int, region: Region) -> Lattice:
         """Return the kernels of a depth node over a part of the picture."""
         with self._lock:
             nodes = self._nodes.pop(number, None) or node_kernels(self._planned, self._planned.vergences[number])
+            nodes.step = self._step
             self._nodes[number] = nodes  # the last one is the one used most recently
             while len(self._nodes) > 1 and sum(each.bytes for each in self._nodes.values()) > KEPT_BYTES:
                 del self._nodes[next(iter(self._nodes))]
@@ -239,20 +243,27 @@ class _Placing:
             source = source.grown(CONTINUED * self._former.half).meet(self._all)
         picture, lit = self._former.picture[source.within(self._all)], self.light(self._inside)
         for layer in depths.over(source).layers(picture):
-            box = self._box(layer.opacity, source)
+            box = self._box(layer.opacity > 0, source)
             if box.empty:
                 continue
             planes = [layer.opacity, layer.hiding] if layer.hiding.any() else [layer.opacity]
             opacity = self._moved(np.stack(planes, axis=-1), source, box, 1)
-            if layer.colours is picture:
-                colours = lit[box.within(self._inside)]
-            else:
-                colours = self._shaded(self._moved(layer.colours, source, box, self._former.how.spline), box)
+            colours = lit[box.within(self._inside)]
+            other = (
+                Region(0, 0, 0, 0)
+                if layer.colours is picture
+                else self._box((layer.colours != picture).any(-1), source)
+            )
+            other = other.meet(box)
+            if not other.empty:
+                continued = self._moved(layer.colours, source, other, self._former.how.spline)
+                colours = colours.copy()
+                colours[other.within(box)] = self._shaded(continued, other)
             yield layer.number, np.concatenate([colours * opacity[..., :1], opacity], axis=-1), box
 
-    def _box(self, opacity: np.ndarray, source: Region) -> Region:
-        """Return the pixels on which a layer lands that shows where its opacity, over ``source``, is not 0."""
-        rows, columns = (np.flatnonzero((opacity > 0).any(axis)) for axis in (1, 0))
+    def _box(self, seen: np.ndarray, source: Region) -> Region:
+        """Return the pixels on which those of ``source`` land that are ``seen``, (rows, columns), as bool."""
+        rows, columns = (np.flatnonzero(seen.any(axis)) for axis in (1, 0))
         if not rows.size:
             return Region(0, 0, 0, 0)
         top, left = source.top + int(rows[0]), source.left + int(columns[0])
@@ -277,11 +288,10 @@ class _Placing:
         return values if self._shade is None else values * self._shade[box.within(self._inside)]
 
 
-def _largest_half(planned: Plan) -> int:
-    """Return the half width of the widest kernel, pixels: that of one end of the depths in the corner."""
-    corner = [0.0], [planned.scene.sensor.corners_mm()[1]]
-    ends = (planned.vergences[0], planned.vergences[-1])
-    return max(int(planned.kernels(len(planned.colours) // 2, v).points(*corner).half_widths()[0]) for v in ends)
+def _corner_halves(planned: Plan) -> list[int]:
+    """Return the half width of the kernel in the corner at every depth node, pixels."""
+    corner, middle = ([0.0], [planned.scene.sensor.corners_mm()[1]]), len(planned.colours) // 2
+    return [int(planned.kernels(middle, v).points(*corner).half_widths()[0]) for v in planned.vergences]
 
 
 def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
@@ -343,5 +353,6 @@ def plan_lattice(
     planned: Plan, vergence: float, watch: Progress | None = None, most_half: int = LARGEST_WINDOW
 ) -> Lattice:
     """Return the kernels of every channel on the plan's nodes at one depth; ``most_half`` as in `node_kernels`."""
-    sensor = planned.scene.sensor
-    return node_kernels(planned, vergence, most_half).over(whole((sensor.rows, sensor.columns)), watch)
+    sensor, nodes = planned.scene.sensor, node_kernels(planned, vergence, most_half)
+    nodes.step = choose_step([nodes], BETWEEN * planned.allowed_error, watch)
+    return nodes.over(whole((sensor.rows, sensor.columns)), watch)

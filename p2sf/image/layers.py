@@ -17,7 +17,7 @@ from p2sf.conventions import vergence
 from p2sf.errors import RequestError
 from p2sf.image.region import Region, whole
 
-FAR = 2**30  # pixels, more than any picture has
+FAR = 2**28  # pixels, more than any picture has
 JUMP = 0.5  # of the distance between depth nodes, from one pixel to the next
 CONTINUED, HIDING = 2, 4  # half widths of kernels about an edge: beyond the first nothing is seen of what goes on there
 
@@ -65,10 +65,13 @@ class DepthMap:
             opacity = np.where(self.continued & (opacity == 0), reaching_on, opacity)
             if opacity.any():
                 yield DepthLayer(number, colours, opacity, self.hiding * _hides(self.place - number, opacity))
-            nearest = _nearest_open(reaching_on >= 1)
-            jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
-            place = np.minimum(np.where(jumps, place[nearest], place), number - 1)
-            colours = np.where(jumps[..., None], colours[nearest], colours)
+            hidden = reaching_on >= 1
+            if (hidden & self.continued).any():  # elsewhere nothing is seen of what goes on
+                nearest = _nearest_open(hidden)
+                jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
+                place = np.where(jumps, place[nearest], place)
+                colours = np.where(jumps[..., None], colours[nearest], colours)
+            place = np.minimum(place, number - 1)
 
 
 def map_depths(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...], half: int) -> DepthMap:
@@ -126,7 +129,7 @@ def _nearest_open(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def _nearest_in_row(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the column of the nearest pixel of the same row that is not hidden, and how far it is; FAR for none."""
     count = hidden.shape[1]
-    own = np.arange(count)
+    own = np.arange(count, dtype=np.int32)
     left = np.maximum.accumulate(np.where(hidden, -2 * FAR, own), 1)
     right = np.minimum.accumulate(np.where(hidden, 2 * FAR, own)[:, ::-1], 1)[:, ::-1]
     distances = np.minimum(own - left, FAR), np.minimum(right - own, FAR)

@@ -10,11 +10,13 @@ from p2sf.image import Forming, Progress, form, form_image, preview
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
 from p2sf.image.geometry import distort, distortion_px, illumination
-from p2sf.image.lattice import build_lattice
+from p2sf.image.lattice import NodeKernels, build_lattice, choose_step, computed_nodes, weights_between
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.preview import preview_plan
+from p2sf.image.region import whole
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
+from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.psf.huygens import huygens_psf
 from p2sf.scene import Channel, Scene, Sensor
 from tests.support.direct_sum import direct_sum
@@ -101,6 +103,36 @@ def test_mirrored_quarters_are_the_whole():
     for line, other in zip(one.kernels, two.kernels, strict=True):
         for kernel, twin in zip(line, other, strict=True):
             assert np.allclose(kernel, twin, atol=1e-7)
+
+
+@pytest.mark.parametrize("count", [2, 12, 33, 49])
+@pytest.mark.parametrize("step", [1, 2, 3, 4])
+def test_polynomials_of_fifth_degree_are_exact_between_computed_nodes(count, step):
+    known = computed_nodes(count, step)
+    assert {0, count - 1} <= set(known.tolist()) and (known == count - 1 - known[::-1]).all()
+    assert len(known) == count or np.diff(known).max() <= step + 1  # a quotient rounded either way
+    weights = weights_between(count, step, range(count))
+    assert not np.delete(weights, known, axis=1).any()
+    place = np.linspace(-1, 1, count)
+    for degree in range(6 if len(known) < count else 10):
+        np.testing.assert_allclose(weights @ place**degree, place**degree, atol=1e-13)  # of weights up to some ten
+
+
+@pytest.mark.parametrize("allowed", [0.02, 0.002])
+def test_kernels_between_computed_nodes_are_as_true_as_allowed(allowed):
+    """Every kernel of a lattice against the closed form; the error was measured in the corner, where it is largest."""
+    nodes = NodeKernels(each(comet), nodes_along(SIDE, 49), nodes_along(SIDE, 49))
+    nodes.step = choose_step([nodes], allowed)
+    assert nodes.step > 1
+    lattice = nodes.over(whole((SIDE, SIDE)))
+    assert len(nodes.computed) < 0.4 * 49**2
+    off = [
+        np.linalg.norm(lattice.kernels[a][b] - comet(row, column)) / np.linalg.norm(comet(row, column))
+        for a, row in enumerate(lattice.row_nodes)
+        for b, column in enumerate(lattice.column_nodes)
+        if np.hypot(row - SIDE / 2, column - SIDE / 2) > SIDE / 8  # nearer the comet's direction is no polynomial
+    ]
+    assert max(off) <= allowed
 
 
 def quick(sensor: Sensor, lens="double_gauss_28", f_number=None):
