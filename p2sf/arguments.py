@@ -96,9 +96,9 @@ def _add(given: dict[str, Any], name: str, value: Any) -> None:
 
 def check_fields(instance: Any) -> None:
     """Convert the fields of a frozen dataclass by `argument`; raises RequestError as it does."""
-    for name, annotation, allowed in _fields(cast("Any", type(instance))):
+    for name, annotation, allowed, parts in _fields(cast("Any", type(instance))):
         value = getattr(instance, name)
-        if value == () if type(value) is tuple else type(value) in allowed:
+        if all(type(part) in parts for part in value) if type(value) is tuple else type(value) in allowed:
             continue
         own = argument(name, value, annotation)
         if own is not value:
@@ -106,10 +106,22 @@ def check_fields(instance: Any) -> None:
 
 
 @lru_cache(maxsize=64)
-def _fields(kind: Any) -> tuple[tuple[str, Any, Kinds], ...]:
-    """Return the fields of a dataclass that can be checked: name, annotation, and the classes accepted unconverted."""
-    known = ((field.name, field.type, _kinds(cast("Any", field.type))[0]) for field in fields(kind))
-    return tuple((name, annotation, tuple(set(kinds) - {tuple})) for name, annotation, kinds in known if kinds)
+def _fields(kind: Any) -> tuple[tuple[str, Any, Kinds, Kinds], ...]:
+    """Return the fields of a dataclass that can be checked.
+
+    Each has its name and annotation, and the classes of values and of the items of tuples that need no conversion.
+    """
+    known = ((field.name, field.type, *_kinds(cast("Any", field.type))) for field in fields(kind))
+    return tuple(
+        (name, annotation, _unconverted(kinds), () if part is None else _unconverted(_kinds(part)[0]))
+        for name, annotation, kinds, part in known
+        if kinds
+    )
+
+
+def _unconverted(kinds: Kinds) -> Kinds:
+    """Return the classes without tuples, whose items are converted one by one."""
+    return tuple(set(kinds) - {tuple})
 
 
 def argument(name: str, value: Any, annotation: Any) -> Any:

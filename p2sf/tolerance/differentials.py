@@ -48,7 +48,7 @@ FINEST = 40, 96  # behind a filter or a phase, which may be anything
 FIELDS = 0.0, 0.7, 1.0  # of the largest field of a lens
 STEP = 0.6  # of a tolerance: the RMS of a uniformly distributed error within it
 LEAST_STEP = 1e-5
-X_AXIS = np.array([1.0, 0.0, 0.0])
+UNMOVED = Placement()
 
 
 @dataclass(frozen=True, eq=False)
@@ -377,11 +377,12 @@ def _rigid_motions(found: Crossings, tolerances: tuple[Tolerance, ...], moved: i
     """
     lens = found.lens
     motions = np.zeros((len(tolerances), len(lens.frames), 6))
+    there = placement_of({tolerances[moved].kind: error}) if tolerances[moved].kind in MOVES else UNMOVED
     for number, tolerance in enumerate(tolerances):
         if tolerance.kind not in MOVES:
             continue
         for surface in range(tolerance.first - 1, tolerance.piece[1]):
-            mount, own = _mount(lens, tolerances, number, moved, error, surface)
+            mount, own = _mount(lens, tolerances, number, moved, there, surface)
             motions[number, surface] = _rigid(lens.frames[surface].origin, tolerance, mount, own)
     return -motions.reshape(len(tolerances), -1)
 
@@ -394,7 +395,8 @@ def _rigid(vertex: np.ndarray, tolerance: Tolerance, mount: Motion, own: Placeme
     axis = 0 if tolerance.kind.endswith("x") else 1
     if tolerance.kind.startswith("decentre"):
         return [*mount.rotation[:, axis].tolist(), 0.0, 0.0, 0.0]
-    turned = Placement(tilt_x_deg=own.tilt_x_deg).motion.rotation[:, 1] if axis else X_AXIS
+    tilt = np.deg2rad(own.tilt_x_deg) * axis  # the y axis is rotated about x first
+    turned = np.array([1 - axis, axis * np.cos(tilt), axis * np.sin(tilt)])
     a, b, c = (np.deg2rad(1) * (mount.rotation @ turned)).tolist()
     x, y, z = (vertex - mount.origin - mount.rotation @ np.array(own.decentre)).tolist()
     return [b * z - c * y, c * x - a * z, a * y - b * x, a, b, c]
@@ -417,24 +419,23 @@ def _radius_shift(found: Crossings, place: int) -> np.ndarray:
 
 
 def _mount(
-    lens: Lens, tolerances: tuple[Tolerance, ...], number: int, moved: int, error: float, surface: int
+    lens: Lens, tolerances: tuple[Tolerance, ...], number: int, moved: int, there: Placement, surface: int
 ) -> tuple[Motion, Placement]:
-    """Return the axes in which a piece is mounted, and its placement in them, with error ``moved`` alone.
+    """Return the axes in which a piece is mounted, and its placement in them, with error ``moved`` alone: ``there``.
 
     For a ``surface`` of it, from 0: of two pieces that start together the later one is moved in addition to the other,
     and carries only the surfaces that belong to both.
     """
     tolerance, other = tolerances[number], tolerances[moved]
-    here, still = lens.frames[tolerance.first - 1], Placement()
+    here = lens.frames[tolerance.first - 1]
     if other.kind not in MOVES or other.first != tolerance.first:
-        return here, still
-    there = placement_of({other.kind: error})
+        return here, UNMOVED
     if other.piece == tolerance.piece:
         return here.then(there.motion.inverse), there
     order = [one.piece for one in tolerances if one.kind in MOVES]
     inner = order.index(other.piece) < order.index(tolerance.piece)
     apart = inner or surface >= other.piece[1]
-    return (here.then(there.motion.inverse) if apart else here), still
+    return (here.then(there.motion.inverse) if apart else here), UNMOVED
 
 
 def _axes_behind(lens: Lens, place: int) -> Motion:
