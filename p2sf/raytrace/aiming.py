@@ -495,13 +495,13 @@ def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
     """Return the rough map of a source: by those of a few fields near it, else, where one of these loses rays, its own.
 
     Which of the two never depends on what was asked before, so neither does a result. Rays of five fields are traced
-    together for two thirds more time than those of one, and serve a field that moves.
+    together for two thirds more time than those of one, and serve a field that moves. Where first order does not tell
+    where chief rays enter, a search for five of them would cost more than they save.
     """
-    angle = float(degrees_from_slope(source.field_slope))
-    known = _maps_over_field(lens, source.depth_mm, source.wavelength_um, angle // PANEL_DEG)
+    angle, chief = float(degrees_from_slope(source.field_slope)), _known_chief(lens, source, None)
+    known = _maps_over_field(lens, source.depth_mm, source.wavelength_um, angle // PANEL_DEG) if chief is None else None
     if known is None:
-        enter = entrance(lens, source)
-        return _rough_map(lens, enter, _known_chief(lens, source, None))
+        return _rough_map(lens, entrance(lens, source), chief)
     powers = (2 * (angle % PANEL_DEG) / PANEL_DEG - 1) ** np.arange(FIELDS.size)
     return powers @ known[0], powers @ known[1]
 
@@ -510,12 +510,12 @@ def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
 def _maps_over_field(lens: Lens, depth_mm: float, wavelength_um: float, panel: float) -> Point | None:
     """Return the coefficients of the rough maps in powers of the place in a panel of fields, (powers, terms).
 
-    None where one of the fields loses rays.
+    Of an aligned lens. None where one of the fields loses rays.
     """
     slopes = slope_from_degrees(PANEL_DEG * (panel + (1 + FIELDS) / 2))
     sources = Sources(depth_mm, slopes, wavelength_um)
     enter = entrance(lens, sources)
-    found = _rough_map(lens, enter, _known_chief(lens, sources, None), each=True)
+    found = _rough_map(lens, enter, None, each=True)
     rows = np.vander(FIELDS, increasing=True)
     return None if found is None else (np.linalg.solve(rows, found[0]), np.linalg.solve(rows, found[1]))
 
