@@ -115,7 +115,7 @@ class Clock:
             owner = import_module(module)
             setattr(owner, function, self.timed(getattr(owner, function), lambda *_, name=name: name))
         live = import_module("p2sf_explorer.compute.live")
-        live.attempted = self.timed(live.attempted, lambda view, answer: f"results: {view.__module__.split('.')[-1]}")
+        live.try_view = self.timed(live.try_view, lambda view, answer: f"results: {view.__module__.split('.')[-1]}")
         shell.paint = self.timed(shell.paint, lambda panel, key, answer: f"panels: {key}")
         for kind in set(kinds(QWidget)):
             if "paintEvent" in vars(kind) and kind.__module__.startswith("p2sf_explorer"):

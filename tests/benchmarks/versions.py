@@ -3,8 +3,9 @@
 One process per version stays alive and both take turns, so that a machine whose speed drifts is as fast for one as for
 the other; printed are the least CPU times, since other work only adds to them, and their ratio, this version over the
 other. The jobs: previews of a field that moves, by each method; 12 400 previews of PSFs; tolerances; a step of each
-slider until all panels are painted, also with a matrix of 3 × 3 PSFs on the stage; and whole processes, ``p2sf info``
-and ``import p2sf``. ``--jobs matrix`` does those jobs alone whose names begin so.
+slider until all panels are painted, at 1440 × 900, at 3840 × 2160 (*wall*), with a matrix of 3 × 3 PSFs on the stage
+(*matrix*) and with 15 of them beside the MTF through focus (*inspect*); and whole processes, ``p2sf info`` and ``import
+p2sf``. ``--jobs matrix`` does those jobs alone whose names begin so.
 """
 
 import argparse
@@ -94,14 +95,18 @@ def opened():
     return app, window, fresh
 
 def dragged(app, window, fresh, job, method):
-    state = fresh(theme="light", method=method or "auto")
-    if job.startswith("matrix"):
+    what, _, key = job.rpartition("-")
+    wide = what == "wall"
+    state = fresh(theme="light", method=method or "auto", scale_percent=200.0 if wide else 100.0)
+    if what in ("matrix", "inspect"):
         from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
         state = with_workspace(state, "inspect", WORKSPACES["inspect"])
-        job = job.removeprefix("matrix-")
+    window.resize(3840, 2160) if wide else window.resize(1440, 900)
     window.store.replace(state)
+    if what == "inspect":
+        window.store.update(matrix_rows=5, tab="curves", curves_of="focus")
     app.processEvents()
-    slider, spent = window.controls.rows[job].slider, []
+    slider, spent = window.controls.rows[key].slider, []
     window.store.begin()
     for _ in range(FRAMES + 3):
         begun = process_time()
@@ -126,9 +131,11 @@ with threadpool_limits(1):
         print(seconds, flush=True)
 """.replace("FRAMES", str(FRAMES)).replace("MOVES", str(MOVES))
 SLIDERS = ("field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number")
-MATRICES = "matrix-f_number", "matrix-sensor_shift_um"
+MATRICES = "matrix-f_number", "matrix-sensor_shift_um", "inspect-f_number", "inspect-depth_mm"
 MOVING = tuple(f"moving {method}" for method in ("seidel", "fitted", "traced"))
-FRAME_JOBS = tuple(f"{slider} {method}" for slider in SLIDERS for method in ("seidel", "auto"))
+FRAME_JOBS = tuple(
+    f"{size}{slider} {method}" for size in ("", "wall-") for slider in SLIDERS for method in ("seidel", "auto")
+)
 PROCESSES = {"p2sf info": ["-m", "p2sf", "info", "double_gauss_28"], "import p2sf": ["-c", "import p2sf"]}
 JOBS = (*MOVING, "stack", "tolerances", *FRAME_JOBS, *MATRICES, *PROCESSES)
 SINCE_0_2 = (*MOVING[1:], "tolerances", *MATRICES)

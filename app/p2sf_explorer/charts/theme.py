@@ -36,6 +36,7 @@ class Tokens:
     faint: str
     accent: str
     accent_text: str
+    emphasis: str  # of words that a hall reads
     warning: str
     warning_back: str
     glass: str
@@ -80,6 +81,7 @@ LIGHT = Tokens(
     faint="#e4e8ed",
     accent="#0b63b5",
     accent_text="#ffffff",
+    emphasis="#084a8a",
     warning="#7a4b00",
     warning_back="#fdf1d8",
     glass="#8fb8dc",
@@ -102,6 +104,7 @@ DARK = Tokens(
     faint="#2a323d",
     accent="#5aa9f0",
     accent_text="#0c1218",
+    emphasis="#5aa9f0",
     warning="#f5cf86",
     warning_back="#3a2f18",
     glass="#5f8fbd",

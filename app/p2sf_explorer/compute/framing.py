@@ -33,11 +33,32 @@ class ShownSquare:
     half_um: float
 
 
-def light_circle(values: np.ndarray, pixel_um: float, airy_um: float, share: float = SHARE) -> Circle:
-    """Return the circle about the centroid that holds a share of a picture's light, at least 3 Airy radii across.
+@dataclass(frozen=True, eq=False)
+class LightRings:
+    """The centroid of a picture, µm from the chief ray, and the share of its light within each radius about it, µm."""
 
-    ``values``: samples (n, n) as of a `Psf`. To a fraction of a pixel: a sample's light is spread over one pixel
-    along the radius, which takes a fifth of the time of `p2sf.metrics.window.radius_of_energy`.
+    x_um: float
+    y_um: float
+    radius_um: np.ndarray
+    share: np.ndarray
+
+    def radius_of(self, share: float) -> float:
+        """Return the radius that holds a share of the light, µm."""
+        return float(np.interp(share, self.share, self.radius_um))
+
+    def circle(self, airy_um: float) -> Circle:
+        """Return the circle of `SHARE` of the light, at least 3 Airy radii across."""
+        return Circle(self.x_um, self.y_um, max(self.radius_of(SHARE), LEAST_AIRY * airy_um))
+
+
+DARK = LightRings(0.0, 0.0, np.zeros(2), np.array([0.0, 1.0]))
+
+
+def light_rings(values: np.ndarray, pixel_um: float) -> LightRings:
+    """Return the light of a picture within circles about its centroid; ``values``: samples (n, n) as of a `Psf`.
+
+    To a fraction of a pixel: a sample's light is spread over one pixel along the radius, which takes a fifth of the
+    time of `p2sf.metrics.window.radius_of_energy`.
     """
     count = len(values)
     block = max(1, count // BLOCKS)
@@ -46,18 +67,22 @@ def light_circle(values: np.ndarray, pixel_um: float, airy_um: float, share: flo
     at = centred_axis(count, pixel_um)[:kept].reshape(-1, block).mean(1)
     total = float(light.sum())
     if not total > 0:
-        return Circle(0.0, 0.0, LEAST_AIRY * airy_um)
+        return DARK
     x, y = float(light.sum(0) @ at) / total, float(light.sum(1) @ at) / total
     pitch = block * pixel_um
     outer = np.hypot(at - x, (at - y)[:, None]).ravel() / pitch + 0.5
     rings = outer.astype(np.intp)
     beyond = light.ravel() * (outer - rings)
-    shares = np.bincount(rings, beyond)
-    shares += np.append(np.bincount(rings, light.ravel() - beyond)[1:], 0.0)
-    shares[0] += np.sum((light.ravel() - beyond)[rings == 0])
+    shares, nearer = np.bincount(rings, beyond), np.bincount(rings, light.ravel() - beyond)
+    shares[:-1] += nearer[1:]
+    shares[0] += nearer[0]
     within = np.append(0.0, np.cumsum(shares)) / total
-    radius = float(np.interp(share, within, pitch * np.arange(len(within))))
-    return Circle(x, y, max(radius, LEAST_AIRY * airy_um))
+    return LightRings(x, y, pitch * np.arange(len(within)), within)
+
+
+def light_circle(values: np.ndarray, pixel_um: float, airy_um: float) -> Circle:
+    """Return the circle about the centroid that holds `SHARE` of a picture's light, at least 3 Airy radii across."""
+    return light_rings(values, pixel_um).circle(airy_um)
 
 
 def frame_of(circle: Circle) -> ShownSquare:

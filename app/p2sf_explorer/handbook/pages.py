@@ -95,6 +95,12 @@ def headings(text: str) -> tuple[Heading, ...]:
     return tuple(Heading(level, words, (NUMBER.match(words) or [""])[0]) for level, words in found)
 
 
+def heading_in(name: str, heading: str, language: str) -> str:
+    """Return the heading of a page in a language that stands where the English one does; another text as it is."""
+    texts = [[one.text for one in headings(page(name, of))] for of in (ENGLISH, language)]
+    return texts[1][texts[0].index(heading)] if heading in texts[0] else heading
+
+
 def formulas(text: str) -> tuple[str, ...]:
     """Return the formulas of a page, each once, as they stand between dollar signs."""
     found: dict[str, None] = {}

@@ -25,6 +25,7 @@ from p2sf_explorer.handbook.pages import (
     Formula,
     anchor,
     formulas,
+    heading_in,
     headings,
     page,
     pictures,
@@ -91,12 +92,12 @@ class Handbook(QDialog):
         self.show_heading(name, found)
 
     def show_heading(self, name: str, heading: str = "") -> None:
-        """Open a page at a heading, by its text; at its beginning without one."""
+        """Open a page at a heading, by its text in English or in the window's language; at its beginning without."""
         self.shown = name, heading
         self.show()
         self.raise_()
         self.activateWindow()
-        self._open(name, heading)
+        self._open(name, heading_in(name, heading, current_language()))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -118,8 +119,9 @@ class Handbook(QDialog):
     def _follow(self, link: QUrl) -> None:
         name = link.path().removesuffix(".md") or self._page
         if name in PAGES:
-            texts = (heading.text for heading in headings(page(name, current_language())))
-            self._open(name, next((text for text in texts if anchor(text) == link.fragment()), ""))
+            texts = (heading.text for heading in headings(page(name)))  # links name the headings of the English page
+            found = next((text for text in texts if anchor(text) == link.fragment()), "")
+            self._open(name, heading_in(name, found, current_language()))
 
     def _document(self, name: str) -> QTextDocument:
         """Return a page as Qt lays it out; its formulas are pictures in the text's colour."""

@@ -30,7 +30,7 @@ PERSONAL = (
     "colours",
     "scale_percent",
 )  # a lesson changes the optics and leaves these to whoever sits there
-HEADER = ("title", "about", "lens", "state", "lesson")
+HEADER = ("title", "about", "lens", "state", "language", "lesson")
 WORDS = ("try", "ask", "tell", "note")
 STEP = ("set", "move", *WORDS, "claim", *TASK)
 ENGLISH = "en"
@@ -205,14 +205,13 @@ def _task_with_words(task: Exercise | None, found: dict[str, Lines], number: int
 def parse_lesson(text: str, name: str, where: str) -> Lesson:
     """Return the lesson of a file's text; P2SFError names ``where`` and the line."""
     head, body = _halves(text, where)
-    header = _header(head, where)
+    header = _header(head, name, where)
     steps = tuple(_step(part, where) for part in _parts(body, where))
     if not steps:
         raise fault(
             where, head[-1][0] + 1, "there is no step; begin one with a line such as ## A point becomes a patch"
         )
-    title, about, lens, changes, lessons = header
-    return Lesson(name, title, about, lens, changes, steps, lessons=lessons)
+    return replace(header, steps=steps)
 
 
 def _halves(text: str, where: str) -> tuple[Lines, Lines]:
@@ -243,14 +242,15 @@ def _entries(lines: Lines, where: str, allowed: tuple[str, ...]) -> dict[str, tu
     return found
 
 
-def _header(lines: Lines, where: str) -> tuple[str, str, str, Changes, tuple[str, ...]]:
-    """Return title, sentence about the lesson, lens, changes and the lessons that it plays."""
+def _header(lines: Lines, name: str, where: str) -> Lesson:
+    """Return what the header says of a lesson, without steps."""
     found = _entries(lines, where, HEADER)
     changes = read_changes(found["state"][1], found["state"][0], where) if "state" in found else ()
     lens = beside(found["lens"][1], where)
     _check_lens(lens, found["lens"][0], where)
     lessons = tuple(filter(None, (part.strip() for part in found.get("lesson", (0, ""))[1].split(","))))
-    return found["title"][1], found["about"][1], lens, changes, lessons
+    language = found.get("language", (0, ENGLISH))[1]
+    return Lesson(name, found["title"][1], found["about"][1], lens, changes, (), language, lessons=lessons)
 
 
 def _parts(lines: Lines, where: str) -> list[Lines]:

@@ -24,6 +24,7 @@ from p2sf.messages import Message
 from p2sf_explorer.compute.caption import field_text
 from p2sf_explorer.compute.quantities import SOURCE_QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges, title
+from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.lessons.recording import RecordedStep, same_lens, save_lesson
@@ -120,13 +121,8 @@ class LessonMaker(QDialog):
         self.name.selectAll()
 
     def add_present(self) -> None:
-        """Add what is on screen as a step; a lesson keeps the lens of its first."""
-        state = self._store.state
-        own, first = state.optics, (self.steps[0].state if self.steps else state).optics
-        if (own.lens, own.lens_text) != (first.lens, first.lens_text):
-            self.why.setText(tr("A lesson has one lens; make another lesson for this one"))
-            return
-        self._put([state])
+        """Add what is on screen as a step."""
+        self._put([self._store.state])
 
     def add_history(self) -> None:
         """Add the steps of undo of the present lens; steps that have words are kept."""
@@ -175,7 +171,7 @@ class LessonMaker(QDialog):
 
     def _save(self) -> None:
         try:
-            path = save_lesson(self.name.text(), self.about.text(), self.steps, self._folder())
+            path = save_lesson(self.name.text(), self.about.text(), self.steps, self._folder(), current_language())
         except P2SFError as error:
             self.why.setText(said(error))
             return

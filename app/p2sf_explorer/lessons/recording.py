@@ -2,8 +2,9 @@
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, count
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -11,9 +12,9 @@ from typing import Any
 from p2sf.errors import P2SFError
 from p2sf.lensfile.source_text import write_text
 from p2sf.lensfile.toml.lens import lens_to_toml
-from p2sf_explorer.compute.setup import default_state, prescription, shipped_names
+from p2sf_explorer.compute.setup import default_state, prescription, shipped_names, with_lens
 from p2sf_explorer.lessons.changes import read_changes
-from p2sf_explorer.lessons.lesson import ENTRY, PERSONAL, parse_lesson
+from p2sf_explorer.lessons.lesson import ENGLISH, ENTRY, PERSONAL, parse_lesson
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.state import ENTRIES, State, entry
 from p2sf_explorer.state.terms import TERMS
@@ -36,7 +37,12 @@ LEFT_OUT = (
     "windows",
 )
 """Entries that a step does not set: the person's own, B, files, and windows of panels."""
+RAIL, BRINGS_RAIL = "show_rail", ("rail ", "tab ")  # an entry, and those that show what it hides (`Lesson.state`)
 SHORT = re.compile(r"[^a-z0-9]+")
+
+
+LensOfStep = tuple[str, str | None]
+"""The lens of a state: its name or path, and its text where it is edited."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +67,8 @@ def written_changes(before: State, after: State) -> str:
         for part in _written(name, entry(before, name), entry(after, name)):
             if _reads_back(part):
                 parts.append(part)
+    if not after.display.show_rail and any(part.startswith(BRINGS_RAIL) for part in parts):
+        parts = [*(part for part in parts if not part.startswith(RAIL)), f"{RAIL} no"]
     return ", ".join(parts)
 
 
@@ -95,23 +103,35 @@ def _reads_back(part: str) -> bool:
     return True
 
 
-def lesson_text(title: str, about: str, steps: Sequence[RecordedStep], lens: str) -> str:
-    """Return the text of a lesson file; ``lens`` as its header names it."""
+def lesson_text(
+    title: str, about: str, steps: Sequence[RecordedStep], lenses: Mapping[LensOfStep, str], language: str = ENGLISH
+) -> str:
+    """Return the text of a lesson file; ``lenses`` as it names them, by those of the steps."""
     first = steps[0].state
-    before = with_workspace(default_state(first.optics.lens, first.optics.lens_text), TEACH, WORKSPACES[TEACH])
+    before = with_workspace(default_state(*lens_of(first)), TEACH, WORKSPACES[TEACH])
     begun = written_changes(before, first)
-    lines = ["---", f"title: {_line(title)}", f"about: {_line(about)}", f"lens: {lens}"]
+    lines = ["---", f"title: {_line(title)}", f"about: {_line(about)}", f"lens: {lenses[lens_of(first)]}"]
+    lines += [f"language: {language}"] if language != ENGLISH else []
     lines += [f"state: {begun}"] if begun else []
     lines.append("---")
     last = first
     for step in steps:
-        made = written_changes(last, step.state)
+        parts = []
+        if lens_of(step.state) != lens_of(last):
+            last = with_lens(last, *lens_of(step.state))
+            parts.append(f"lens {lenses[lens_of(step.state)]}")
+        made = ", ".join(filter(None, (*parts, written_changes(last, step.state))))
         lines += [f"## {_line(step.title)}", *([f"set: {made}"] if made else []), ""]
         lines += [f" {line}" if _means_more(line) else line for line in step.text.splitlines()]
         lines += ["", f"try: {_line(step.attempt)}"] if step.attempt.strip() else []
         lines.append("")
         last = step.state
     return "\n".join(lines).rstrip() + "\n"
+
+
+def lens_of(state: State) -> LensOfStep:
+    """Return the lens of a state."""
+    return state.optics.lens, state.optics.lens_text
 
 
 def _means_more(line: str) -> bool:
@@ -123,32 +143,40 @@ def _line(text: str) -> str:
     return " ".join(text.split())
 
 
-def save_lesson(title: str, about: str, steps: Sequence[RecordedStep], folder: Path) -> Path:
-    """Write a lesson into a folder, beside it its lens where that is edited or not shipped; return its path.
+def save_lesson(title: str, about: str, steps: Sequence[RecordedStep], folder: Path, language: str = ENGLISH) -> Path:
+    """Write a lesson into a folder, beside it its lenses that are edited or not shipped; return its path.
 
-    Steps keep the lens of the first. Raises P2SFError where it has no title or no step, cannot be read again, or cannot
-    be written.
+    ``language``: of its words.
+
+    Raises P2SFError where it has no title or no step, cannot be read again, or cannot be written.
     """
     if not _line(title):
         raise P2SFError("the lesson has no title; give it one")
     if not steps:
         raise P2SFError("the lesson has no step; add what is on screen")
     path = _free_path(folder, title)
-    first = steps[0].state.optics
-    shipped = first.lens_text is None and first.lens in shipped_names()
-    lens = first.lens if shipped else path.with_suffix(".toml").name
-    text = lesson_text(title, _line(about) or title, steps, lens)
+    states = {lens_of(step.state): step.state for step in reversed(steps)}
+    own = [lens for lens in reversed(states) if lens[1] is not None or lens[0] not in shipped_names()]
+    files = dict(zip(own, _free_lens_paths(path), strict=False))
+    lenses = {lens: files[lens].name if lens in files else lens[0] for lens in states}
+    text = lesson_text(title, _line(about) or title, steps, lenses, language)
     folder.mkdir(parents=True, exist_ok=True)
-    if not shipped:
-        write_text(lens_to_toml(prescription(steps[0].state)), path.with_suffix(".toml"))
     try:
+        for lens, file in files.items():
+            write_text(lens_to_toml(prescription(states[lens])), file)
         parse_lesson(text, path.stem, str(path))
         write_text(text, path)
     except P2SFError:
-        if not shipped:
-            path.with_suffix(".toml").unlink(missing_ok=True)
+        for file in files.values():
+            file.unlink(missing_ok=True)
         raise
     return path
+
+
+def _free_lens_paths(path: Path) -> Iterator[Path]:
+    """Yield paths for the lenses of a lesson, beside it, that no file has yet."""
+    names = chain((path.stem,), (f"{path.stem}_lens_{number}" for number in count(2)))
+    return (found for name in names if not (found := path.with_name(f"{name}.toml")).exists())
 
 
 def _free_path(folder: Path, title: str) -> Path:
@@ -162,10 +190,8 @@ def _free_path(folder: Path, title: str) -> Path:
 
 def same_lens(steps: Sequence[State]) -> list[State]:
     """Return the states, in their order, that have the lens of the last, each different from the one before."""
-    last = steps[-1].optics
     found: list[State] = []
     for state in steps:
-        own = (state.optics.lens, state.optics.lens_text) == (last.lens, last.lens_text)
-        if own and not (found and not written_changes(found[-1], state)):
+        if lens_of(state) == lens_of(steps[-1]) and not (found and not written_changes(found[-1], state)):
             found.append(state)
     return found

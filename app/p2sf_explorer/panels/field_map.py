@@ -1,15 +1,17 @@
 """The field map: PSFs over the picture."""
 
+from dataclasses import replace
+
 import numpy as np
-from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen, QResizeEvent
 
 from p2sf.conventions import degrees_from_slope
 from p2sf_explorer.charts.cursor import Cursor, paint_cursor
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.framing import crop
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.field_map import SHAPE, FieldMapRequest, answer, place_of, places
+from p2sf_explorer.compute.views.field_map import FieldMapRequest, answer, place_of
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
@@ -17,10 +19,10 @@ from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.tiles import TilesChart, tile
 
 TIP = (
-    "Field map: PSFs all over a 3:2 picture whose corner is the edge of the field, each relative to its own peak and "
-    "turned with its field. Click a picture, or choose it with the arrow keys and Enter, to go to its field; a frame "
-    "marks the present one. If the lens is not symmetric, every picture has a field of its own, and you can drag the "
-    "ring to any field."
+    "Field map: PSFs all over a 3:2 picture, upright where the panel is, whose corner is the edge of the field, each "
+    "relative to its own peak and turned with its field. Click a picture, or choose it with the arrow keys and Enter, "
+    "to go to its field; a frame marks the present one. If the lens is not symmetric, every picture has a field of its "
+    "own, and you can drag the ring to any field."
 )
 RING_PX = 7  # radius of the ring at the present field, at scale 1
 
@@ -29,6 +31,8 @@ SAME_DEG = 1e-3  # fields that differ by less are equally far from the axis
 
 class MapChart(TilesChart):
     """Pictures in rows and columns; a click on one goes to its field."""
+
+    resized = Signal()
 
     def __init__(self, store: Store):
         super().__init__(framed=False)
@@ -77,8 +81,13 @@ class MapChart(TilesChart):
             super().mouseReleaseEvent(event)
 
     def _follow(self, point: QPointF) -> None:
-        edge = np.abs(places()).max(axis=(0, 1))
-        self._go(np.clip(self.from_pixels(point), -edge, edge))
+        assert self.asked  # there is nothing to press before
+        self._go(np.clip(self.from_pixels(point), -self.asked.edge, self.asked.edge))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Tell of another size."""
+        super().resizeEvent(event)
+        self.resized.emit()
 
     def _go(self, place: np.ndarray) -> None:
         assert self.asked  # there is nothing to press before
@@ -123,6 +132,8 @@ class MapChart(TilesChart):
         """Paint where coma (×) and astigmatism (+) vanish."""
         half = self.theme.px(NODE_PX)
         for name, *place in self.asked.nodes if self.asked else ():
+            if self.asked and (np.abs(place) > self.asked.edge).any():
+                continue
             x, y = (float(v) for v in self.to_pixels(*place))
             painter.setPen(QPen(QColor(getattr(self.theme, NODE_COLOURS[name])), 2.5 * self.theme.scale))
             for dx, dy in ((half, half), (half, -half)) if name == "coma" else ((half, 0), (0, half)):
@@ -157,26 +168,33 @@ class FieldMapPanel:
         self.chart = MapChart(store)
         self.widget.set_body(self.chart)
         self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.chart.resized.connect(self._ask)
         self.found: tuple[FieldMapRequest, np.ndarray] | None = None
+        self._wanted: FieldMapRequest | None = None
         self._scale = "sqrt"
 
     def show(self, live: Live) -> None:
         """Mark the present field, and ask for the map when more than the field has changed."""
-        asked: FieldMapRequest = live.views["field_map"]
-        self.chart.show_place(place_of(live.state, asked.corner_slope))
+        self._wanted = live.views["field_map"]
+        self.chart.show_place(place_of(live.state, self._wanted.corner_slope))
         changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
-        self.asking.ask(asked)
+        self._ask()
         if changed:
             self.asking.again()
 
+    def _ask(self) -> None:
+        """Ask for the map as the room of the panel lies or stands."""
+        if self._wanted:
+            self.asking.ask(replace(self._wanted, upright=self.chart.height() > self.chart.width()))
+
     def _paint(self, asked: FieldMapRequest, found: np.ndarray) -> str:
         self.found = asked, found
-        where = places()
-        spacing = float(where[0, 1, 0] - where[0, 0, 0])
+        where = asked.places
+        (rows, columns), spacing = where.shape[:2], float(where[0, 1, 0] - where[0, 0, 0])
         edge = float(where[0, -1, 0]) + 0.55 * spacing
-        top = float(where[0, 0, 1])
-        self.chart.set_range((-edge, edge), (-top * SHAPE[0] / (SHAPE[0] - 1), top * SHAPE[0] / (SHAPE[0] - 1)))
-        at = [(row, column) for row in range(SHAPE[0]) for column in range(SHAPE[1])]
+        top = float(where[0, 0, 1]) * rows / (rows - 1)
+        self.chart.set_range((-edge, edge), (-top, top))
+        at = [(row, column) for row in range(rows) for column in range(columns)]
         kept = [place for place in at if np.isfinite(found[place]).any()]
         self.chart.places = np.array([where[place] for place in kept]).reshape(-1, 2)
         self.chart.asked = asked
@@ -186,7 +204,7 @@ class FieldMapPanel:
             tile(found[place][shown, shown], float(where[place][0]), float(where[place][1]), self._scale)
             for place in kept
         )
-        self.chart.show_tiles(tiles, spacing, SHAPE[0])
+        self.chart.show_tiles(tiles, spacing, rows)
         heads = (
             tr("at ({x}, {y}) of the corner: share of the peak", x=f"{x:.3g}", y=f"{y:.3g}")
             for x, y in (where[place] for place in kept)

@@ -5,18 +5,13 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QBoxLayout,
     QCheckBox,
     QFileDialog,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
-    QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
@@ -54,6 +49,7 @@ from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.drop import MeasuredDrop
 from p2sf_explorer.widgets.empty_state import EmptyState
+from p2sf_explorer.widgets.plain_table import PlainTable
 from p2sf_explorer.widgets.plan_note import small_button
 from p2sf_explorer.widgets.readout import FactTable, in_scroll_area
 from p2sf_explorer.widgets.tiles import TilesChart, tile
@@ -370,26 +366,11 @@ class MeasuredBody(QWidget):
         self._whole.setDirection(direction)
 
 
-class PointList(QTableWidget):
+class PointList(PlainTable):
     """The points, one row each, of which one is chosen."""
 
     def __init__(self) -> None:
-        super().__init__(0, len(HEADS))
-        self.setHorizontalHeaderLabels([tr(head) for head in HEADS])
-        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setTabKeyNavigation(False)
-        self.setShowGrid(False)
-        self.verticalHeader().hide()
-        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.horizontalHeader().setStretchLastSection(True)
-        self.setAccessibleName(tr("Points"))
-
-    def restyle(self, theme: Tokens) -> None:
-        """Take the scale of a theme."""
-        self.verticalHeader().setDefaultSectionSize(theme.px(22))
-        self.viewport().update()
+        super().__init__(HEADS, "Points")
 
     def show_lines(self, lines: tuple[PointLine, ...]) -> None:
         """Show a row for each point, and choose the first."""
@@ -397,10 +378,8 @@ class PointList(QTableWidget):
         self.setRowCount(len(lines))
         for row, (figures, why) in enumerate(lines):
             for column, text in enumerate(figures):
-                item = QTableWidgetItem(f"  {local(text)}")  # columns are as wide as their texts
-                item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-                self.setItem(row, column, item)
-            self.setItem(row, len(figures), QTableWidgetItem(said(why) if why else ""))
+                self.put(row, column, f"  {local(text)}", right=True)  # columns are as wide as their texts
+            self.put(row, len(figures), said(why) if why else "")
         self.blockSignals(False)
         self.selectRow(0)
 

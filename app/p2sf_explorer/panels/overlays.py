@@ -47,6 +47,7 @@ OF = (
 FURTHER = "#cc79a7", "#a6761d", "#56b4e9", "#7570b3", "#009e73", "#e6ab02", "#e7298a", "#66a61e", "#999999"
 HUES = ("text", "marginal", "chief", "third", *FURTHER)  # the first of what belongs to none
 MOST = 2 * MOST_FIELDS
+LEGEND_BESIDE, SHORT_NAME = 2, 9  # short names on a line of the legend, and letters of the longest short name
 FROM_ZERO = {
     "contrast": 1.04,
     "relative illumination, %": 104.0,
@@ -94,7 +95,7 @@ class OverlaysPanel:
             self._paint(None, view)
             self._say("")
             return
-        self.asking.ask(view)
+        (self.asking.ask if live.quality == "settled" else self.asking.ask_when_held)(view)
         if self.found and isinstance(self.found[0], OverlayRequest) and self.found[0].of == view.of:
             self._mark()
 
@@ -141,7 +142,9 @@ class OverlaysPanel:
         order = [*range(1, len(names) + 1)] if PLAIN not in hues else [*range(1, len(names)), PLAIN]
         tokens = [HUES[hue % len(HUES)] for hue in order]
         marks = [curve_sign(token, self._theme) for token in tokens]
-        lines = [f"{mark} {name.text(WINDOW)}" for mark, name in zip(marks, names, strict=True)]
+        signs = [f"{mark} {name.text(WINDOW)}" for mark, name in zip(marks, names, strict=True)]
+        beside = LEGEND_BESIDE if max((len(name.text(WINDOW)) for name in names), default=0) <= SHORT_NAME else 1
+        lines = [" &nbsp; ".join(signs[k : k + beside]) for k in range(0, len(signs), beside)]
         if hint := HINTS.get(found.axes[1]):
             lines.append(tr(hint))
         if found.missing:

@@ -28,7 +28,7 @@ TIP = (
 )
 STRIP_TIP = "Drag the line or click, or use the left and right arrow keys: the sensor follows."
 NEAR_PX = 9.0
-MOST_ROWS = 4
+MOST_ROWS = 5
 ENDS = 0.6  # steps of the strip before its first and behind its last place
 SIDES: dict[int, int] = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
 
@@ -55,8 +55,8 @@ class StripChart(TilesChart):
         """Show a tile at every one of even sensor shifts, larger ones staggered in rows where the chart is tall."""
         self._strip = tiles, shifts
         step, area = float(shifts[1] - shifts[0]), self.area
-        steps = area.height() * (len(shifts) + 2 * ENDS - 1) / area.width()  # that a tile as high as the chart covers
-        rows = max(1, min(MOST_ROWS, int(steps**0.5)))
+        wide = area.width() / (len(shifts) + 2 * ENDS - 1)  # of a step, in pixels
+        rows = max(range(1, MOST_ROWS + 1), key=lambda count: min(count * wide, area.height() / count))
         placed = (each and replace(each, y=1 - (k % rows + 0.5) / rows) for k, each in enumerate(tiles))
         air = max(ENDS, rows / 2) * step  # so that the first and the last tile are whole
         self.set_range((float(shifts[0]) - air, float(shifts[-1]) + air), (0.0, 1.0))

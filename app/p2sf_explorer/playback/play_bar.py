@@ -3,7 +3,10 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
+    QBoxLayout,
     QFileDialog,
     QFrame,
     QHBoxLayout,
@@ -30,6 +33,7 @@ from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.value_edit import ValueEdit
 
 FILMS = "Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)"
+LINE_AIR = 32  # pixels beside the parts of the bar where they stand on one line
 SUBJECTS = (
     ("stack", "all panels"),
     ("stage", "the stage"),
@@ -89,9 +93,13 @@ class PlayBar(QFrame):
         return edit
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout(self)
-        row.setContentsMargins(10, 4, 10, 4)
-        row.setSpacing(6)
+        self._rows = rows = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        rows.setContentsMargins(10, 4, 10, 4)
+        rows.setSpacing(6)
+        row, film = QHBoxLayout(), QHBoxLayout()
+        for line, stretch in ((row, 1), (film, 0)):
+            line.setSpacing(6)
+            rows.addLayout(line, stretch)
         self.turn.setProperty("turns", True)
         self.progress.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._sweep = self.turn, self.key, self.first, QLabel("→"), self.last, QLabel(tr("in")), self.seconds
@@ -101,8 +109,22 @@ class PlayBar(QFrame):
         row.addWidget(self.stop_film)
         row.addStretch(1)
         for part in (self.subject, self.export, self.close_bar):
-            row.addWidget(part)
+            film.addWidget(part)
         self._show_filming(False)
+
+    def _widths(self) -> list[int]:
+        """Return the least widths of the two halves of the bar."""
+        return [item.minimumSize().width() for k in range(self._rows.count()) if (item := self._rows.itemAt(k))]
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least size, that of two lines."""
+        return QSize(max(self._widths()) + LINE_AIR, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Stand on one line, or on two where there is less room."""
+        super().resizeEvent(event)
+        one = sum(self._widths()) + LINE_AIR <= event.size().width()
+        self._rows.setDirection(QBoxLayout.Direction.LeftToRight if one else QBoxLayout.Direction.TopToBottom)
 
     def _connect(self) -> None:
         store = self._store

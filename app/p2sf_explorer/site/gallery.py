@@ -2,11 +2,13 @@
 
 import sys
 from argparse import ArgumentParser
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QSize, QTimer
 from PySide6.QtWidgets import QApplication
 
+from p2sf.messages import Message
 from p2sf_explorer.charts.theme import configure_plots, screen_scale
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
@@ -20,6 +22,12 @@ SIZES = {"small": (1280, 800), "large": (1920, 1080), "wide": (2560, 1440), "wal
 EVERY_SIZE, ONE_SIZE = "workspace_", "panel_"  # how the names of states begin that are shown in all sizes, or in one
 USUAL = "small", "large"
 THEMES = "light", "dark"
+ACTIONS: dict[str, Callable[[MainWindow], object]] = {
+    "stage_start": lambda window: window.show_start(),
+    "stage_error": lambda window: window.refuse(Message("field 34° is beyond 14°, the largest; type a smaller one")),
+    "stage_presented": lambda window: window.presentation.start(),
+}
+"""What is done in a window for the pictures of these names, which no state says."""
 LONGEST_MS = 20_000  # for the background measurement of one picture
 LOOK_MS = 50
 IDLE_LOOKS = 8  # in a row: a panel waits a moment after it was resized before it asks for a finer picture
@@ -43,7 +51,30 @@ def states() -> dict[str, State]:
     shown["lesson"] = change(coma.state(1, new_state(theme="light")), lesson_told=True)
     shown["german"] = new_state(theme="light", language="de", tab="first_order")
     first = new_state(theme="light")
-    return shown | matrices() | {f"{ONE_SIZE}{key}": change(first, **on_stage(first.display, key)) for key in panels}
+    return (
+        shown
+        | stages()
+        | matrices()
+        | {f"{ONE_SIZE}{key}": change(first, **on_stage(first.display, key)) for key in panels}
+    )
+
+
+def stages() -> dict[str, State]:
+    """Return what stands on the stage and over its edge beside the usual: in a lens that shows coma, dark."""
+    first = new_state(lens="cooke_triplet", field_deg=14.0, theme="dark")
+    pair = change(first, pinned=change(first, f_number=8.0))
+    return {
+        "stage_start": first,
+        "stage_error": change(first, theme="light"),
+        "stage_presented": change(first, field_deg=20.0),
+        "stage_full_bleed": change(first, full_bleed=True),
+        "stage_both": change(pair, shown="both"),
+        "stage_played": change(pair, shown="difference", playback_slider="field_deg"),
+        "stage_through_focus": change(first, **on_stage(first.display, "through_focus"), rail_side="right"),
+        "stage_field_map": change(first, **on_stage(first.display, "field_map")),
+        "stage_performance": change(first, **on_stage(first.display, "performance"), theme="light"),
+        "stage_five_fields": change(first, **on_stage(first.display, "curves"), curves_count=5),
+    }
 
 
 def workspace(name: str, theme: str) -> State:
@@ -81,8 +112,17 @@ def settle(window: MainWindow) -> None:
     loop.exec()
 
 
-def picture(state: State, size: tuple[int, int], path: Path, measured: bool = True) -> None:
-    """Save a picture of the window in a state, as on a screen of this size, its accuracy ``measured`` or not."""
+def picture(
+    state: State,
+    size: tuple[int, int],
+    path: Path,
+    measured: bool = True,
+    act: Callable[[MainWindow], object] | None = None,
+) -> None:
+    """Save a picture of the window in a state, as on a screen of this size, its accuracy ``measured`` or not.
+
+    ``act`` does something in the window before.
+    """
     state = change(state, scale_percent=100 * screen_scale(QSize(*size)))
     set_language(
         ENGLISH if state.display.language == "system" else state.display.language
@@ -90,6 +130,10 @@ def picture(state: State, size: tuple[int, int], path: Path, measured: bool = Tr
     window = MainWindow(state, measured)
     window.resize(*size)
     window.show()
+    if act:
+        settle(window)
+        act(window)
+        window.resize(*size)
     settle(window)
     window.grab().save(str(path))
     window.close()
@@ -101,18 +145,21 @@ def sizes_of(name: str) -> tuple[str, ...]:
 
 
 def main() -> None:
-    """Write every picture into the folder named on the command line."""
+    """Write every picture, or those of some names and sizes, into the folder named on the command line."""
     parser = ArgumentParser(prog="python -m p2sf_explorer.site.gallery", description="Take pictures of the window.")
     parser.add_argument("folder", type=Path, help="where the pictures go")
-    folder = parser.parse_args().folder
+    parser.add_argument("--names", nargs="*", default=[""], help="beginnings of the names of states")
+    parser.add_argument("--sizes", nargs="*", choices=tuple(SIZES), default=list(SIZES), help="sizes of the window")
+    options = parser.parse_args()
+    folder: Path = options.folder
     folder.mkdir(parents=True, exist_ok=True)
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
     configure_plots()
     for name, state in states().items():
         for size, pixels in SIZES.items():
-            if size in sizes_of(name):
-                picture(state, pixels, folder / f"{name}_{size}.png")
+            if size in sizes_of(name) and size in options.sizes and name.startswith(tuple(options.names)):
+                picture(state, pixels, folder / f"{name}_{size}.png", act=ACTIONS.get(name))
                 print(folder / f"{name}_{size}.png")
 
 

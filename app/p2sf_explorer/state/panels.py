@@ -148,7 +148,9 @@ REGISTRY = (
         "3.2",
         "coefficients.panel:CoefficientsPanel",
         "compute.views.seidel:six",
-        aligned=Message("Of the aligned lens: six coefficients leave out tilts, decentres and irregularities."),
+        aligned=Message(
+            "These are the numbers of the lens without its tilts, decentres and irregularities, not of the picture."
+        ),
     ),
     PanelEntry("Aberrations", "pupil", "Pupil", "3.1", "pupil:PupilPanel"),
     PanelEntry(

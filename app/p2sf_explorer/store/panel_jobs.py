@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
@@ -12,6 +12,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.store.worker import LatestWins
 
 Tell = Callable[[float, object], None]
+HELD_MS = 60  # for which a slider is held still before work that would slow its frames is asked for
 
 
 class Asking(QObject):
@@ -35,6 +36,9 @@ class Asking(QObject):
         self._shown: tuple[object, object] | None = None
         self._text: Message | str = ""
         self._refusal: Message | P2SFError | None = None
+        self._later: object = None
+        self._held = QTimer(self, singleShot=True, interval=HELD_MS)
+        self._held.timeout.connect(lambda: self.ask(self._later))
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
         self.worker.failed.connect(self._on_failed)
@@ -42,20 +46,28 @@ class Asking(QObject):
 
     def ask(self, question: object) -> None:
         """Ask, unless this is what was asked last."""
+        self._held.stop()
         if question == self.asked:
             return
         self.asked, self._refusal = question, None
         self._tell()
         self.worker.submit(question, lambda cancelled, progress: self._work(question, cancelled.is_set, progress))
 
+    def ask_when_held(self, question: object) -> None:
+        """Ask once no other question has come for `HELD_MS`, since the frames of a slider that moves go first."""
+        self._later = question
+        self._held.start()
+
     def refuse(self, reason: Message | P2SFError) -> None:
         """Say why there is nothing to ask; what is on its way is no longer wanted."""
+        self._held.stop()
         self.asked, self._refusal, self._shown = None, reason, None
         self.worker.cancel()
         self._tell()
 
     def forget(self) -> None:
         """Want nothing that is on its way, since something else is shown; say nothing."""
+        self._held.stop()
         self.asked, self._refusal, self._shown = None, None, None
         self.worker.cancel()
 

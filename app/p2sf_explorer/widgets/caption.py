@@ -86,7 +86,7 @@ class Caption(QWidget):
             if number:
                 left += self._write(painter, left, APART, "muted", size)
             moved = self._rest.get(name, self._parts[name]) != self._parts[name]
-            left += self._write(painter, left, words, "accent" if moved else "text", size)
+            left += self._write(painter, left, words, "emphasis" if moved else "text", size)
 
     def fitted(self) -> tuple[Parts, int]:
         """Return the parts as they are written and the size of their type.

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.charts.painting import MARKS, write
+from p2sf_explorer.charts.painting import MARKS, width_of, write
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.card import Card
@@ -53,7 +53,9 @@ def curve_sign(token: str, theme: Tokens) -> str:
 
 
 Note = tuple[float, float, str, str, int]
-"""Place x, y (infinite for the upper edge), text as it is, token, and side: −1 left, 0 middle, 1 right end."""
+"""Place x, y (infinite for the upper edge, where notes go below those in their way), text as it is, token, and side: −1
+left, 0 middle, 1 right end."""
+NOTE_PX, NOTE_WIDTH = 16, 120  # the height of a note's line at scale 1, and pixels within which it is written
 
 
 class NotedChart(Chart):
@@ -75,12 +77,24 @@ class NotedChart(Chart):
             at = float(self.to_pixels(x, 0.0)[0])
             wide = self.theme.scale
             painter.fillRect(QRectF(at - wide / 2, self.area.top(), wide, self.area.height()), self._colour(token))
-        for x, y, words, token, side in self.notes:
-            left, top = (float(v) for v in self.to_pixels(x, y if isfinite(y) else 0.0))
-            tall = self.theme.px(16)
-            top = top if isfinite(y) else self.area.top() + tall / 2
+        for (_, _, words, token, side), room in zip(self.notes, self.note_rooms(), strict=True):
             painter.setPen(self._colour(token))
-            write(painter, QRectF(left - 60 * (side + 1), top - tall / 2, 120, tall), words, side, self.theme.tick)
+            left = room.left() - (side + 1) / 2 * (NOTE_WIDTH - room.width())
+            write(painter, QRectF(left, room.top(), NOTE_WIDTH, room.height()), words, side, self.theme.tick)
+
+    def note_rooms(self) -> list[QRectF]:
+        """Return the rectangles of the notes, in pixels."""
+        rooms: list[QRectF] = []
+        tall = self.theme.px(NOTE_PX)
+        for x, y, words, _, side in self.notes:
+            left, middle = (float(v) for v in self.to_pixels(x, y if isfinite(y) else 0.0))
+            wide = width_of(words, self.theme.tick)
+            top = middle - tall / 2 if isfinite(y) else self.area.top()
+            room = QRectF(left - (side + 1) / 2 * wide, top, wide, tall)
+            while not isfinite(y) and any(room.intersects(other) for other in rooms):
+                room.translate(0, tall)
+            rooms.append(room)
+        return rooms
 
     def _colour(self, token: str) -> QColor:
         return QColor(getattr(self.theme, token))

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QGraphicsDropShadowEffect, QSizePolicy, QVBoxLayou
 
 from p2sf_explorer.charts.theme import SPACE
 
-ABOVE = 46  # pixels at scale 1 from the stage's end: the line that says how the picture was made stays in sight
+ABOVE = 88  # pixels at scale 1 from the stage's end: the axis, and how the picture was made, stay in sight
 
 
 class StageEdge(QWidget):

@@ -9,12 +9,15 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
 import p2sf_explorer
+from p2sf_explorer.charts.chart import VEIL
 from p2sf_explorer.charts.painting import MARK_EVERY_PX, MARK_PX, MARKS, paint_line_marks, write
+from p2sf_explorer.charts.plots import lookup
 from p2sf_explorer.charts.theme import DARK, LIGHT, stylesheet
+from p2sf_explorer.panels.matrix.tile_charts import NOTE_GROUND, WHITE
 
 SOURCES = Path(p2sf_explorer.__file__).parent
 THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
-LETTERS, DRAWN = 4.5, 3.0  # WCAG 2.1 asks these of text, and of what is drawn
+LETTERS, DRAWN, IN_A_HALL = 4.5, 3.0, 7.0  # WCAG 2.1 asks these of text, of what is drawn, and of text at its level AAA
 GROUNDS = "window", "card", "raised", "faint", "warning_back"
 
 
@@ -53,6 +56,31 @@ def test_the_style_sheet_writes_in_no_other_colour(theme):
 @pytest.mark.parametrize("ink", ["marginal", "chief", "third", "positive", "negative", "mark", "glass_edge"])
 def test_every_colour_of_a_line_is_seen_on_a_card(theme, ink):
     assert contrast(getattr(theme, ink), theme.card) >= DRAWN
+
+
+@THEMES
+@pytest.mark.parametrize("ink", ["marginal", "positive"])
+def test_notes_in_the_colour_of_a_curve_are_read_on_a_card(theme, ink):
+    """S and T through focus; no other note has the colour of a curve."""
+    assert contrast(getattr(theme, ink), theme.card) >= LETTERS
+
+
+@THEMES
+@pytest.mark.parametrize("ink", ["text", "emphasis"])
+def test_the_caption_is_read_from_the_last_row(theme, ink):
+    assert contrast(getattr(theme, ink), theme.window) >= IN_A_HALL
+
+
+@THEMES
+def test_words_over_a_picture_are_read_on_its_brightest_colour(theme):
+    """Axes stand on a veil over the picture, notes of tiles on three quarters of its darkest colour."""
+    table = [QColor.fromRgb(int(value)) for value in lookup(theme.brightness)]
+    brightest = np.array(max(table, key=lambda colour: contrast(colour.name(), "#000000")).getRgb()[:3])
+    behind = QColor(*np.rint((1 - VEIL / 255) * brightest).astype(int).tolist()).name()
+    assert contrast(DARK.text, behind) >= LETTERS
+    darkest = np.array(table[0].getRgb()[:3])
+    ground = QColor(*np.rint(brightest + NOTE_GROUND / 255 * (darkest - brightest)).astype(int).tolist()).name()
+    assert contrast(WHITE, ground) >= LETTERS
 
 
 def test_curves_that_stand_together_have_marks_of_their_own(qapp):

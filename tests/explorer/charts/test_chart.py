@@ -1,4 +1,5 @@
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from p2sf_explorer.charts.plots import EMPTY, HeatMap, as_indices
 from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.panels.layout.marks import free_room
 from p2sf_explorer.state.scales import ticks
+from p2sf_explorer.widgets.chart_card import NotedChart
 from tests.explorer.accessibility.test_looks import contrast
 
 
@@ -38,6 +40,18 @@ def test_pixels_and_data_are_each_others_inverse_and_circles_are_round(chart):
 def test_what_was_asked_for_is_in_sight(chart):
     (left, right), (low, high) = chart.ranges()
     assert left <= -2 and right >= 3 and low <= -1 and high >= 1
+
+
+def test_notes_at_the_upper_edge_stand_below_each_other_where_they_would_overlap(qtbot):
+    noted = NotedChart("x", "y")
+    qtbot.addWidget(noted)
+    noted.resize(400, 120)
+    noted.set_range((0.0, 10.0), (0.0, 1.0))
+    noted.show_notes(
+        ((5.0, inf, "as designed", "text", -1), (5.2, inf, "build 7", "text", -1), (9.9, inf, "far", "text", 1))
+    )
+    first, second, far = noted.note_rooms()
+    assert not first.intersects(second) and second.top() == first.bottom() and far.top() == first.top()
 
 
 def test_a_square_is_shown_whole_wherever_it_is(chart):

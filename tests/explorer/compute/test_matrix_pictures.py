@@ -10,7 +10,7 @@ from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
-from p2sf_explorer.compute.framing import light_circle
+from p2sf_explorer.compute.framing import light_rings
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.matrix import pictures
 from p2sf_explorer.compute.matrix.pictures import HELD, matrix, previews, settle
@@ -148,7 +148,7 @@ def test_one_quantity_stands_below_all_pictures(fields_deg):
 @pytest.mark.parametrize("field_deg", [0.0, 10.0, 14.0])
 def test_the_radius_of_a_moving_picture_is_that_of_the_settled_one(field_deg):
     psf = in_window(change(default_state("double_gauss_28"), field_deg=field_deg), (128, 300 / 128), False)
-    assert light_circle(psf.values, psf.pixel_um, 0.0, HELD).radius_um == pytest.approx(
+    assert light_rings(psf.values, psf.pixel_um).radius_of(HELD) == pytest.approx(
         float(radius_of_energy(psf, HELD)), abs=psf.pixel_um
     )
 
@@ -234,7 +234,9 @@ def test_of_many_pictures_the_one_in_hand_is_renewed_in_each_frame_and_the_other
 
 
 def test_a_few_pictures_are_all_renewed_in_each_frame():
-    seen = live(new_state(method="fitted", f_number=4.0), "preview", {"matrix": matrix})
+    seen = live(
+        new_state(matrix_rows=2, matrix_columns=2, method="fitted", f_number=4.0), "preview", {"matrix": matrix}
+    )
     later = moved(seen, 4.5)
     old, new = (np.array(each.views["matrix"].tiles, dtype=object) for each in (seen, later))
     assert (old != new).all() and not later.views["matrix"].waiting

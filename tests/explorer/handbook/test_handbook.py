@@ -14,6 +14,7 @@ from p2sf_explorer.handbook.pages import (
     PICTURE,
     anchor,
     formulas,
+    heading_in,
     headings,
     page,
     render_formula,
@@ -28,6 +29,7 @@ from p2sf_explorer.window.commands.actions import PARTS, handbook_place
 from tests.support.tiers import in_tiers
 
 ROOT = Path(__file__).parents[3]
+FIELDS = re.compile(r"{[^{}]*}")
 ITALICS, CODE_BLOCK = re.compile(r"(?<![*\w])\*([^*\n]+)\*(?!\*)"), re.compile(r"```.*?```", re.DOTALL)
 CITATION = re.compile(r"\bhandbook (\d+(?:\.\d+)?)")
 NUMBERS = {heading.number for heading in headings(page("theory")) if heading.number}
@@ -190,11 +192,34 @@ def test_a_german_page_has_the_same_parts_code_and_names_as_the_window(name):
     assert [one.level for one in headings(german)] == [one.level for one in headings(english)]
     assert CODE_BLOCK.findall(german) == CODE_BLOCK.findall(english)
     assert PICTURE.findall(german) == PICTURE.findall(english)
-    known = texts("de")
+    known = {FIELDS.sub("…", one): FIELDS.sub("…", other) for one, other in texts("de").items()}
     pairs = zip(emphasised(english), emphasised(german), strict=True)
     titles = {one.text: other.text for one, other in zip(headings(english), headings(german), strict=True)}
     for one, other in pairs:
         assert other == known.get(one, titles.get(one, one)), one
+
+
+@pytest.mark.parametrize("name", [path.stem for path in (FOLDER / "de").glob("*.md")])
+def test_links_of_a_german_page_are_those_of_the_english_one_and_lead_to_its_own_headings(name, qapp):
+    both = [re.findall(r"(?<!!)\[[^]]*\]\(([^)]+)\)", page(name, language)) for language in ("en", "de")]
+    assert both[0] == both[1]
+    for one, other in zip(headings(page(name)), headings(page(name, "de")), strict=True):
+        assert heading_in(name, one.text, "de") == other.text == heading_in(name, other.text, "de")
+        assert heading_in(name, one.text, "en") == one.text
+
+
+def test_in_german_a_part_of_the_window_leads_to_its_own_section(qtbot):
+    set_language("de")
+    try:
+        book = Handbook(LIGHT)
+        qtbot.addWidget(book)
+        book.show_heading("window", "Pupil shape")
+        for heading in ("Pupillenform", "Dejustieren"):
+            top = book.text.cursorForPosition(book.text.viewport().rect().topLeft()).block()
+            assert heading in (top.text(), top.next().text())
+            book.text.anchorClicked.emit(QUrl("panels.md#misalign"))
+    finally:
+        set_language("en")
 
 
 def test_a_page_that_is_not_translated_says_so_in_the_list(qapp):

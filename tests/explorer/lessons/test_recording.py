@@ -47,6 +47,32 @@ def test_an_edited_lens_stands_beside_its_lesson(tmp_path):
     assert paraxial_setup(lesson.state(0)).focal_length_mm == pytest.approx(paraxial_setup(state).focal_length_mm)
 
 
+def test_a_step_brings_its_own_lens(tmp_path):
+    """A shipped one, an edited one and the first again; what is set on the lens before does not stay."""
+    edited = edited_state(change(START, keep_focus="off"), prescription(default_state("achromat_f6")))
+    states = (change(START, f_number=9.0), default_state("tessar"), edited, change(START, field_deg=3.0))
+    path = save_lesson("Many", "", steps(*states), tmp_path)
+    lesson = read_lesson(path)
+    for number, state in enumerate(states):
+        found = lesson.state(number)
+        kept = {name: value for name, value in shown(state).items() if name != "keep_focus"}
+        assert {name: value for name, value in shown(found).items() if name != "keep_focus"} == kept, number
+        assert paraxial_setup(found).focal_length_mm == pytest.approx(paraxial_setup(state).focal_length_mm)
+    assert [one.name for one in tmp_path.glob("*.toml")] == [f"{path.stem}.toml"]
+
+
+def test_what_is_hidden_beside_the_stage_stays_hidden(tmp_path):
+    """Changes of rail or tab show what stands beside the stage (`Lesson.state`), which the window did not."""
+    states = change(START, show_rail=True), change(START, show_rail=False, tab="mtf"), change(START, show_rail=False)
+    lesson = read_lesson(save_lesson("Rail", "", steps(*states), tmp_path))
+    assert [lesson.state(number).display.show_rail for number in range(3)] == [True, False, False]
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_a_lesson_states_the_language_of_its_words(tmp_path, language):
+    assert read_lesson(save_lesson("Sprache", "", steps(START), tmp_path, language)).language == language
+
+
 def test_titles_that_are_alike_have_files_of_their_own(tmp_path):
     paths = [save_lesson("Größe & Ähnlichkeit", "", steps(START), tmp_path) for _ in range(3)]
     assert len(set(paths)) == 3 and all(path.is_file() for path in paths)

@@ -1,8 +1,10 @@
 """The panel of overlaid curves in the window."""
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
+from p2sf_explorer.compute.matrix.overlays import coarse_first
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import new_state
@@ -68,3 +70,21 @@ def test_it_is_part_of_the_state(window):
     window.store.update(curves_frequencies_per_mm=(-1.0,))
     window.store.update(curves_of="psf")
     assert window.banner.isVisible() and window.store.state == before
+
+
+def test_while_a_slider_moves_slow_curves_wait_until_it_is_held(window, panel, qtbot):
+    window.store.update(curves_of="focus")
+    settled(panel, qtbot)
+    with window.store.drag():
+        for f_number in (5.6, 6.0):
+            window.store.update(f_number=f_number)
+            assert panel.asking.asked != window.live.views["curves"], "frames come first"
+        qtbot.waitUntil(lambda: panel.asking.asked == window.live.views["curves"])
+
+
+@pytest.mark.parametrize("count", [1, 2, 15, 61])
+def test_curves_over_places_are_known_coarsely_first(count):
+    order = coarse_first(count)
+    assert sorted(order) == list(range(count))
+    first = sorted(order[: count // 4 + 1])
+    assert first[0] == 0 and first[-1] >= count - 4 and np.diff(first).max(initial=0) <= 4

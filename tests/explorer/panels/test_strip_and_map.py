@@ -14,8 +14,10 @@ from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.compute.views import field_map, through_focus
 from p2sf_explorer.panels.field_map import FieldMapPanel
+from p2sf_explorer.panels.through_focus import StripChart
 from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.what_if import UNTOUCHED
+from p2sf_explorer.widgets.tiles import tile
 from tests.support.windows.windows import settled
 
 FIRST = new_state(method="seidel", theme="light")
@@ -134,6 +136,29 @@ def test_the_map_is_the_psf_turned_towards_each_field(window, qtbot):
     own, inverted = field_map.picture_at(asked, asked.field_of(field_map.places()[2, 6]))
     assert not inverted and right[1:, 1:] == pytest.approx(own.T[1:, 1:], abs=1e-4), "+y points to the right"
     assert (found.max((2, 3)) > 0.5).all()
+
+
+def test_an_upright_panel_has_an_upright_map_and_high_tiles(window, qtbot):
+    """The room is used: a map of 7 rows and 5 columns, a strip in as many rows as make its pictures largest."""
+    sides = []
+    for upright in (False, True):
+        asked = replace(field_map.field_map(window.live), upright=upright)
+        rows, columns = asked.places.shape[:2]
+        assert (rows, columns) == ((7, 5) if upright else (5, 7))
+        corners = np.hypot(*asked.places[[0, 0, -1, -1], [0, -1, 0, -1]].T)
+        assert corners == pytest.approx(np.ones(4)), "the corner is the edge of the field"
+        panel = FieldMapPanel(window.store)
+        qtbot.addWidget(panel.widget)
+        panel.chart.resize(400, 560)
+        panel._paint(asked, np.ones((rows, columns, 8, 8)))
+        sides.append(panel.chart.side_px())
+    assert sides[1] > 1.25 * sides[0]
+    chart, tiles = StripChart(window.store), [tile(np.ones((8, 8)), 0.0, 0.5, "sqrt")] * 11
+    qtbot.addWidget(chart)
+    chart.resize(520, 600)
+    chart.show_strip(tiles, np.linspace(-5.0, 5.0, 11))
+    covered = chart.rows * chart.side_px()
+    assert covered > 0.85 * chart.area.height()
 
 
 def test_a_click_on_the_map_goes_to_that_field(window, qtbot):

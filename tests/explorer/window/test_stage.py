@@ -13,6 +13,7 @@ from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.state.pinning import pin
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
+from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.card import PANEL_MIME
 from p2sf_explorer.widgets.slider import Slider
 from tests.explorer.accessibility.test_looks import contrast
@@ -225,6 +226,7 @@ def places(window) -> dict[int, tuple[int, int, int, int]]:
 def test_nothing_moves_when_bars_come_and_go(window, size):
     """An error, A and B, the player: they float over the stage's edge, within the window."""
     window.resize(*size)
+    window.store.replace(with_workspace(window.store.state, "explore", WORKSPACES["explore"]))
     QApplication.processEvents()
     before, first = places(window), window.store.state
     window.store.replace(pin(first))
@@ -234,6 +236,12 @@ def test_nothing_moves_when_bars_come_and_go(window, size):
     bars = window.banner, window.compare, window.play
     assert all(bar.isVisible() and window.rect().contains(bar.mapTo(window, bar.rect().center())) for bar in bars)
     assert all(bar.height() >= bar.minimumSizeHint().height() for bar in bars)
+    stage, edge = window.room.stage, window.edge
+    left = (edge.mapTo(window, QPoint()) - stage.mapTo(window, QPoint())).x()
+    assert left >= 0 and left + edge.width() <= stage.width(), "over the stage alone"
+    chart = window.panels["psf"].map.chart
+    floor = chart.mapTo(window, chart.area.bottomLeft().toPoint()).y()
+    assert edge.mapTo(window, QPoint(0, edge.height())).y() <= floor + 4, "and above the picture's axis"
     after = places(window)
     assert {key: at for key, at in before.items() if key in after and after[key] != at} == {}
     window.store.replace(first)

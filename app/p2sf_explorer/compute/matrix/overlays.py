@@ -220,14 +220,24 @@ def through_focus(request: OverlayRequest) -> Iterator[tuple[float, CurveOverlay
 def over_places(
     request: OverlayRequest, states: list[State], x: np.ndarray, bottom: str
 ) -> Iterator[tuple[float, CurveOverlay]]:
-    """Yield the contrast at each frequency over places ``x``, each of which has its state."""
+    """Yield the contrast at each frequency over places ``x``, each of which has its state.
+
+    The whole curve comes soon, of every fourth place; straight lines fill it until the others are known.
+    """
     frequencies = np.array(request.frequencies)
     names = tuple(Message("{f:g}/mm", f=f) for f in request.frequencies)
     found = np.full((2, len(frequencies), len(x)), np.nan)
-    for number, state in enumerate(states):
-        found[:, :, number] = contrast_at(state, frequencies)
-        lines = [line for k, name in enumerate(names) for line in pair((found[0, k], found[1, k]), k + 1, name)]
-        yield (number + 1) / len(x), CurveOverlay(x, tuple(lines), (bottom, "contrast"), names)
+    known = np.zeros(len(x), bool)
+    for number in coarse_first(len(x)):
+        found[:, :, number], known[number] = contrast_at(states[number], frequencies), True
+        both = [[np.interp(x, x[known], row[known], np.nan, np.nan) for row in found[:, k]] for k in range(len(names))]
+        lines = [line for k, name in enumerate(names) for line in pair((both[k][0], both[k][1]), k + 1, name)]
+        yield float(known.mean()), CurveOverlay(x, tuple(lines), (bottom, "contrast"), names)
+
+
+def coarse_first(count: int) -> list[int]:
+    """Return the numbers below ``count``: every fourth and the last, then every second, then all others."""
+    return sorted(range(count), key=lambda k: 0 if k % 4 == 0 or k == count - 1 else 1 if k % 2 == 0 else 2)
 
 
 AIRY = Message("Airy radius")

@@ -25,7 +25,7 @@ from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import psf_request
-from p2sf_explorer.compute.framing import light_circle
+from p2sf_explorer.compute.framing import LightRings, light_rings
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request, nearest
 from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused_tile
@@ -62,7 +62,7 @@ MOST_LIGHT = 0.97  # share of all light from which on a window's counts as all
 HELD = 0.8  # share of the window's light within the radius that is quoted
 BY_RAYS, BY_COEFFICIENTS = "exact rays", "six coefficients"
 IN_A_FRAME = ("psf", "pupil", "spot", "ray_fan", "opd_fan")  # what has a preview
-IN_FRAME = 9  # PSFs that are all renewed in each frame; of more,
+IN_FRAME = 4  # PSFs that are all renewed in each frame; of more,
 TURNS = 1  # beside that of the present point
 AT_ONCE = ("spot", "ray_fan", "opd_fan")  # and what settles within the frame too
 
@@ -346,10 +346,17 @@ def _light(place: MatrixPoint, psf: Psf, settled: bool) -> MatrixTile:
     width = psf.values.shape[-1] * psf.pixel_um
     airy = float(airy_radius_um(place.setup.source.wavelength_um, c.na))
     share = 1.0 if psf.energy is None else float(psf.energy)
-    circle = light_circle(psf.values, psf.pixel_um, airy)
-    content = Light(psf.values * (share / psf.pixel_um**2), width, airy, circle)
+    rings = light_rings(psf.values, psf.pixel_um)
+    content = Light(psf.values * (share / psf.pixel_um**2), width, airy, rings.circle(airy))
     sharpness = strehl_figure(psf, float(c.na))
-    return MatrixTile(content, radius_figure(psf, settled), psf.method, psf.predicted_error, settled, strehl=sharpness)
+    return MatrixTile(
+        content,
+        radius_figure(psf, None if settled else rings),
+        psf.method,
+        psf.predicted_error,
+        settled,
+        strehl=sharpness,
+    )
 
 
 def strehl_figure(psf: Psf, na: float) -> Message | None:
@@ -363,11 +370,9 @@ def strehl_figure(psf: Psf, na: float) -> Message | None:
     return Message("Strehl {value}", value=Number(significant(float(psf.strehl), 2)))
 
 
-def radius_figure(psf: Psf, settled: bool) -> Message:
-    """Return R80 of the window's light; where that is less than all light, its share is stated."""
-    found = (
-        float(radius_of_energy(psf, HELD)) if settled else light_circle(psf.values, psf.pixel_um, 0.0, HELD).radius_um
-    )
+def radius_figure(psf: Psf, rings: LightRings | None = None) -> Message:
+    """Return R80 of the window's light, by its ``rings`` where they do; its share of all light where that is less."""
+    found = rings.radius_of(HELD) if rings else float(radius_of_energy(psf, HELD))
     radius = Number(significant(found, 3))
     if psf.energy is not None and psf.energy < MOST_LIGHT:
         return Message("R80 {radius} µm (of {percent:.0f} % in view)", radius=radius, percent=100 * float(psf.energy))

@@ -21,7 +21,7 @@ from p2sf_explorer.compute.views.field import widest_slope
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State, change
 
-SHAPE = 5, 7  # rows, columns: nearly square pictures fill the 3:2 of the sensor
+SHAPE = 5, 7  # along the short and the long side: nearly square pictures fill the 3:2 of the sensor
 ASPECT = 1.5  # of the sensor, whose corner is the field's edge
 PIXELS = {"preview": 24, "settled": 64}
 SAME_ANGLE = 1e-9  # radians
@@ -34,6 +34,7 @@ class FieldMapRequest:
 
     ``domain``: HALF where fields of one distance from the axis share a picture, turned about the axis. ``nodes``: of
     "coma" and "astigmatism", the places x and y where these vanish to third order, 1 from the middle to the corner.
+    ``upright``: the picture is as high as it is wide otherwise.
     """
 
     state: State
@@ -42,9 +43,20 @@ class FieldMapRequest:
     six: bool
     domain: PupilDomain = HALF
     nodes: tuple[tuple[str, float, float], ...] = ()
+    upright: bool = False
+
+    @property
+    def places(self) -> np.ndarray:
+        """Return where the pictures stand, (rows, columns, 2): x and y, 1 from the middle to the corner."""
+        return places(self.upright)
+
+    @property
+    def edge(self) -> np.ndarray:
+        """Return the largest x and y of the places."""
+        return np.abs(self.places).max(axis=(0, 1))
 
     def field_of(self, place: np.ndarray) -> tuple[float, float]:
-        """Return the field along x and along y, degrees, whose picture stands at a place, as `places` has it."""
+        """Return the field along x and along y, degrees, whose picture stands at a place."""
         return self.domain.field(*degrees_from_slope(np.asarray(place) * self.corner_slope).tolist())
 
 
@@ -69,15 +81,14 @@ def field_map(live: Live) -> FieldMapRequest:
 def nodes_of(
     lens: Lens, depth_mm: float, wavelength_um: float, corner_slope: float
 ) -> tuple[tuple[str, float, float], ...]:
-    """Return where in the map coma and astigmatism vanish to third order; none beyond the map, or where unknown."""
+    """Return where coma and astigmatism vanish to third order; none beyond the field, or where unknown."""
     try:
         found = third_order(lens, depth_mm, wavelength_um)
     except P2SFError:  # no six coefficients, or a lost chief ray: the map has no nodes to show
         return ()
     named = [("coma", found.coma_node), *(("astigmatism", node) for node in found.astigmatism_nodes)]
-    edge = np.abs(places()).max(axis=(0, 1))
     at = ((name, node.imag / corner_slope, node.real / corner_slope) for name, node in named)
-    return tuple((name, float(x), float(y)) for name, x, y in at if abs(x) <= edge[0] and abs(y) <= edge[1])
+    return tuple((name, float(x), float(y)) for name, x, y in at if np.hypot(x, y) <= 1)
 
 
 def place_of(state: State, corner_slope: float) -> tuple[float, float]:
@@ -86,12 +97,12 @@ def place_of(state: State, corner_slope: float) -> tuple[float, float]:
     return x, y
 
 
-def places() -> np.ndarray:
-    """Return where the pictures stand, (rows, columns, 2): x and y, 1 from the middle to the corner."""
-    corner = np.hypot(ASPECT, 1.0)
-    x = np.linspace(-1, 1, SHAPE[1]) * ASPECT / corner
-    y = np.linspace(1, -1, SHAPE[0]) / corner
-    return np.stack(np.meshgrid(x, y), axis=-1)
+def places(upright: bool = False) -> np.ndarray:
+    """Return where the pictures of a sensor stand, (rows, columns, 2): x and y, 1 from the middle to the corner."""
+    short, long = (np.linspace(-1, 1, count) for count in SHAPE)
+    sides = np.array([1.0, ASPECT]) / np.hypot(ASPECT, 1.0)
+    x, y = (sides[0] * short, sides[1] * long) if upright else (sides[1] * long, sides[0] * short)
+    return np.stack(np.meshgrid(x, -y), axis=-1)
 
 
 def answer(request: FieldMapRequest, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> np.ndarray:
@@ -99,10 +110,11 @@ def answer(request: FieldMapRequest, stopped: Callable[[], bool], tell: Callable
 
     ``tell`` is called after each field.
     """
-    found = np.full((*SHAPE, request.window[0], request.window[0]), np.nan, np.float32)
-    where = places()
+    where = request.places
+    shape = where.shape[:2]
+    found = np.full((*shape, request.window[0], request.window[0]), np.nan, np.float32)
     fields: dict[tuple[float, float], list[tuple[int, ...]]] = {}
-    for at in sorted(np.ndindex(*SHAPE), key=lambda at: float(np.hypot(*where[at]))):
+    for at in sorted(np.ndindex(*shape), key=lambda at: float(np.hypot(*where[at]))):
         fields.setdefault(request.field_of(where[at]), []).append(at)
     for number, (field, own) in enumerate(fields.items(), 1):
         if stopped():

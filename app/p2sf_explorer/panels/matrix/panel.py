@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable
 
-from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QCheckBox
 
 from p2sf_explorer.charts.theme import LIGHT, Tokens
@@ -70,7 +69,6 @@ ACROSS = (
 )
 NAMES = {"field_deg": "Fields", "wavelength_nm": "Colours", "depth_mm": "Depths", "sensor_shift_um": "Shifts"}
 COUNTS = (2, 3, 4, 5)
-HELD_MS = 60  # for which a slider is held still before all pictures follow
 READERS = {quantity.key: quantity.read for quantity in QUANTITIES}
 KINDS: dict[str, type[TileChart]] = {
     "psf": LightChart,
@@ -109,8 +107,6 @@ class MatrixPanel:
         self.shown: tuple[MatrixRequest, Tiles] | None = None
         self.settled: tuple[MatrixRequest, Tiles] | None = None
         self._live: Live | None = None
-        self._held = QTimer(self.widget, singleShot=True, interval=HELD_MS)
-        self._held.timeout.connect(self._on_held)
         self._filled: dict[TileChart, tuple[object, ...]] = {}
         self._theme = LIGHT
         self._connect()
@@ -141,7 +137,8 @@ class MatrixPanel:
         self._filled = {chart: shown for chart, shown in self._filled.items() if chart in self.grid.charts}
         if view.settled or (view.tiles and live.quality == "preview"):
             self.asking.forget()
-            self._held.start() if view.waiting else self._held.stop()
+            if view.waiting:
+                self.asking.ask_when_held(view.request)
         else:
             self.asking.ask(view.request)
         if self.settled and self.settled[0] == view.request:
@@ -150,12 +147,6 @@ class MatrixPanel:
             self._paint(view.request, view.tiles)
         elif self.shown and self.shown[0].what == view.request.what:
             self._paint(*self.shown)
-
-    def _on_held(self) -> None:
-        """Renew the pictures of an earlier setting where a slider is held still."""
-        view = self._live.views.get("matrix") if self._live else None
-        if isinstance(view, Matrix) and view.waiting:
-            self.asking.ask(view.request)
 
     def _show_choices(self, live: Live, request: MatrixRequest) -> None:
         view = live.state.matrix

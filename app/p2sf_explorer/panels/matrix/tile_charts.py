@@ -24,6 +24,7 @@ WAVES_MAP = "CET-D1A"
 WHITE = "#ffffff"  # on the dark ground of a PSF in both themes
 LOOKS = {"perfect lens": ("muted", 1), "sagittal": ("marginal", 2), "tangential": ("chief", 2)}
 LINE_PX = 16  # the height of a line of text at scale 1
+NOTE_GROUND = 190  # opacity of the ground of words over a picture
 GAP_PX, GROUP_PX = 6, 14  # between charts, and between the rows of a matrix that stands in one line
 FLATTEST = 1.6  # width over height of a chart of curves that has no use for more width
 SMALL_UNITS = re.compile(r"([.,]\d+)? (nm|µm)$")
@@ -158,7 +159,7 @@ class TileChart(Chart):
         wide = min(line.width(), width_of(words, self.theme.small) + 6)
         left = line.left() if side < 0 else line.right() - wide
         ground = QColor(self.note_ground)
-        ground.setAlpha(190)
+        ground.setAlpha(NOTE_GROUND)
         painter.fillRect(QRectF(left, line.top(), wide, line.height()), ground)
         self._write(painter, QRectF(left + 3, line.top(), wide - 5, line.height()), words, self.note_colour, -1)
 

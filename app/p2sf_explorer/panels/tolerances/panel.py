@@ -294,7 +294,7 @@ class TolerancesPanel:
         noted = [(view.nominal, inf, tr("as designed"), "muted")]
         if opened and self._found:
             value = float(of_worst_field(self._found.builds, view.criterion)[opened - 1])
-            noted.append((value, 0.96 * most, tr("build {number}", number=opened), "text"))  # below the other's words
+            noted.append((value, inf, tr("build {number}", number=opened), "text"))
         inside = [note for note in noted if ends[0] <= note[0] <= ends[1]]
         marks = ((view.limit, "accent"), *((value, token) for value, _, _, token in inside))
         turn = ends[0] + WORDS_SHARE * (ends[1] - ends[0])  # right of here there is room for words before the line
