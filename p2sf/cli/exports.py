@@ -48,7 +48,7 @@ def export(
     as_json: Json = False,
 ) -> None:
     """Write a database (.npz) or stack (.zarr) as ISETCam optics, FITS, an ImageJ TIFF, or a table."""
-    check_output(output, ENDINGS[to])
+    check_output(output, ENDINGS[to], file)
     beside = Path(file.rpartition("/")[2] if is_url(file) else file)
     target = output or beside.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)

@@ -172,7 +172,7 @@ def psf(
 
 
 def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path | None, as_json: bool) -> None:
-    check_output(output, ENDINGS)
+    check_output(output, ENDINGS, lens)
     if is_database(lens):
         if picture.sampling or (picture.method or AUTO) != AUTO:
             raise RequestError(

@@ -5,10 +5,10 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, Output
+from p2sf.cli.options import LENS_ENDINGS, Json, Output, check_output
 from p2sf.cli.screen import print_json, text
 from p2sf.cli.verdicts import list_folder
-from p2sf.errors import LensFileError, RequestError
+from p2sf.errors import RequestError
 from p2sf.lensfile.importing import Import, import_lens
 
 Consent = Annotated[bool, Parameter(negative="", help="Take the substitute glasses that are offered, and report them.")]
@@ -37,7 +37,7 @@ def import_(
         return list_folder(file, accept_substitutes, agf or (), as_json)
     found = import_lens(file, accept_substitutes, agf or ())
     if output is not None:
-        _check_apart(output, file)
+        check_output(output, LENS_ENDINGS, file)
         from p2sf.lensfile.writing import write_lens
 
         write_lens(found.lens, output)
@@ -46,12 +46,6 @@ def import_(
     for line in found.report.lines():
         print(text(line))
     return print(f"written: {output}") if output else None
-
-
-def _check_apart(output: Path, file: Path) -> None:
-    """Raise LensFileError where the output would overwrite what was read."""
-    if output.exists() and output.samefile(file):
-        raise LensFileError("the output is the file that was read; choose another name", str(output))
 
 
 def record(found: Import, output: Path | None) -> dict[str, Any]:

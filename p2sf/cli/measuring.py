@@ -9,7 +9,7 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import FIELDS, Request, mask_of, set_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, Output, Threads, check_output
+from p2sf.cli.options import AS_IN_THE_FILE, LENS_ENDINGS, Asked, Json, Output, Threads, check_output
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
@@ -139,8 +139,8 @@ def measure(
     Without a lens, the f-number and the wavelength are needed. One picture leaves the common sign of all even terms
     open; a second at another focus decides. The numbers go to an .npz.
     """
-    check_output(output, (".npz",))
-    check_output(built, (".toml", ".zmx", ".seq", ".json", ".npz"))
+    check_output(output, (".npz",), *pictures)
+    check_output(built, (*LENS_ENDINGS, ".npz"), lens, *pictures)
     known = None if target is None else read_target(target)
     frames = [camera.frame(path) for path in pictures]
     design, optics, field = _scale(lens, request, frames[0])

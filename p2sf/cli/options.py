@@ -1,14 +1,15 @@
 """Options that several commands share: the lens, the request, the samples and the output."""
 
 from collections.abc import Iterable, Sequence
+from os.path import exists, samefile
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter, Token
 
 from p2sf.camera import Request, Settings
-from p2sf.errors import ExportError, RequestError
-from p2sf.files.writing import check_place
+from p2sf.errors import RequestError
+from p2sf.files.writing import check_known_ending, check_place
 
 MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
 
@@ -32,23 +33,25 @@ Threads = Annotated[
     Parameter(converter=_whole, help="How many threads share the work; P2SF_THREADS, else every core, when not given."),
 ]
 
+LENS_ENDINGS = ".toml", ".zmx", ".seq", ".json"  # of lens files that are written
 AS_IN_THE_FILE = Request()
 AS_IN_ITS_FILE = Settings()
 
 
-def check_output(output: Path | None, endings: Iterable[str]) -> None:
-    """Raise ExportError for an unknown ending or a missing folder; call before the work."""
+def check_output(output: Path | None, endings: Iterable[str], *inputs: str | Path | None) -> None:
+    """Raise ExportError for an unknown ending or a missing folder, RequestError for an input; call before the work."""
     if output is None:
         return
-    if output.suffix.lower() not in endings:
-        raise ExportError(
-            '{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}',
-            parameter="output",
-            path=str(output),
-            ending=output.suffix,
-            endings=tuple(endings),
-        )
+    check_known_ending(output, endings)
     check_place(output)
+    for path in inputs:
+        if path is not None and exists(path) and exists(output) and samefile(path, output):
+            raise RequestError(
+                "{parameter} is {path}, which would overwrite the input {input}; choose another name",
+                parameter="output",
+                path=str(output),
+                input=str(path),
+            )
 
 
 def check_whole(name: str, value: int, low: int, high: int) -> None:

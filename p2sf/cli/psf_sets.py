@@ -43,7 +43,7 @@ def write_set(
     as_json: bool,
 ) -> None:
     """Make the PSFs of a set, write them where a file is given, and show their figures."""
-    check_output(output, WRITERS)
+    check_output(output, WRITERS, lens)
     _check(lens, request, picture, spectrum, several)
     setup = set_up(find_lens(lens), request)
     if not as_json:

@@ -37,7 +37,7 @@ def report(
     The file has prescription, first order, drawing, this table, MTF, MTF through focus, field curves, spots and PSFs,
     and a link that opens the lens in the window.
     """
-    check_output(output, ENDINGS)
+    check_output(output, ENDINGS, lens)
     from p2sf_explorer.compute.views.performance import answer, performance_request
     from p2sf_explorer.report.contents import report_of, requested_state
     from p2sf_explorer.report.writing import report_record, write_report

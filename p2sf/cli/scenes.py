@@ -3,7 +3,6 @@
 import sys
 from dataclasses import dataclass
 from math import inf
-from os.path import exists, samefile
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -186,10 +185,9 @@ def image(
         raise RequestError(
             "there is no {parameter}; say with -o where the picture goes, such as -o out.png", parameter="output"
         )
-    check_output(output, (*WRITABLE, *RAW))
     glass = find_lens(lens)
     asked = _read_scene(glass, scene)
-    _check_kept(output, picture, asked)
+    check_output(output, (*WRITABLE, *RAW), None if picture.startswith(CHART) else picture, asked.depth_map)
     _check_reading(output, asked, shown)
     values, encoding = source_picture(picture, asked, shown)
     with using_threads(threads):
@@ -208,12 +206,6 @@ def image(
         + "".join(f", {key.replace('_', ' ')} {_short(value)}" for key, value in facts.items())
     )
     return None
-
-
-def _check_kept(output: Path, picture: str, scene: Scene) -> None:
-    """Raise RequestError where the output would overwrite the picture or the depth map it is made of."""
-    for path in filter(None, (None if picture.startswith(CHART) else picture, scene.depth_map)):
-        _check_not_input(output, path)
 
 
 def _check_reading(output: Path, scene: Scene, shown: Shown) -> None:
@@ -248,16 +240,6 @@ def _write_raw(output: Path, reading: np.ndarray, sensor: Sensor) -> None:
     dark, full = np.square(sensor.noise([0.0, 1 / sensor.fill_factor])).tolist()
     white = sensor.black_level + (sensor.steps or 0)
     write_dng(output, numbers, RawLevels(sensor.black_level, white, sensor.mosaic, (full - dark, dark)))
-
-
-def _check_not_input(output: Path, path: str) -> None:
-    if exists(path) and exists(output) and samefile(path, output):
-        raise RequestError(
-            "{parameter} is {path}, which would overwrite the input {input}; choose another name",
-            parameter="output",
-            path=str(output),
-            input=path,
-        )
 
 
 def _short(value: object) -> str:
@@ -346,8 +328,7 @@ def sharpen(
     if output is None or pixel_um is None:
         missing = "output" if output is None else "pixel_um"
         raise RequestError("there is no {parameter}; give it", parameter=missing)
-    check_output(output, WRITABLE)
-    _check_not_input(output, str(photo))
+    check_output(output, WRITABLE, photo)
     own = Camera(find_lens(lens), pixel_um=pixel_um, **explicit_values(camera))
     taken = read_photo(photo, encoding)
     values = taken.values if taken.values.shape[2] == 3 else taken.values[..., 0]

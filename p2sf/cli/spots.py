@@ -37,7 +37,7 @@ def spot(
 ) -> None:
     """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
     check_whole("rings", rings, 1, MOST_RINGS)
-    check_output(output, WRITERS)
+    check_output(output, WRITERS, lens)
     setup = set_up(find_lens(lens), request)
     points, figures = trace_spot(setup, rings, clip)
     if output:

@@ -77,7 +77,7 @@ def tradeoff(
         return trades.complete(lens, quick, keep, output, as_json)
     if sampling or lens is None:
         return trades.sampling(lens, output, as_json)
-    check_output(output, WRITTEN)
+    check_output(output, WRITTEN, lens)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
     depths = depths_mm or [inf]
     found = find_lens(lens)

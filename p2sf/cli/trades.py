@@ -19,7 +19,7 @@ WRITTEN = (".json", ".csv", ".png")
 
 def complete(name: str | None, quick: bool, keep: Path | None, output: Path | None, as_json: bool) -> None:
     """Compare all representations of one lens, or of every shipped one, and print, write or draw what they cost."""
-    check_output(output, WRITTEN)
+    check_output(output, WRITTEN, name)
     if keep is not None:
         check_place(keep / "lens.json")
     names = shipped_lenses() if name is None else (name,)
@@ -80,7 +80,7 @@ def sampling(name: str | None, output: Path | None, as_json: bool) -> None:
     """Map the error of the paper's FFT over NPUPIL and NPSF, at 10° of one lens, the paper's if none is named."""
     from p2sf.studies.sampling import draw_sampling, sampling_map
 
-    check_output(output, (".json", ".png"))
+    check_output(output, (".json", ".png"), name)
     found = sampling_map() if name is None else sampling_map(find_lens(name))
     values: dict[str, Any] = vars(found)
     if output is not None and output.suffix.lower() == ".png":

@@ -37,7 +37,7 @@ def zernike(
     Shares are of the variance without piston and tilt, which do not blur. Where rims or lost rays leave part of the
     pupil, the terms are made orthogonal over that part (Gram–Schmidt).
     """
-    check_output(output, (".csv",))
+    check_output(output, (".csv",), lens)
     setup = set_up(find_lens(lens), request)
     found = zernike_fit(setup.lens, setup.source, basis, terms, clip)
     if output:

@@ -3,7 +3,7 @@
 import errno
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import isfinite
 from os import PathLike
 from pathlib import Path
@@ -55,6 +55,18 @@ def check_place(path: str | PathLike) -> None:
     wrong = errno.EISDIR if target.is_dir() else 0 if target.parent.is_dir() else errno.ENOENT
     if wrong:
         raise _unwritable(path, OSError(wrong, os.strerror(wrong)))
+
+
+def check_known_ending(path: str | PathLike[str], endings: Iterable[str]) -> None:
+    """Raise ExportError unless the name of an output has one of the endings that choose what is written."""
+    if Path(path).suffix.lower() not in endings:
+        raise ExportError(
+            '{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}',
+            parameter="output",
+            path=str(path),
+            ending=Path(path).suffix,
+            endings=tuple(endings),
+        )
 
 
 def check_ending(name: str, path: str | PathLike[str], ending: str, wanted: Message) -> None:

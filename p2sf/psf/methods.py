@@ -59,7 +59,7 @@ from p2sf.raytrace.fit import (
     trace_check_rays,
 )
 from p2sf.raytrace.pencil import Rays, pencil, to_the_rim
-from p2sf.raytrace.ray_field import AIRY_RADIUS, steepness
+from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import one_blas_thread
@@ -208,13 +208,22 @@ def choose(lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False)
     xi, eta, weight = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
     steep = steepness(rays, xi, eta)
-    bound = plane_wave_bound(lens, source, rays, weight, steep.light_um) if rays.passed.all() else inf
-    if bound > CAUTION and worth_spherical(lens, source, clip):
-        plane = plane_wave_error(lens, source, clip, MOST_TO_CHOOSE)
-        if plane > PLANE_SHARE * allowed:
-            tried = Choice("spherical", SETTLED_TOLERANCE**2, 0, int((~rays.passed).sum()), xi.size, allowed)
-            return replace(tried, plane_wave_error=plane)
-        allowed -= plane
+    by_plane_waves = partial(_choose_plane, lens, source, clip, rays, steep)
+    bound = plane_wave_bound(lens, source, rays, weight, steep) if rays.passed.all() else inf
+    if bound <= max(CAUTION, PLANE_SHARE * allowed):  # which costs little, and leaves the choice to plane waves
+        choice = by_plane_waves(allowed - bound if bound > CAUTION else allowed)
+        if choice.numbers or bound <= CAUTION:
+            return choice
+    plane = plane_wave_error(lens, source, clip, MOST_TO_CHOOSE) if worth_spherical(lens, source, clip) else 0.0
+    if plane <= PLANE_SHARE * allowed:
+        return by_plane_waves(allowed - plane)
+    tried = Choice("spherical", SETTLED_TOLERANCE**2, 0, int((~rays.passed).sum()), xi.size, allowed)
+    return replace(tried, plane_wave_error=plane)
+
+
+def _choose_plane(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness, allowed: float) -> Choice:
+    """Return the cheapest method of plane waves whose predicted error is allowed, from the rays of the first level."""
+    xi, eta, weight = level_rays(levels_for(lens)[0])
     if not rays.passed.all():
         # Only rays represent an edge; six coefficients and fits do not.
         lost = int((~rays.passed).sum())

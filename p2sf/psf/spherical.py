@@ -29,10 +29,15 @@ from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
 from p2sf.raytrace.fit import level_rays, levels_for
 from p2sf.raytrace.pencil import Rays, exit_radius, pencil
-from p2sf.raytrace.ray_field import AIRY_RADIUS, steepness
+from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
 from p2sf.threads import one_blas_thread
 
-BOUND = 0.5  # of (2π)² times the variance; 1 − R² is at most 0.33 (python -m tests.long.spherical_prediction)
+BOUND = (
+    0.3  # of (2π)² times the variance where the phase is flat, and less by FALL of its slope in waves: steeper light
+)
+FALL = (
+    2 / 3
+)  # at a place is that of fewer rays. Holds for 300 random states (python -m tests.long.spherical_prediction)
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
 MOST_NODES = 2**17  # of that comparison: half a second
@@ -60,14 +65,15 @@ def fresnel_number(lens: Lens, source: Source) -> float:
     return float(radius**2 * abs(sphere.waves_per_um / (sphere.distance * UM_PER_MM)))
 
 
-def plane_wave_bound(lens: Lens, source: Source, rays: Rays, weight: np.ndarray, light_um: float) -> float:
+def plane_wave_bound(lens: Lens, source: Source, rays: Rays, weight: np.ndarray, steep: Steepness) -> float:
     """Return an upper bound of 1 − R² between plane and spherical waves, from where rays land.
 
     At X, a distance D from where a ray lands, the waves differ by n'D²/(2λz), to second order. Of this, without its
     mean over the rays, the variance over rays and over X is (n'/2λz)²·(⟨r⁴⟩ − ⟨r²⟩² + 4 tr C² + 8s² tr C), with r from
-    the centroid, C the covariance of the landing points, and s = ``light_um``, twice which diffraction spreads each.
+    the centroid, C the covariance of the landing points, and s the `Steepness.light_um`, twice which diffraction
+    spreads each. Of it, BOUND/(1 + slope)^FALL counts.
     """
-    own, domain = slice(weight.size), lens.pupil_domain
+    own, domain, light_um = slice(weight.size), lens.pupil_domain, steep.light_um
     share = weight / weight.sum()
     x, y = rays.x_um[own], rays.y_um[own]
     x, y = x - domain.mean_across(share, x), y - share @ y
@@ -78,7 +84,7 @@ def plane_wave_bound(lens: Lens, source: Source, rays: Rays, weight: np.ndarray,
     spread += 4 * (cxx**2 + cyy**2 + 2 * xy**2) + 8 * light_um**2 * (cxx + cyy)
     distance = float(np.ravel(exit_radius(lens, source, rays))[0]) * UM_PER_MM
     scale = float(rays.index / np.ravel(rays.wavelength_um)[0]) * pi / distance
-    return BOUND * scale * scale * spread
+    return BOUND * (1 + steep.radial) ** -FALL * scale * scale * spread
 
 
 @lru_cache(maxsize=64)
@@ -90,12 +96,12 @@ def plane_wave_error(lens: Lens, source: Source, clip: bool = False, most: int =
     waves that agree with it at the chief ray; 0 for an exit pupil at infinity. Raises GeometryError where rays do not
     reach the sensor, SamplingError where more than ``most`` nodes are needed.
     """
-    sphere = exit_sphere(lens, source)
-    if sphere is None:
-        return 0.0
     half = half_window_um(lens, source)
     reach = hypot(half, half)
     counts, axis = first_counts(lens, source, reach, clip, most), centred_axis(SAMPLES, 2 * half / SAMPLES)
+    sphere = exit_sphere(lens, source)  # behind the counts, which refuse a wide blur sooner
+    if sphere is None:
+        return 0.0
     pupils = RayPupil(lens, source, clip), RayPupil(lens, source, clip, sphere=sphere)
     plane, own = (_waves_of(pupil, counts, reach).plane.intensity(axis, axis) for pupil in pupils)
     return 1 - r_squared(plane, own)

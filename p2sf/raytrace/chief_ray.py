@@ -37,7 +37,7 @@ def _check(lens: Lens, source: Source | Sources, stop: Stop | None) -> None:
     lost = beam.status != Status.PASSED
     if lost.any():
         status, failed = (int(part[lost][0]) for part in (beam.status, beam.failed_surface))
-        raise chief_ray_error(lens, status_message(status, failed), failed)
+        raise chief_ray_error(lens, status_message(lens, status, failed), failed)
     for number, (surface, height) in enumerate(zip(lens.surfaces, heights, strict=False), 1):
         far = float(np.max(height))
         if surface.rim is None and far > surface.semi_diameter:

@@ -382,7 +382,7 @@ def _blank(beam: Beam, lens: Lens) -> None:
     bad = beam.status != Status.PASSED
     if bad[..., -1].any():
         status, surface = (int(a[..., -1][bad[..., -1]].ravel()[0]) for a in (beam.status, beam.failed_surface))
-        raise chief_ray_error(lens, status_message(status, surface), surface)
+        raise chief_ray_error(lens, status_message(lens, status, surface), surface)
     for column in (beam.x, beam.y, beam.p, beam.q, beam.r, beam.path):
         column[bad] = np.nan
 

@@ -47,8 +47,10 @@ class Trace:
     failed_surface: np.ndarray
 
 
-def status_message(status: int, surface: int) -> Message:
-    """Return the fate of a ray as the end of a sentence that begins with "the ray"."""
+def status_message(lens: Lens, status: int, surface: int) -> Message:
+    """Return the fate of a ray as the end of a sentence that begins with "the ray"; behind the lens is the sensor."""
+    if surface > len(lens.surfaces):
+        return Message("misses the sensor, which is curved or tilted")
     return Message(_OUTCOMES[Status(status)], surface=surface)
 
 

@@ -2,7 +2,7 @@
 
 One process per version stays alive and both take turns, so that a machine whose speed drifts is as fast for one as for
 the other; printed are the least CPU times, since other work only adds to them, and their ratio, this version over the
-other. The jobs: previews of a field that moves, by each method; 12 400 previews of PSFs; tolerances; a step of each
+other. The jobs: previews of a field that moves, by each method and `auto`; 12 400 previews; tolerances; a step of each
 slider until all panels are painted, at 1440 × 900, at 3840 × 2160 (*wall*), with a matrix of 3 × 3 PSFs on the stage
 (*matrix*) and with 15 of them beside the MTF through focus (*inspect*); and whole processes, ``p2sf info`` and ``import
 p2sf``. ``--jobs matrix`` does those jobs alone whose names begin so.
@@ -132,7 +132,7 @@ with threadpool_limits(1):
 """.replace("FRAMES", str(FRAMES)).replace("MOVES", str(MOVES))
 SLIDERS = ("field_deg", "depth_mm", "wavelength_nm", "sensor_shift_um", "f_number")
 MATRICES = "matrix-f_number", "matrix-sensor_shift_um", "inspect-f_number", "inspect-depth_mm"
-MOVING = tuple(f"moving {method}" for method in ("seidel", "fitted", "traced"))
+MOVING = tuple(f"moving {method}" for method in ("seidel", "fitted", "traced", "auto"))
 FRAME_JOBS = tuple(
     f"{size}{slider} {method}" for size in ("", "wall-") for slider in SLIDERS for method in ("seidel", "auto")
 )

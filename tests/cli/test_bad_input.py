@@ -10,6 +10,7 @@ import pytest
 from p2sf.cli import COMMANDS
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
+from p2sf.lensfile.writing import write_lens
 from tests.conftest import sentence
 
 ROOT = Path(__file__).parents[2]
@@ -152,3 +153,12 @@ def test_a_reader_that_leaves_early_is_no_failure():
     with os.fdopen(write, "w") as closed:
         run = subprocess.run(command, cwd=ROOT, stdout=closed, stderr=subprocess.PIPE, text=True, check=False)
     assert (run.returncode, run.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(("command", "name"), [("report", "lens.json"), ("import", "lens.toml"), ("spot", "lens.json")])
+def test_a_lens_is_not_overwritten_by_what_is_made_of_it(refused, tmp_path, command, name):
+    path = tmp_path / name
+    write_lens(find_lens("landscape"), path)
+    before = path.read_bytes()
+    assert f"would overwrite the input {path}" in refused(command, path, "-o", path)
+    assert path.read_bytes() == before

@@ -64,7 +64,7 @@ def test_a_chief_ray_that_fails_is_an_error_that_says_why_and_where():
     with pytest.raises(GeometryError, match=r"the chief ray .* surface \d") as refused:
         pencil(double_gauss(), Source(inf, np.tan(np.deg2rad(75)), 0.6562725), [0.0], [0.5])
     outcome = refused.value.message.values["outcome"]
-    assert outcome == status_message(Status.REFLECTED, 2)
+    assert outcome == status_message(double_gauss(), Status.REFLECTED, 2)
 
 
 def test_an_object_a_million_metres_away_loses_no_digit():

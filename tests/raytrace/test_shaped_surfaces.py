@@ -196,7 +196,7 @@ def test_an_order_that_does_not_propagate_is_named():
     found = trace(lens, starts, [[0, 0, 1.0]], UM)
     assert found.status.tolist() == [Status.PASSED, Status.EVANESCENT]
     assert "no diffracted direction behind surface 1" in str(
-        status_message(*(int(a[1]) for a in (found.status, found.failed_surface)))
+        status_message(lens, *(int(a[1]) for a in (found.status, found.failed_surface)))
     )
 
 

@@ -6,10 +6,12 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.errors import GeometryError
 from p2sf.glass.media import AIR
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.messages import Message
 from p2sf.paraxial.first_order import image_distance
 from p2sf.raytrace.pencil import Status, pencil, pupil_rays, trace
 from p2sf.raytrace.trace import out_of_order, status_message
@@ -98,8 +100,16 @@ def test_an_asphere_that_newton_cannot_solve_is_refused():
 
 @pytest.mark.parametrize("status", [status for status in Status if status != Status.PASSED])
 def test_every_failure_has_a_message_with_its_surface(status):
-    message = status_message(status, 7)
+    message = status_message(find_lens("double_gauss_28"), status, 7)
     assert message.values == {"surface": 7} and str(message).count("surface 7") == 1
+
+
+def test_a_chief_ray_that_misses_a_curved_sensor_is_said_to():
+    """The sensor has no number among the surfaces: a ball of 5 mm about a point before it, and a chief ray beside."""
+    lens = replace(find_lens("cooke_triplet"), sensor_radius=-5.0)
+    with pytest.raises(GeometryError) as refused:
+        pencil(lens, Source(field_deg=20), [0.0], [0.5])
+    assert refused.value.message.values["outcome"] == Message("misses the sensor, which is curved or tilted")
 
 
 def test_rays_that_meet_surfaces_out_of_order_are_told():

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from p2sf.errors import ExportError
-from p2sf.files.writing import check_place, plain, write_beside, write_json
+from p2sf.files.writing import check_known_ending, check_place, plain, write_beside, write_json
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message, Style
 from p2sf_explorer.compute.matrix.points import heading_texts
@@ -44,14 +43,7 @@ def write_report(report: LensReport, path: str | Path, words: Style = REPORT_STY
     Raises ExportError for another ending and for a place that cannot be written.
     """
     output = Path(path)
-    if output.suffix.lower() not in WRITERS:
-        raise ExportError(
-            '{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}',
-            parameter="output",
-            path=str(output),
-            ending=output.suffix,
-            endings=tuple(WRITERS),
-        )
+    check_known_ending(output, WRITERS)
     check_place(output)
     WRITERS[output.suffix.lower()](report, output, words)
 

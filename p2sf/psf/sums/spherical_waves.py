@@ -54,10 +54,11 @@ class SphericalWaves(Waves):
         """Return the field over a grid of x and y, µm, (y, x), complex, less the phase that the chief ray adds."""
         at_x, at_y = (part.ravel() for part in np.meshgrid(x, y))
         nodes, places = self._skeleton(x, y, RANK_ERROR[np.dtype(dtype)])
-        columns = self.factor(slice(None), at_x[places], at_y[places])
-        shares = np.linalg.lstsq(columns[nodes], self.factor(nodes, at_x, at_y), rcond=None)[0]
+        rows = self.factor(nodes, at_x[places], at_y[places])
+        shares = np.linalg.lstsq(rows, self.factor(nodes, at_x, at_y), rcond=None)[0]
         total: np.ndarray = np.zeros((y.size, x.size), np.result_type(dtype, np.complex64))
-        for column, share in zip(columns.T, shares, strict=True):
+        for place, share in zip(places, shares, strict=True):  # one column at a time: all of them may be gigabytes
+            column = self.factor(slice(None), at_x[place : place + 1], at_y[place : place + 1])[:, 0]
             part = replace(self.plane, amplitude=self.amplitude * column)
             total += part.field(x, y, dtype) * share.reshape(total.shape)
         return total

@@ -1562,6 +1562,7 @@
 <message><source>method "{method}" is unknown; choose {methods}</source><translation>die Methode "{method}" ist unbekannt; {methods} wählen</translation></message>
 <message><source>methods here</source><translation>Verfahren hier</translation></message>
 <message><source>misaligned is not a list of tables; head every piece with [[misaligned]]</source><translation>misaligned ist keine Liste von Tabellen; jedes Stück mit [[misaligned]] überschreiben</translation></message>
+<message><source>misses the sensor, which is curved or tilted</source><translation>verfehlt den Sensor, der gewölbt oder verkippt ist</translation></message>
 <message><source>misses surface {surface}</source><translation>verfehlt Fläche {surface}</translation></message>
 <message><source>mm</source><translation>mm</translation></message>
 <message><source>mode {mode} is not sequential; export the sequential lens</source><translation>der Modus {mode} ist nicht sequentiell; das sequentielle Objektiv exportieren</translation></message>
