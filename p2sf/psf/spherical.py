@@ -32,12 +32,8 @@ from p2sf.raytrace.pencil import Rays, exit_radius, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
 from p2sf.threads import one_blas_thread
 
-BOUND = (
-    0.3  # of (2π)² times the variance where the phase is flat, and less by FALL of its slope in waves: steeper light
-)
-FALL = (
-    2 / 3
-)  # at a place is that of fewer rays. Holds for 300 random states (python -m tests.long.spherical_prediction)
+# Of (2π)² times the variance, and less by FALL of the slope of the phase in waves: where it is steep, few rays interfere.
+BOUND, FALL = 0.4, 2 / 3  # held by 500 random states (python -m tests.long.spherical_prediction)
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
 MOST_NODES = 2**17  # of that comparison: half a second

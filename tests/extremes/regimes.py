@@ -47,6 +47,7 @@ def system_of(case: Case) -> dict:
         "slope": case.slope,
         "field": case.field,
         "wavelength_mm": case.wavelength / 1000,
+        "sensor_radius": lens.sensor_radius,
     }
 
 
@@ -287,6 +288,16 @@ def mirror_cases():
         yield Case("mirrors", replace(lens, stop_surface=len(lens.surfaces)), inf, 0.01)
 
 
+def curved_sensor_cases():
+    for name in BASES:
+        for radius in (1e-3, 0.1, 10.0, 1e3, 1e9, 1e15):
+            for sign, depth, slope in ((1, inf, 0.1), (-1, inf, 0.1), (1, 500.0, 1e-9), (-1, 1.0, 3.0)):
+                yield Case(
+                    "curved sensor 1e-3 … 1e15 mm", replace(base(name), sensor_radius=sign * radius), depth, slope
+                )
+    yield Case("curved sensor 1e-3 … 1e15 mm", replace(mirror(-1e3, 500.0, -1.0), sensor_radius=-250.0), inf, 0.01)
+
+
 REGIMES = (
     *(depth_cases, focal_plane_cases),
     *(field_cases, aperture_cases, wavelength_cases),
@@ -303,6 +314,7 @@ REGIMES = (
     scaling_cases,
     shape_cases,
     mirror_cases,
+    curved_sensor_cases,
 )
 
 

@@ -2,7 +2,8 @@
 
 A system is a plain dict of floats: ``radius`` (inf for a plane), ``thickness`` (the last one leads to the
 sensor), ``index`` (one more than there are surfaces), ``conic``, ``a4``, ``stop`` (from 0), ``rim`` (the stop's
-semi-diameter), ``depth``, ``slope`` (or mm below the axis, as ``field`` says), ``wavelength_mm``. Rays carry
+semi-diameter), ``depth``, ``slope`` (or mm below the axis, as ``field`` says), ``wavelength_mm``, and ``sensor_radius``
+of a curved sensor. Rays carry
 (height, slope); the Seidel sums take the classical form with the ratio of the refraction invariants, which is
 undefined where the marginal ray meets a surface along its normal: there the ratio is taken at a tiny distance,
 which leaves 28 of the 50 digits.
@@ -17,7 +18,7 @@ TINY = mpf(10) ** -22
 def exact(system: dict) -> dict:
     """Return the system with every float as the 50-digit number it stands for."""
     return {key: [mpf(x) for x in value] if isinstance(value, list) else value for key, value in system.items()} | {
-        key: mpf(system[key]) for key in ("rim", "depth", "slope", "wavelength_mm")
+        key: mpf(system.get(key, inf)) for key in ("rim", "depth", "slope", "wavelength_mm", "sensor_radius")
     }
 
 
@@ -156,15 +157,17 @@ def coefficients(system: dict) -> dict:
     (y, _, u), last = marginal[-1], system["index"][-1]
     sensor = system["thickness"][-1]
     wavelength = system["wavelength_mm"]
+    height, slope = chief[-1][0] + chief[-1][2] * sensor, chief[-1][2]
+    behind = height * height / 2 / system["sensor_radius"]  # where the sensor is at the chief ray: defocus, and a shift
     return {
         "w40": one / 8 / wavelength,
         "w31": two / 2 / wavelength,
         "w22": three / 2 / wavelength,
-        "w20": (three + four) / 4 / wavelength,
-        "w11": five / 2 / wavelength,
+        "w20": (three + four) / 4 / wavelength + last * u * u * behind / 2 / wavelength,
+        "w11": five / 2 / wavelength + last * u * slope * behind / wavelength,
         "wd": last * u * (u * sensor + y) / 2 / wavelength,
         "reduced_slope": last * u,
-        "image_height": chief[-1][0] + chief[-1][2] * sensor,
+        "image_height": height,
     }
 
 
@@ -188,7 +191,7 @@ def conditioning(quantity, system: dict, values: dict, most: int = 10**9) -> dic
     test stricter.
     """
     inputs = [(key, j) for key in ("radius", "thickness", "index", "conic", "a4") for j in range(len(system[key]))]
-    inputs = [*inputs[:: 1 + len(inputs) // most], ("depth", None), ("slope", None)]
+    inputs = [*inputs[:: 1 + len(inputs) // most], ("depth", None), ("slope", None), ("sensor_radius", None)]
     total = {name: abs(value) for name, value in values.items()}
     for key, j in inputs:
         x = system[key] if j is None else system[key][j]
