@@ -32,7 +32,7 @@ from p2sf.raytrace.pencil import Rays, exit_radius, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
 from p2sf.threads import one_blas_thread
 
-# Of (2π)² times the variance, and less by FALL of the slope of the phase in waves: where it is steep, few rays interfere.
+# Of (2π)² times the variance, less by FALL of the slope of the phase in waves: where it is steep, few rays interfere.
 BOUND, FALL = 0.4, 2 / 3  # held by 500 random states (python -m tests.long.spherical_prediction)
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
