@@ -80,7 +80,7 @@ def plane_wave_bound(lens: Lens, source: Source, rays: Rays, weight: np.ndarray,
     spread += 4 * (cxx**2 + cyy**2 + 2 * xy**2) + 8 * light_um**2 * (cxx + cyy)
     distance = float(np.ravel(exit_radius(lens, source, rays))[0]) * UM_PER_MM
     scale = float(rays.index / np.ravel(rays.wavelength_um)[0]) * pi / distance
-    return BOUND * (1 + steep.radial) ** -FALL * scale * scale * spread
+    return BOUND * float((1 + steep.radial) ** -FALL) * scale * scale * spread
 
 
 @lru_cache(maxsize=64)
