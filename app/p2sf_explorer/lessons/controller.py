@@ -19,6 +19,7 @@ from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons
 from p2sf_explorer.lessons.lesson_list import LessonList, content
 from p2sf_explorer.lessons.lesson_maker import LessonMaker
 from p2sf_explorer.lessons.lesson_panel import Around, LessonPanel
+from p2sf_explorer.lessons.lesson_test_window import LessonTestWindow
 from p2sf_explorer.lessons.task_desk import TaskDesk
 from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
@@ -31,6 +32,7 @@ PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to
 
 Finder = Callable[[str], tuple[dict[str, Lesson], tuple[P2SFError, ...]]]
 """What finds lessons in a language: by name, and the errors of files that are none."""
+NO_LESSON = Message("There is no lesson under way; begin one, or press Test my lesson where you make one")
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated; here is the original")
 
@@ -85,6 +87,7 @@ class LessonController(QObject):
         self.store, self._window, self._room, self._theme = store, window, room, theme
         self.list: LessonList | None = None
         self.maker: LessonMaker | None = None
+        self.tester: LessonTestWindow | None = None
         self.panel: LessonPanel | None = None
         self._lessons: dict[str, Lesson] = {}
         self._told_untranslated = False
@@ -101,6 +104,7 @@ class LessonController(QObject):
         return (
             Command("List of lessons…", self.open_list, ("Shift+F3",), "Lessons"),
             Command("Make a lesson of this…", self.make, (), "Lessons"),
+            Command("Test my lesson", self.test, (), "Lessons"),
             Command("Begin or leave a lesson", self.toggle, ("F3",), "Lessons"),
             Command("Next step of the lesson", lambda: self.move(1), ("Alt+Right",), "Lessons"),
             Command("Previous step of the lesson", lambda: self.move(-1), ("Alt+Left",), "Lessons"),
@@ -128,6 +132,15 @@ class LessonController(QObject):
             self.maker.made.connect(self.open_made)
         self.maker.begin()
 
+    def test(self) -> None:
+        """Test the lesson under way: its claims, the names of its controls, its tasks."""
+        place = self.store.state.lesson
+        if lesson := self.shelf(place.name).get(place.name):
+            self.tester = self.tester or LessonTestWindow(self._window)
+            self.tester.begin(lesson)
+        else:
+            self.store.said.emit(NO_LESSON)
+
     def open_made(self, path: str) -> None:
         """Begin a lesson that has just been written."""
         self._lessons = {}
@@ -138,6 +151,8 @@ class LessonController(QObject):
         """End what works for the lists."""
         if self.list:
             self.list.stop()
+        if self.tester:
+            self.tester.close()
 
     def lessons(self) -> dict[str, Lesson]:
         """Return the lessons by name; the banner tells of a bad file, and the others open."""

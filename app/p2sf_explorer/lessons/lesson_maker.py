@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from datetime import date
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtGui import QCloseEvent
@@ -15,6 +16,7 @@ from PySide6.QtWidgets import (
     QListWidget,
     QPlainTextEdit,
     QPushButton,
+    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -27,7 +29,10 @@ from p2sf_explorer.compute.setup import prescription, ranges, title
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
-from p2sf_explorer.lessons.recording import RecordedStep, same_lens, save_lesson
+from p2sf_explorer.lessons.lesson import read_lesson
+from p2sf_explorer.lessons.lesson_test_window import LessonTestWindow
+from p2sf_explorer.lessons.question_form import QuestionForm
+from p2sf_explorer.lessons.recording import RecordedStep, same_lens, save_lesson, written_changes
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 
@@ -35,8 +40,9 @@ INTRO = (
     "Each step keeps what is on screen: go on in the window, and add the next step here. What you write is Markdown."
 )
 ADD_TIP = "Add a step that shows what is on screen now"
+TEST_TIP = "Measure every claim, look for every control that is named, and solve every task"
 UNDO_TIP = "Add a step for every step of undo of this lens, up to what is on screen"
-SIZE = 720, 460
+SIZE = 860, 620
 
 
 class LessonMaker(QDialog):
@@ -54,11 +60,14 @@ class LessonMaker(QDialog):
         self.list.setAccessibleName(tr("Steps of the lesson"))
         self.heading, self.attempt, self.text = QLineEdit(self), QLineEdit(self), QPlainTextEdit(self)
         self.text.setTabChangesFocus(True)
+        self.form = QuestionForm(self._solution, self)
+        self.tester = LessonTestWindow(self)
         self.why = QLabel(self)
         self.why.setWordWrap(True)
         self.add = self._button("Add what is on screen", ADD_TIP, self.add_present)
         self.undo = self._button("Add the steps of undo", UNDO_TIP, self.add_history)
         self.remove = self._button("Remove the step", "Remove the chosen step", self._remove)
+        self.test = self._button("Test my lesson", TEST_TIP, self.test_lesson)
         self.save = self._button("Save and open", "Write the lesson, and begin it in the window", self._save)
         self.save.setDefault(True)
         self._lay_out()
@@ -66,6 +75,7 @@ class LessonMaker(QDialog):
         for edit in (self.heading, self.attempt):
             edit.textEdited.connect(self._keep)
         self.text.textChanged.connect(self._keep)
+        self.form.edited.connect(self._keep)
         self.resize(*SIZE)
 
     def _button(self, words: str, tip: str, action: Callable[[], object]) -> QPushButton:
@@ -97,9 +107,18 @@ class LessonMaker(QDialog):
             left.addWidget(button)
         middle = QHBoxLayout()
         middle.addLayout(left, 2)
-        middle.addLayout(step, 3)
+        telling, question = QWidget(self), QWidget(self)
+        telling.setLayout(step)
+        lines = QVBoxLayout(question)
+        lines.addWidget(self.form)
+        lines.addStretch(1)
+        self.pages = QTabWidget(self)
+        self.pages.addTab(telling, tr("Text"))
+        self.pages.addTab(question, tr("Question"))
+        middle.addWidget(self.pages, 3)
         foot = QHBoxLayout()
         foot.addWidget(self.why, 1)
+        foot.addWidget(self.test)
         foot.addWidget(self.save)
         column = QVBoxLayout(self)
         column.addLayout(top)
@@ -128,7 +147,7 @@ class LessonMaker(QDialog):
         """Add the steps of undo of the present lens; steps that have words are kept."""
         history = same_lens(self._store.history)
         kept = {step.state: step for step in self.steps}
-        self.steps = [step for step in self.steps if step.state not in history and (step.text or step.attempt)]
+        self.steps = [step for step in self.steps if step.state not in history and has_words(step)]
         self._put(history, kept)
 
     def _put(self, states: list[State], kept: dict[State, RecordedStep] | None = None) -> None:
@@ -153,6 +172,7 @@ class LessonMaker(QDialog):
             self.heading.setText(step.title)
             self.attempt.setText(step.attempt)
             self.text.setPlainText(step.text)
+        self.form.show_question(step.question)
 
     def _keep(self) -> None:
         """Take over what is typed."""
@@ -160,7 +180,7 @@ class LessonMaker(QDialog):
         if not 0 <= number < len(self.steps):
             return
         words = self.heading.text(), self.text.toPlainText(), self.attempt.text()
-        self.steps[number] = RecordedStep(self.steps[number].state, *words)
+        self.steps[number] = RecordedStep(self.steps[number].state, *words, self.form.question())
         self.list.item(number).setText(f"{number + 1}  {self.heading.text()}")
 
     def _remove(self) -> None:
@@ -168,6 +188,20 @@ class LessonMaker(QDialog):
         if len(self.steps) > 1 and number >= 0:
             del self.steps[number]
             self._list(max(0, number - 1))
+
+    def _solution(self) -> str:
+        """Return what leads from the chosen step to what is on screen."""
+        number = self.list.currentRow()
+        return written_changes(self.steps[number].state, self._store.state) if 0 <= number < len(self.steps) else ""
+
+    def test_lesson(self) -> None:
+        """Write the lesson into a folder that goes again, and check all that it says."""
+        self._trial = TemporaryDirectory(prefix="p2sf-lesson-", ignore_cleanup_errors=True)
+        try:
+            path = save_lesson(self.name.text(), self.about.text(), self.steps, Path(self._trial.name))
+            self.tester.begin(read_lesson(path))
+        except P2SFError as error:
+            self.tester.show_failure(said(error))
 
     def _save(self) -> None:
         try:
@@ -195,3 +229,8 @@ def step_heading(before: State | None, state: State) -> str:
     moved = (q for q in SOURCE_QUANTITIES if before and entry(before, q.key) != entry(state, q.key))
     words = [f"{tr(q.title)} {local(q.write(q.shown(state, limits)))}" for q in moved]
     return ", ".join(words) or tr("Field {field}", field=field_text(state))
+
+
+def has_words(step: RecordedStep) -> bool:
+    """Return whether a person has written anything for a step."""
+    return bool(step.text or step.attempt or step.question.kind)

@@ -3,7 +3,7 @@
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain, count
 from math import inf
 from pathlib import Path
@@ -15,6 +15,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.setup import default_state, prescription, shipped_names, with_lens
 from p2sf_explorer.lessons.changes import read_changes
 from p2sf_explorer.lessons.lesson import ENGLISH, ENTRY, PERSONAL, parse_lesson
+from p2sf_explorer.lessons.questions import Question, question_lines
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.state import ENTRIES, State, entry
 from p2sf_explorer.state.terms import TERMS
@@ -47,12 +48,13 @@ LensOfStep = tuple[str, str | None]
 
 @dataclass(frozen=True)
 class RecordedStep:
-    """A state of the window with the words of its step."""
+    """A state of the window with the words of its step, and its question."""
 
     state: State
     title: str
     text: str = ""
     attempt: str = ""
+    question: Question = field(default_factory=Question)
 
 
 def written_changes(before: State, after: State) -> str:
@@ -115,7 +117,7 @@ def lesson_text(
     lines += [f"state: {begun}"] if begun else []
     lines.append("---")
     last = first
-    for step in steps:
+    for number, step in enumerate(steps, 1):
         parts = []
         if lens_of(step.state) != lens_of(last):
             last = with_lens(last, *lens_of(step.state))
@@ -124,6 +126,7 @@ def lesson_text(
         lines += [f"## {_line(step.title)}", *([f"set: {made}"] if made else []), ""]
         lines += [f" {line}" if _means_more(line) else line for line in step.text.splitlines()]
         lines += ["", f"try: {_line(step.attempt)}"] if step.attempt.strip() else []
+        lines += question_lines(step.question, f"{_plain_name(title)[:30] or 'task'}-{number}".replace("_", "-"))
         lines.append("")
         last = step.state
     return "\n".join(lines).rstrip() + "\n"
@@ -181,11 +184,16 @@ def _free_lens_paths(path: Path) -> Iterator[Path]:
 
 def _free_path(folder: Path, title: str) -> Path:
     """Return a path for a lesson of this title, and for its lens beside it, that no file has yet."""
-    plain = unicodedata.normalize("NFKD", title.casefold()).encode("ascii", "ignore").decode()
-    stem = SHORT.sub("_", plain).strip("_")[:40] or "lesson"
+    stem = _plain_name(title) or "lesson"
     names = (f"90_{stem}", *(f"90_{stem}_{number}" for number in range(2, 1000)))
     paths = (folder / f"{name}.md" for name in names)
     return next(path for path in paths if not path.exists() and not path.with_suffix(".toml").exists())
+
+
+def _plain_name(title: str) -> str:
+    """Return a title in small letters, digits and underscores."""
+    plain = unicodedata.normalize("NFKD", title.casefold()).encode("ascii", "ignore").decode()
+    return SHORT.sub("_", plain).strip("_")[:40].strip("_")
 
 
 def same_lens(steps: Sequence[State]) -> list[State]:

@@ -175,6 +175,45 @@
 <message><source>Notes</source><translation>Notizen</translation></message>
 <message><source>Next: {title}</source><translation>Danach: {title}</translation></message>
 <message><source>Notes of the lesson in a window of their own</source><translation>Notizen zur Lektion in einem eigenen Fenster</translation></message>
+<message><source>"{text}" has a bar or two colons, which part answers in a file; write it without</source><translation>"{text}" hat einen senkrechten Strich oder zwei Doppelpunkte, die in einer Datei Antworten trennen; ohne sie schreiben</translation></message>
+<message><source>*{name}* is the name of nothing on screen; write emphasis as **{name}**</source><translation>*{name}* ist kein Name auf dem Schirm; Hervorhebungen als **{name}** schreiben</translation></message>
+<message><source>A figure that the program measures</source><translation>Eine Größe, die das Programm misst</translation></message>
+<message><source>A number</source><translation>Eine Zahl</translation></message>
+<message><source>An order</source><translation>Eine Reihenfolge</translation></message>
+<message><source>Answers, the right one first</source><translation>Antworten, die richtige zuerst</translation></message>
+<message><source>Hint for it</source><translation>Hinweis dazu</translation></message>
+<message><source>Hints</source><translation>Hinweise</translation></message>
+<message><source>Insert a figure of the program…</source><translation>Eine Größe des Programms einsetzen …</translation></message>
+<message><source>Kind</source><translation>Art</translation></message>
+<message><source>Measure every claim, look for every control that is named, and solve every task</source><translation>Jede Behauptung messen, jeden genannten Regler suchen und jede Aufgabe lösen</translation></message>
+<message><source>No question</source><translation>Keine Frage</translation></message>
+<message><source>One hint a line, shown one at a time</source><translation>Ein Hinweis je Zeile; sie werden einzeln gezeigt</translation></message>
+<message><source>One of several answers</source><translation>Eine von mehreren Antworten</translation></message>
+<message><source>Question</source><translation>Frage</translation></message>
+<message><source>Question without grade</source><translation>Frage ohne Bewertung</translation></message>
+<message><source>Right answer</source><translation>Richtige Antwort</translation></message>
+<message><source>Set the window so that the goal is reached, then press this</source><translation>Das Fenster so einstellen, dass das Ziel erreicht ist, dann hier drücken</translation></message>
+<message><source>Sliders to be set</source><translation>Regler einzustellen</translation></message>
+<message><source>Solution</source><translation>Lösung</translation></message>
+<message><source>Step {number}: {words}</source><translation>Schritt {number}: {words}</translation></message>
+<message><source>Test my lesson</source><translation>Meine Lektion prüfen</translation></message>
+<message><source>The sliders as they are now solve it</source><translation>Die Regler, wie sie jetzt stehen, lösen sie</translation></message>
+<message><source>There is no lesson under way; begin one, or press Test my lesson where you make one</source><translation>Es läuft keine Lektion; eine beginnen, oder beim Erstellen auf Meine Lektion prüfen drücken</translation></message>
+<message><source>What is wrong with the lesson</source><translation>Was an der Lektion nicht stimmt</translation></message>
+<message><source>What the step asks for</source><translation>Wonach der Schritt fragt</translation></message>
+<message><source>Wrong answer</source><translation>Falsche Antwort</translation></message>
+<message><source>the goal is reached before anything is moved; begin elsewhere</source><translation>das Ziel ist erreicht, bevor etwas bewegt wird; woanders beginnen</translation></message>
+<message><source>the hint for {value} is never shown; another comes first</source><translation>der Hinweis für {value} wird nie gezeigt; ein anderer kommt ihm zuvor</translation></message>
+<message><source>the right order is listed as a wrong one; leave it out</source><translation>die richtige Reihenfolge steht bei den falschen; sie weglassen</translation></message>
+<message><source>the wrong answer {value} counts as right; narrow the tolerance</source><translation>die falsche Antwort {value} gilt als richtig; die Toleranz enger machen</translation></message>
+<message><source>the wrong answer “{option}” has no hint; add one</source><translation>die falsche Antwort „{option}“ hat keinen Hinweis; einen anfügen</translation></message>
+<message><source>two tasks are named "{name}"; name one otherwise</source><translation>zwei Aufgaben heißen "{name}"; eine anders nennen</translation></message>
+<message><source>what solves the goal does not reach it: {why}</source><translation>was das Ziel lösen soll, erreicht es nicht: {why}</translation></message>
+<message><source>{claim}: {value} is measured</source><translation>{claim}: gemessen wird {value}</translation></message>
+<message><source>{count} checks were made, and nothing is wrong.</source><translation>{count} Prüfungen wurden gemacht, und nichts ist falsch.</translation></message>
+<message><source>{count} checks were made; this is wrong:</source><translation>{count} Prüfungen wurden gemacht; das ist falsch:</translation></message>
+<message><source>Tasks right</source><translation>Aufgaben richtig</translation></message>
+<message><source>Name</source><translation>Name</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
