@@ -79,5 +79,5 @@ def course(*, results: Results, output: Output = None) -> None:
     for task in table.tasks:
         found = table.summary(task)
         wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
-        rows.append((task, str(found.tried), f"{100 * found.share_right:.0f} %", wrong))
+        rows.append((task, str(found.count), f"{100 * found.share_right:.0f} %", wrong))
     print_table(str(results), ("task", "tried", "right", "wrong at first"), rows)

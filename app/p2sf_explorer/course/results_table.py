@@ -24,7 +24,7 @@ class TaskSummary:
     ``wrong`` are answers with how many people gave them first.
     """
 
-    tried: int
+    count: int
     share_right: float
     wrong: tuple[tuple[str, int], ...]
 

@@ -25,7 +25,7 @@ from p2sf_explorer.widgets.plain_table import PlainTable
 
 SIZE = 900, 520
 KEY = "✓ first time · ✓ 3 third attempt · ✗ 2 not in two · ◌ solution shown · under a task: share right"
-FIRST = ("Name", "Right", "Course")
+FIRST = 3  # columns before the tasks
 
 
 class ResultsWindow(QDialog):
@@ -37,7 +37,7 @@ class ResultsWindow(QDialog):
         super().__init__(parent)
         self._table, self._done = table, done
         self.setWindowTitle(tr("Results of a class"))
-        self.table = PlainTable((*FIRST, *("",) * len(table.tasks)), "Results of a class")
+        self.table = PlainTable(("Name", "Tasks right", "Course", *("",) * len(table.tasks)), "Results of a class")
         self.table.setRowCount(len(table.rows))
         for row, (path, result) in enumerate(table.rows):
             self._fill(row, path, result, version)
@@ -72,12 +72,12 @@ class ResultsWindow(QDialog):
 
     def _head(self) -> None:
         """Name every task with the share that got it right, and in its tip the commonest wrong answers."""
-        for column, task in enumerate(self._table.tasks, len(FIRST)):
+        for column, task in enumerate(self._table.tasks, FIRST):
             found = self._table.summary(task)
             lecture, _, name = task.partition(JOINT)
             item = QTableWidgetItem(f"{lecture}\n{name}\n{100 * found.share_right:.0f} %")
             wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
-            tip = tr("{count} tried it; wrong at first: {wrong}", count=found.tried, wrong=wrong or "–")
+            tip = tr("{count} tried it; wrong at first: {wrong}", count=found.count, wrong=wrong or "–")
             item.setToolTip(f"{task}\n{tip}")
             self.table.setHorizontalHeaderItem(column, item)
 
@@ -89,7 +89,7 @@ class ResultsWindow(QDialog):
         self.table.put(row, 2, f"⚠ {result.course}" if other else result.course).setToolTip(
             tr("Another version of the course: its tasks may differ") if other else ""
         )
-        for column, task in enumerate(self._table.tasks, len(FIRST)):
+        for column, task in enumerate(self._table.tasks, FIRST):
             record = result.tasks.get(task)
             cell = self.table.put(row, column, sign(record) if record else "")
             if record:

@@ -21,7 +21,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.lessons.offer import tool
 from p2sf_explorer.lessons.task import PARTED, ChoiceAnswer, Exercise, NumericAnswer, OrderAnswer, display_order
-from p2sf_explorer.lessons.typed_numbers import SHOWN, expected
+from p2sf_explorer.lessons.typed_numbers import SHOWN, prompt
 
 NUMBER = Qt.ItemDataRole.UserRole
 LETTERS, WIDEST = 28, 200  # letters on a line of an item, and of an answer at most
@@ -51,7 +51,7 @@ class NumberFields(AnswerField):
         for part in answer.parts:
             edit, row = QLineEdit(self), QHBoxLayout()
             edit.setMaxLength(WIDEST // len(answer.parts))
-            edit.setPlaceholderText(said(expected(part.unit)))
+            edit.setPlaceholderText(said(prompt(part.unit)))
             edit.setAccessibleName(part.label or tr("Answer"))
             edit.returnPressed.connect(self.entered)
             if part.label:

@@ -52,7 +52,7 @@ def parse_claim(text: str, changes: Callable[[str], Changes]) -> Claim:
     if (found["relation"] in ("is", None)) != (tolerance is not None):
         raise P2SFError('"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none', text=text)
     relation, number = found["relation"] or "is", _number(found["number"] or "0")
-    left = _left(found, changes)
+    left = _measure_of(found, changes)
     return Claim(text.strip(), *left, relation, number, _number(tolerance or "0"))
 
 
@@ -61,10 +61,10 @@ def parse_measure(text: str, changes: Callable[[str], Changes]) -> Claim:
     found = re.fullmatch(LEFT, text.strip())
     if not found:
         raise P2SFError('"{text}" is not a claim; write one such as {example}', text=text, example=EXAMPLE)
-    return Claim(text.strip(), *_left(found, changes), "above", -inf, 0.0)
+    return Claim(text.strip(), *_measure_of(found, changes), "above", -inf, 0.0)
 
 
-def _left(found: re.Match[str], changes: Callable[[str], Changes]) -> tuple[str, Changes, str, Changes]:
+def _measure_of(found: re.Match[str], changes: Callable[[str], Changes]) -> tuple[str, Changes, str, Changes]:
     """Return measure, first changes, how and second changes."""
     find_measure(found["measure"])
     how = {"/": "/", "-": "-", "−": "-", None: ""}[found["how"]]

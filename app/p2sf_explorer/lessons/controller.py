@@ -17,9 +17,9 @@ from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_list import LessonList, content
-from p2sf_explorer.lessons.lesson_maker import LessonMaker
 from p2sf_explorer.lessons.lesson_panel import Around, LessonPanel
-from p2sf_explorer.lessons.lesson_test_window import LessonTestWindow
+from p2sf_explorer.lessons.making.lesson_maker import LessonMaker
+from p2sf_explorer.lessons.making.lesson_test_window import LessonTestWindow
 from p2sf_explorer.lessons.task_desk import TaskDesk
 from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
@@ -275,7 +275,7 @@ class LessonController(QObject):
         if told:
             self.desk.note_told(lesson, number)
         view = self.desk.view(lesson, task) if task else None
-        may_ask = view is None or (not view.silent and (view.left is None or view.closed))
+        may_ask = view is None or (not view.silent and (view.remaining is None or view.closed))
         lessons = self.lessons()
         blocks = ((name, lessons[name].title) for name in lesson.lessons if name in lessons) if number == 0 else ()
         around = Around(told and may_ask, may_ask, self._end(lesson.name), tuple(blocks))

@@ -19,13 +19,13 @@ class TaskView:
 
     task: Exercise
     record: TaskRecord
-    left: int | None = None
+    remaining: int | None = None
     silent: bool = False
 
     @property
     def closed(self) -> bool:
         """Return whether no more answers are taken."""
-        return self.record.right or self.record.told or self.left == 0
+        return self.record.right or self.record.told or self.remaining == 0
 
 
 class TaskPanel(QFrame):
@@ -103,7 +103,7 @@ class TaskPanel(QFrame):
         self.hints.setText(unbroken(local("\n".join(f"{number}  {hint}" for number, hint in enumerate(shown, 1)))))
         self.hints.setVisible(bool(shown))
         self.hint.setText(tr("Hint {number} of {count}", number=min(count + 1, len(hints)), count=len(hints)))
-        self.hint.setVisible(count < len(hints) and not view.closed and view.left is None)
+        self.hint.setVisible(count < len(hints) and not view.closed and view.remaining is None)
 
     def show_verdict(self, judgement: Judgement | None) -> None:
         """Show what is said of the answer just given, None for nothing."""

@@ -71,7 +71,7 @@ def written_value(value: float, unit: str, digits: int = 3) -> str:
     return f"{before}{significant(value + 0.0, digits)}{gap}{word}"
 
 
-def expected(unit: str) -> Message:
+def prompt(unit: str) -> Message:
     """Return what a field for an answer asks for."""
     if unit == F_NUMBER:
         return Message("an f-number, such as f/8")

@@ -5,10 +5,10 @@ from PySide6.QtWidgets import QTableWidgetItem
 
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.lessons.lesson import parse_lesson, read_lesson, shipped_lessons
-from p2sf_explorer.lessons.lesson_checks import findings
-from p2sf_explorer.lessons.lesson_test_window import names_on_screen
-from p2sf_explorer.lessons.questions import CHOICE, GOAL, NUMBER, OPEN, ORDER, Question
-from p2sf_explorer.lessons.recording import RecordedStep, save_lesson
+from p2sf_explorer.lessons.making.lesson_checks import findings
+from p2sf_explorer.lessons.making.lesson_test_window import names_on_screen
+from p2sf_explorer.lessons.making.questions import CHOICE, GOAL, NUMBER, OPEN, ORDER, Question
+from p2sf_explorer.lessons.making.recording import RecordedStep, save_lesson
 from p2sf_explorer.lessons.task import ChoiceAnswer, GoalAnswer, NumericAnswer, OrderAnswer
 from p2sf_explorer.state.state import change
 from tests.explorer.course.test_tasks import LECTURE, LESSON
@@ -31,7 +31,7 @@ QUESTIONS = (
 def test_what_the_form_holds_is_what_the_lesson_asks(tmp_path):
     steps = [RecordedStep(START, f"Step {n}", "Words.", "", question) for n, question in enumerate(QUESTIONS)]
     lesson = read_lesson(save_lesson("My questions", "", steps, tmp_path))
-    assert [step.question for step in lesson.steps] == [question.asked for question in QUESTIONS]
+    assert [step.question for step in lesson.steps] == [question.words for question in QUESTIONS]
     assert [step.answer for step in lesson.steps] == [question.solution for question in QUESTIONS]
     kinds = [type(step.task.answer) if step.task else None for step in lesson.steps]
     assert kinds == [None, NumericAnswer, ChoiceAnswer, OrderAnswer, GoalAnswer]

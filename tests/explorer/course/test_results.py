@@ -47,7 +47,7 @@ def test_thirty_files_are_a_table_of_students_and_tasks(folder):
     table = read_folder(folder, KNOWN)
     assert len(table.rows) == 30 and table.tasks == ("lecture_1/airy", "lecture_1/flare") and not table.faults
     airy, flare = (table.summary(task) for task in table.tasks)
-    assert (airy.tried, airy.share_right) == (30, 1.0) and (flare.tried, flare.share_right) == (30, 0.0)
+    assert (airy.count, airy.share_right) == (30, 1.0) and (flare.count, flare.share_right) == (30, 0.0)
     assert airy.wrong == (("0 µm", 20),) and flare.wrong == (("1", 30),)  # two thirds were wrong at first
 
 

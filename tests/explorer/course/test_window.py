@@ -208,9 +208,9 @@ def test_a_folder_of_thirty_opens_as_a_table(window, course, tmp_path, monkeypat
     (folder / "bad.json").write_text("{")
     course.open_folder(folder)
     shown = course.results
-    assert shown.isVisible() and shown.table.rowCount() == 30 and shown.table.columnCount() == len(FIRST) + 1
-    assert "50 %" in shown.table.horizontalHeaderItem(len(FIRST)).text() and "bad.json" in shown.faults.text()
-    assert [shown.table.item(row, len(FIRST)).text()[0] for row in range(2)] == ["✓", "✗"]
+    assert shown.isVisible() and shown.table.rowCount() == 30 and shown.table.columnCount() == FIRST + 1
+    assert "50 %" in shown.table.horizontalHeaderItem(FIRST).text() and "bad.json" in shown.faults.text()
+    assert [shown.table.item(row, FIRST).text()[0] for row in range(2)] == ["✓", "✗"]
     shown.write(tmp_path / "table.csv")
     assert len((tmp_path / "table.csv").read_text(encoding="utf-8-sig").splitlines()) == 31
     refused = []

@@ -11,7 +11,7 @@ from p2sf_explorer.compute.editing import edited_state
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, prescription
 from p2sf_explorer.lessons.lesson import read_lesson
 from p2sf_explorer.lessons.lesson_list import content
-from p2sf_explorer.lessons.recording import LEFT_OUT, RecordedStep, same_lens, save_lesson, written_changes
+from p2sf_explorer.lessons.making.recording import LEFT_OUT, RecordedStep, same_lens, save_lesson, written_changes
 from p2sf_explorer.state.state import ENTRIES, change, entry
 from tests.explorer.conftest import FIRST
 

@@ -19,7 +19,7 @@ class Question:
     """
 
     kind: str = NONE
-    asked: str = ""
+    words: str = ""
     solution: str = ""
     subject: str = ""
     rows: tuple[tuple[str, str], ...] = ()
@@ -31,7 +31,7 @@ def question_lines(question: Question, name: str) -> list[str]:
     """Return the lines of a lesson file; ``name`` is that of the task. P2SFError where a text would end its entry."""
     if question.kind == NONE:
         return []
-    lines = [f"ask: {_line(question.asked)}", f"tell: {_line(question.solution)}"]
+    lines = [f"ask: {_line(question.words)}", f"tell: {_line(question.solution)}"]
     if question.kind == OPEN:
         return lines
     rows = [(_text(words), _text(hint)) for words, hint in question.rows if words.strip()]

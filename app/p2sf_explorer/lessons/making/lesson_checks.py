@@ -35,10 +35,10 @@ def checks(lesson: Lesson, names: Container[str]) -> Iterator[tuple[int, Check]]
 
 def findings(lesson: Lesson, names: Container[str]) -> list[tuple[int, Message]]:
     """Return all that is wrong with a lesson, each with the number of its step."""
-    return [(number, found) for number, check in checks(lesson, names) for found in reported(check)]
+    return [(number, found) for number, check in checks(lesson, names) for found in faults_of(check)]
 
 
-def reported(check: Check) -> list[Message]:
+def faults_of(check: Check) -> list[Message]:
     """Return what a check finds; an error of the program is a finding."""
     try:
         return list(check())

@@ -10,7 +10,7 @@ from p2sf_explorer.i18n.language import current_language, languages, texts
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import Lesson
-from p2sf_explorer.lessons.lesson_checks import Check, checks, reported
+from p2sf_explorer.lessons.making.lesson_checks import Check, checks, faults_of
 
 SIZE = 560, 380
 
@@ -59,7 +59,7 @@ class LessonTestWindow(QDialog):
             self._end()
             return
         number, check = following
-        for message in reported(check):
+        for message in faults_of(check):
             self.found.append(tr("Step {number}: {words}", number=number + 1, words=said(message)))
             self.list.addItem(self.found[-1])
         self.progress.setValue(self.progress.value() + 1)

@@ -15,7 +15,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.setup import default_state, prescription, shipped_names, with_lens
 from p2sf_explorer.lessons.changes import read_changes
 from p2sf_explorer.lessons.lesson import ENGLISH, ENTRY, PERSONAL, parse_lesson
-from p2sf_explorer.lessons.questions import Question, question_lines
+from p2sf_explorer.lessons.making.questions import Question, question_lines
 from p2sf_explorer.state.limits import ADDED
 from p2sf_explorer.state.state import ENTRIES, State, entry
 from p2sf_explorer.state.terms import TERMS

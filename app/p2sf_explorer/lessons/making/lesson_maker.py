@@ -30,9 +30,9 @@ from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.lessons.lesson import read_lesson
-from p2sf_explorer.lessons.lesson_test_window import LessonTestWindow
-from p2sf_explorer.lessons.question_form import QuestionForm
-from p2sf_explorer.lessons.recording import RecordedStep, same_lens, save_lesson, written_changes
+from p2sf_explorer.lessons.making.lesson_test_window import LessonTestWindow
+from p2sf_explorer.lessons.making.question_form import QuestionForm
+from p2sf_explorer.lessons.making.recording import RecordedStep, same_lens, save_lesson, written_changes
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
     QHBoxLayout,
+    QHeaderView,
     QLabel,
     QLineEdit,
     QPlainTextEdit,
@@ -19,8 +20,8 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.claims import SLIDERS_BY_KEY
+from p2sf_explorer.lessons.making.questions import CHOICE, GOAL, NONE, NUMBER, OPEN, ORDER, Question
 from p2sf_explorer.lessons.measure_words import WORDS, measure_words
-from p2sf_explorer.lessons.questions import CHOICE, GOAL, NONE, NUMBER, OPEN, ORDER, Question
 from p2sf_explorer.widgets.card import chooser, select
 
 KINDS = (
@@ -48,7 +49,7 @@ class QuestionForm(QWidget):
         self.figures = self._figure_chooser()
         self.rows = QTableWidget(ROWS, 2, self)
         self.rows.verticalHeader().hide()
-        self.rows.horizontalHeader().setStretchLastSection(True)
+        self.rows.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
         self.rows.setTabKeyNavigation(False)
         self.hints = QPlainTextEdit(self)
         self.hints.setTabChangesFocus(True)
@@ -160,7 +161,7 @@ class QuestionForm(QWidget):
         """Show a question, without a signal."""
         with QSignalBlocker(self):
             select(self.kind, question.kind)
-            self.asked.setText(question.asked)
+            self.asked.setText(question.words)
             self.answer.setText(question.solution)
             self.subject.setText(question.subject)
             self.hints.setPlainText("\n".join(question.hints))
