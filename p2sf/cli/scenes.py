@@ -28,7 +28,7 @@ from p2sf.files.writing import write_beside
 from p2sf.image.charts import CHARTS, draw_chart
 from p2sf.image.deblur import photo_noise
 from p2sf.image.exposure import check_seed, expose, raw_numbers
-from p2sf.io.photo_files import WRITABLE, read_photo, write_photo
+from p2sf.io.photo_files import WRITABLE, check_ending, keeps_light, read_photo, stored_as, write_photo
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 CHART = "chart:"
 RAW = ".npy", ".dng"
 TELL_EVERY_S = 1.0
+BARELY_WHITE = 1.001  # rounding of white is no light that is cut off
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
     "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db), f_number, zoom, focus_position, focus_mm, "
@@ -140,6 +141,8 @@ class Shown:
         Of all noise; the same one gives the same picture.
     encoding
         What the picture file's numbers mean; whole numbers are sRGB and floats linear when not given.
+    depth
+        Bits of whole numbers written, or floats of 16 (half) or 32 bits (float), which keep light above white.
     preview
         A coarse picture at once, without a plan.
     """
@@ -150,6 +153,7 @@ class Shown:
     noise: float = 0.0
     seed: Whole = 0
     encoding: Literal["srgb", "linear"] | None = None
+    depth: Literal["8", "16", "half", "float"] | None = None
     preview: bool = False
 
     def __post_init__(self) -> None:
@@ -172,7 +176,9 @@ USUAL = Shown()
 def image(
     lens: LensName,
     scene: SceneFile,
-    picture: Annotated[str, Parameter(help=f"A PNG or TIFF, or one of {', '.join(CHART + name for name in CHARTS)}.")],
+    picture: Annotated[
+        str, Parameter(help=f"A PNG, TIFF or OpenEXR, or one of {', '.join(CHART + name for name in CHARTS)}.")
+    ],
     /,
     *,
     output: Output = None,
@@ -180,7 +186,7 @@ def image(
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
-    """Form the picture that the lens makes of a scene, and write it as .png or .tif, or raw as .npy or .dng."""
+    """Form the picture that the lens makes of a scene, and write it as .png, .tif or .exr, or raw as .npy or .dng."""
     if output is None:
         raise RequestError(
             "there is no {parameter}; say with -o where the picture goes, such as -o out.png", parameter="output"
@@ -188,6 +194,8 @@ def image(
     glass = find_lens(lens)
     asked = _read_scene(glass, scene)
     check_output(output, (*WRITABLE, *RAW), None if picture.startswith(CHART) else picture, asked.depth_map)
+    if output.suffix.lower() not in RAW:
+        check_ending(output)
     _check_reading(output, asked, shown)
     values, encoding = source_picture(picture, asked, shown)
     with using_threads(threads):
@@ -196,7 +204,9 @@ def image(
         encoding = "raw"
         _write_raw(output, formed, asked.sensor)
     else:
-        write_photo(output, _for_file(formed, asked), encoding)
+        encoding = stored_as(output, encoding)
+        _warn_of_white(output, formed, encoding, shown.depth)
+        write_photo(output, _for_file(formed, asked), encoding, shown.depth)
     rows, columns = formed.shape[:2]
     if as_json:
         about = {"file": str(output), "aim": asked.camera(glass).aim, "rows": rows, "columns": columns}
@@ -226,6 +236,21 @@ def _check_reading(output: Path, scene: Scene, shown: Shown) -> None:
     ):
         if reason and getattr(shown, flag):
             raise RequestError("{reason}; leave {parameter} out", reason=reason, parameter=flag)
+
+
+def _warn_of_white(output: Path, formed: np.ndarray, encoding: str, depth: str | None) -> None:
+    """Warn where whole numbers cut off light above white."""
+    share = float((formed > BARELY_WHITE).any(-1).mean())
+    if share and depth not in ("half", "float") and not (depth is None and keeps_light(output, encoding)):
+        warn(
+            Message(
+                "{share:.2g} % of the picture is brighter than white, which {path} cuts off; choose {parameter} float "
+                "in a .tif, or .exr",
+                share=100 * share,
+                path=output.name,
+                parameter=ParameterName("depth"),
+            )
+        )
 
 
 def _write_raw(output: Path, reading: np.ndarray, sensor: Sensor) -> None:
@@ -306,7 +331,7 @@ def _sharpen(lattice: "Lattice", formed: np.ndarray, shown: Shown, noise: float)
 
 def sharpen(
     lens: LensName,
-    photo: Annotated[Path, Parameter(help="A PNG, TIFF, JPEG or HEIF that the lens took, not cropped.")],
+    photo: Annotated[Path, Parameter(help="A PNG, TIFF, OpenEXR, JPEG or HEIF that the lens took, not cropped.")],
     /,
     *,
     pixel_um: Annotated[float | None, Parameter(help="Distance between the pixels of the photo on the sensor.")] = None,

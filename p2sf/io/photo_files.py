@@ -4,6 +4,8 @@ import io
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import ModuleType
 
 import numpy as np
 
@@ -13,11 +15,15 @@ from p2sf.files.raster_size import OversizedError, check_samples, first_page
 from p2sf.files.writing import write_beside
 from p2sf.io.png16 import is_deep, read_deep, write_deep
 from p2sf.io.transfer import check_encoding, linear_from_srgb, srgb_from_linear
+from p2sf.messages import Alternatives
 
-WRITABLE = (".png", ".tif", ".tiff")
+EXR = ".exr"
+WRITABLE = (".png", ".tif", ".tiff", EXR)
+EXR_MARK = b"v/1\x01"  # first of any OpenEXR file
+DEPTH_CHANNELS = "Y", "Z"  # of grey pictures and of depths, the names that renderers use
 HEIF = (".heic", ".heif")
 READABLE = (*WRITABLE, ".jpg", ".jpeg", *HEIF)
-DEPTHS = ("8", "16", "float")
+DEPTHS = ("8", "16", "half", "float")
 ORIENTATION, SIDEWAYS = 274, (5, 6, 7, 8)  # the tag of Exif, and its values for a picture lying on its side
 
 
@@ -34,10 +40,11 @@ class Photo:
 
 
 def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Photo:
-    """Return the picture of a PNG, TIFF, JPEG or HEIF file, transparency left out, upright as its Exif data have it.
+    """Return the picture of a PNG, TIFF, OpenEXR, JPEG or HEIF file, without transparency, upright by its Exif data.
 
     ``encoding``: what the file's numbers mean, "srgb" or "linear"; by default whole numbers are sRGB and floats
-    linear. HEIF needs pillow-heif. Raises RequestError for a file of another kind, or without 1 or 3 channels.
+    linear, in which light above white is kept. HEIF needs pillow-heif, OpenEXR its own library. Raises RequestError for
+    a file of another kind, or without 1 or 3 channels.
     """
     raw = _samples(Path(path))
     depth = {"u1": "8", "u2": "16"}.get(raw.dtype.str[1:], "float")
@@ -54,28 +61,43 @@ def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Pho
 def write_photo(
     path: str | os.PathLike[str], values: np.ndarray, encoding: str = "srgb", depth: str | None = None
 ) -> Path:
-    """Write linear light (rows, columns[, channels]) as .png (8 or 16 bits) or .tif (8, 16 or float).
+    """Write linear light (rows, columns[, channels]) as .png (8, 16 bits), .tif (any depth) or .exr (half or float).
 
-    ``depth`` is 8 by default, float for a linear TIFF. Values beyond 0…1 are clipped in whole numbers.
+    ``depth``: bits of whole numbers, or "half" and "float" for floats of 16 and 32 bits; 8 by default, float for a
+    linear TIFF and for OpenEXR, which is always linear. Values beyond 0…1 are clipped in whole numbers.
     Raises ExportError and RequestError.
     """
     check_encoding(encoding)
     ending = check_ending(path)
-    depth = depth or ("float" if ending != ".png" and encoding == "linear" else "8")
-    if depth not in DEPTHS or (depth == "float" and ending == ".png"):
+    encoding, depth = stored_as(path, encoding), depth or ("float" if keeps_light(path, encoding) else "8")
+    floats = depth in ("half", "float")
+    if depth not in DEPTHS or (floats and ending == ".png") or (ending == EXR and not floats):
         raise RequestError(
-            "a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif",
+            "a {ending} of depth {depth} cannot be written; choose {choices}",
             ending=ending,
             depth=depth,
+            choices=Alternatives({".png": DEPTHS[:2], EXR: DEPTHS[2:]}.get(ending, DEPTHS)),
         )
     values = np.squeeze(np.asarray(values, np.float32))
     values = srgb_from_linear(values) if encoding == "srgb" else values
-    stored = values if depth == "float" else _whole(values, int(depth))
+    stored = values.astype(np.float16 if depth == "half" else np.float32) if floats else _whole(values, int(depth))
+    if ending == EXR:
+        return write_beside(path, lambda handle: handle.write(_exr(stored)))
     return write_beside(path, lambda handle: handle.write(_encode(stored, ending)))
 
 
+def stored_as(path: str | os.PathLike[str], encoding: str) -> str:
+    """Return what the numbers of a written file mean: OpenEXR is linear, others are as asked."""
+    return "linear" if Path(path).suffix.lower() == EXR else encoding
+
+
+def keeps_light(path: str | os.PathLike[str], encoding: str) -> bool:
+    """Return whether a file holds floats by default, so that light above white is kept."""
+    return Path(path).suffix.lower() != ".png" and stored_as(path, encoding) == "linear"
+
+
 def check_ending(path: str | os.PathLike[str]) -> str:
-    """Return the ending of a picture file, lower case; ExportError for another ending."""
+    """Return the ending of a picture file; ExportError for others, RequestError where its library is missing."""
     ending = Path(path).suffix.lower()
     if ending not in WRITABLE:
         raise ExportError(
@@ -84,6 +106,8 @@ def check_ending(path: str | os.PathLike[str]) -> str:
             ending=ending,
             choices=WRITABLE,
         )
+    if ending == EXR:
+        _exr_library(path)
     return ending
 
 
@@ -129,7 +153,7 @@ def _samples(path: Path) -> np.ndarray:
         data = path.read_bytes()
     except OSError as error:
         raise RequestError(
-            "{path} cannot be read, {reason}; give the path of a PNG, TIFF, JPEG or HEIF",
+            "{path} cannot be read, {reason}; give the path of a PNG, TIFF, OpenEXR, JPEG or HEIF",
             path=str(path),
             reason=str(error.strerror),
         ) from error
@@ -137,6 +161,8 @@ def _samples(path: Path) -> np.ndarray:
         return _from_tiff(data, path)
     if is_deep(data):
         return read_deep(data, path)
+    if data[:4] == EXR_MARK:
+        return _from_exr(path, len(data))
     if data[4:8] == b"ftyp":
         _open_heif(path)
         return _by_pillow(data, path, ("HEIF",))
@@ -153,6 +179,57 @@ def _open_heif(path: Path) -> None:
             path=str(path),
         ) from error
     register_heif_opener()
+
+
+def _exr_library(path: str | os.PathLike[str]) -> ModuleType:
+    """Return the library of OpenEXR; RequestError where it is not installed."""
+    try:
+        import OpenEXR
+    except ImportError as error:
+        raise RequestError(
+            "{path}: OpenEXR files need its library, which is not installed; pip install 'p2sf[exr]', or use a TIFF of "
+            "floats",
+            path=str(path),
+        ) from error
+    library: ModuleType = OpenEXR
+    return library
+
+
+def _from_exr(path: Path, size: int) -> np.ndarray:
+    """Return the colours of an OpenEXR file, or its grey values or depths, (rows, columns[, 3]) float16 or float32."""
+    library = _exr_library(path)
+    try:
+        with library.File(str(path), header_only=True) as head:
+            first, last = (np.asarray(end, int) for end in head.header()["dataWindow"])
+        check_samples((*(last - first + 1)[::-1].tolist(), 1), size)
+        with library.File(str(path), separate_channels=True) as file:
+            planes = {name: channel.pixels for name, channel in file.channels().items()}
+    except (OSError, RuntimeError, ValueError, *DAMAGED) as error:
+        raise RequestError(
+            "{path} is a damaged {kind} ({why}); save the picture again", path=str(path), kind="OpenEXR", why=str(error)
+        ) from error
+    if all(name in planes for name in "RGB"):
+        return np.stack([planes[name] for name in "RGB"], axis=-1)
+    grey = [planes[name] for name in (*DEPTH_CHANNELS, *planes) if name in planes]
+    if len(planes) != 1 and not any(name in planes for name in DEPTH_CHANNELS):
+        raise RequestError(
+            "{path} has the channels {channels}; give one with R, G and B, or with Y or Z alone",
+            path=str(path),
+            channels=tuple(planes),
+        )
+    return np.asarray(grey[0])
+
+
+def _exr(stored: np.ndarray) -> bytes:
+    """Return an OpenEXR file of (rows, columns[, 3]) float16 or float32, compressed without loss."""
+    with TemporaryDirectory() as folder:  # the library writes to paths only
+        path = Path(folder) / "picture.exr"
+        library = _exr_library(path)
+        header = {"compression": library.ZIP_COMPRESSION, "type": library.scanlineimage}
+        channels = {"RGB" if stored.ndim == 3 else "Y": np.ascontiguousarray(stored)}
+        with library.File(header, channels) as file:
+            file.write(str(path))
+        return path.read_bytes()
 
 
 def _from_tiff(data: bytes, path: Path) -> np.ndarray:
@@ -175,7 +252,7 @@ def _by_pillow(data: bytes, path: Path, formats: tuple[str]) -> np.ndarray:
             return np.asarray(ImageOps.exif_transpose(picture).convert("L" if grey else "RGB"))
     except UnidentifiedImageError as error:
         raise RequestError(
-            "{path} is not a PNG, TIFF, JPEG or HEIF that can be read; convert it to one", path=str(path)
+            "{path} is not a PNG, TIFF, OpenEXR, JPEG or HEIF that can be read; convert it to one", path=str(path)
         ) from error
     except (OversizedError, Image.DecompressionBombError) as error:
         raise RequestError(

@@ -47,6 +47,56 @@ def test_not_stated_whole_numbers_are_srgb_and_floats_linear(tmp_path):
     assert read_photo(tmp_path / "b.tif").encoding == "linear"
 
 
+@pytest.mark.parametrize("ending", [".tif", ".exr"])
+@pytest.mark.parametrize(("depth", "kind"), [("half", np.float16), ("float", np.float32), (None, np.float32)])
+@pytest.mark.parametrize("channels", [1, 3])
+def test_floats_keep_light_from_a_millionth_to_a_thousand_whites(tmp_path, ending, depth, kind, channels):
+    """To a rounding of the kind, 2⁻¹¹ or 2⁻²⁴, and of numbers too small for one to half its least, 2⁻²⁵."""
+    if ending == ".exr":
+        pytest.importorskip("OpenEXR")
+    path, values = tmp_path / f"p{ending}", 10 ** np.linspace(-6, 3, 13 * 17 * channels, dtype=np.float32)
+    values = values.reshape(13, 17, channels)
+    write_photo(path, values, "linear", depth)
+    back = read_photo(path)
+    assert (back.encoding, back.depth) == ("linear", "float")
+    tiny = float(np.finfo(kind).smallest_subnormal) / 2
+    np.testing.assert_allclose(back.values, values, rtol=np.finfo(kind).eps / 2, atol=tiny)
+
+
+def test_an_exr_is_linear_and_holds_depths_or_colours_beside_others(tmp_path):
+    exr = pytest.importorskip("OpenEXR")
+    colours = picture()
+    write_photo(tmp_path / "a.exr", colours, "srgb")  # as a copy of a PNG asks
+    assert np.array_equal(read_photo(tmp_path / "a.exr").values, colours)
+    header = {"compression": exr.ZIP_COMPRESSION, "type": exr.scanlineimage}
+    planes = {name: np.ascontiguousarray(colours[..., k]) for k, name in enumerate("RGB")}
+    for name, kept, wanted in (
+        ("layers", {**planes, "A": planes["R"], "Z": 5 * planes["G"]}, colours),
+        ("depth", {"Z": 5 * planes["G"], "A": planes["R"]}, 5 * colours[..., 1:2]),
+    ):
+        with exr.File(header, kept) as file:
+            file.write(str(tmp_path / f"{name}.exr"))
+        assert np.array_equal(read_photo(tmp_path / f"{name}.exr").values, wanted)
+    with exr.File(header, {"U": planes["R"], "V": planes["G"]}) as file:
+        file.write(str(tmp_path / "uv.exr"))
+    with pytest.raises(RequestError, match="Y or Z"):
+        read_photo(tmp_path / "uv.exr")
+
+
+def test_a_damaged_exr_and_a_missing_library_are_said(tmp_path, monkeypatch):
+    pytest.importorskip("OpenEXR")
+    write_photo(tmp_path / "a.exr", picture())
+    whole = (tmp_path / "a.exr").read_bytes()
+    for part in (whole[:200], whole[: len(whole) // 2], whole[:4]):
+        (tmp_path / "part.exr").write_bytes(part)
+        with pytest.raises(RequestError, match="damaged"):
+            read_photo(tmp_path / "part.exr")
+    monkeypatch.setitem(sys.modules, "OpenEXR", None)
+    for work in (lambda: read_photo(tmp_path / "a.exr"), lambda: write_photo(tmp_path / "b.exr", picture())):
+        with pytest.raises(RequestError, match="p2sf\\[exr"):
+            work()
+
+
 def test_every_png_filter_is_undone():
     """Pillow's own 8-bit reader is the witness: the same bytes filtered as 16-bit pairs by hand for each filter."""
     values = np.random.default_rng(5).integers(0, 65536, (6, 5, 3), dtype=np.uint16)

@@ -75,7 +75,7 @@ class PhotoDrop(QObject):
     photo = Signal(str)
     refused = Signal(object)
     endings: tuple[str, ...] = READABLE
-    why = "{file} is not a PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that"
+    why = "{file} is not a PNG, TIFF, OpenEXR, JPEG or HEIF; save the photo as one of these and drop that"
 
     def __init__(self, widget: QWidget):
         super().__init__(widget)

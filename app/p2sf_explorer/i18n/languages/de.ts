@@ -347,7 +347,7 @@
 <message><source>Cemented achromat f/6, 20 mm</source><translation>Verkitteter Achromat f/6, 20 mm</translation></message>
 <message><source>Centroid y</source><translation>Schwerpunkt y</translation></message>
 <message><source>Checkerboard</source><translation>Schachbrett</translation></message>
-<message><source>Choose a PNG, TIFF, JPEG or HEIF to photograph, up to 12 megapixels</source><translation>Ein PNG, TIFF, JPEG oder HEIF zum Fotografieren wählen, bis zu 12 Megapixel</translation></message>
+<message><source>Choose a PNG, TIFF, OpenEXR, JPEG or HEIF to photograph, up to 12 megapixels</source><translation>Ein PNG, TIFF, OpenEXR, JPEG oder HEIF zum Fotografieren wählen, bis zu 12 Megapixel</translation></message>
 <message><source>Choose a lesson</source><translation>Eine Lektion wählen</translation></message>
 <message><source>Choose a photo</source><translation>Ein Foto wählen</translation></message>
 <message><source>Choose a picture of points</source><translation>Ein Bild von Punkten wählen</translation></message>
@@ -701,7 +701,7 @@
 <message><source>Picture (*.png);;glTF scene (*.gltf);;OBJ scene (*.obj)</source><translation>Bild (*.png);;glTF-Szene (*.gltf);;OBJ-Szene (*.obj)</translation></message>
 <message><source>Picture before and after the lens; arrow keys move the place you look at, with Shift the split</source><translation>Bild vor und hinter dem Objektiv; Pfeile verschieben den betrachteten Ort, mit Umschalt die Teilung</translation></message>
 <message><source>Picture of one panel</source><translation>Bild einer Ansicht</translation></message>
-<message><source>Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</source><translation>Bilder (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)</translation></message>
+<message><source>Pictures (*.png *.tif *.tiff *.exr *.jpg *.jpeg *.heic *.heif)</source><translation>Bilder (*.png *.tif *.tiff *.exr *.jpg *.jpeg *.heic *.heif)</translation></message>
 <message><source>Pictures (*.png *.tif *.tiff)</source><translation>Bilder (*.png *.tif *.tiff)</translation></message>
 <message><source>Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)</source><translation>Bilder von Punkten (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)</translation></message>
 <message><source>Picture…</source><translation>Bild …</translation></message>
@@ -1217,7 +1217,7 @@
 <message><source>a wavelength of {nm:g} nm that brings {share:g} of the light; give two positive numbers</source><translation>eine Wellenlänge von {nm:g} nm, die {share:g} des Lichts bringt; zwei positive Zahlen angeben</translation></message>
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
-<message><source>a {ending} of depth {depth} cannot be written; choose 8 or 16, or float in a .tif</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; 8 oder 16 wählen, oder Gleitkomma in einem .tif</translation></message>
+<message><source>a {ending} of depth {depth} cannot be written; choose {choices}</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; {choices} wählen</translation></message>
 <message><source>adds, λ</source><translation>Beitrag, λ</translation></message>
 <message><source>agf_formula is {formula}; write a number from 1 to 13</source><translation>agf_formula ist {formula}; eine Zahl von 1 bis 13 schreiben</translation></message>
 <message><source>aim "{aim}" is unknown; choose "stop" or "paraxial"</source><translation>die Ausrichtung "{aim}" ist unbekannt; "stop" oder "paraxial" wählen</translation></message>
@@ -2352,7 +2352,7 @@
 <message><source>{f:g}/mm</source><translation>{f:g}/mm</translation></message>
 <message><source>{f_number}, stop ⌀ {diameter} mm</source><translation>{f_number}, Blende ⌀ {diameter} mm</translation></message>
 <message><source>{file} is not a PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, FITS, npy, npz und keine Liste; das Bild als eines davon speichern und das ablegen</translation></message>
-<message><source>{file} is not a PNG, TIFF, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
+<message><source>{file} is not a PNG, TIFF, OpenEXR, JPEG or HEIF; save the photo as one of these and drop that</source><translation>{file} ist kein PNG, TIFF, OpenEXR, JPEG oder HEIF; das Foto als eines davon speichern und dieses ablegen</translation></message>
 <message><source>{first} and {second} have no number in common; measure the same points by the same model</source><translation>{first} und {second} haben keine Zahl gemeinsam; dieselben Punkte mit demselben Modell messen</translation></message>
 <message><source>{frames} frames and {focus} focus positions; give one for each</source><translation>{frames} Aufnahmen und {focus} Fokuslagen; für jede eine angeben</translation></message>
 <message><source>{glass} is in no catalogue given; accept a substitute ({offers}) or give its AGF catalogue</source><translation>{glass} steht in keinem angegebenen Katalog; einen Ersatz annehmen ({offers}) oder seinen AGF-Katalog angeben</translation></message>
@@ -2560,7 +2560,7 @@
 <message><source>{path} cannot be read as a picture; it is damaged, or of another kind than its ending says</source><translation>{path} lässt sich nicht als Bild lesen; es ist beschädigt oder von anderer Art, als seine Endung sagt</translation></message>
 <message><source>{path} cannot be read as text; check the name</source><translation>{path} lässt sich nicht als Text lesen; den Namen prüfen</translation></message>
 <message><source>{path} cannot be read, {reason}; check the name</source><translation>{path} ist nicht lesbar, {reason}; den Namen prüfen</translation></message>
-<message><source>{path} cannot be read, {reason}; give the path of a PNG, TIFF, JPEG or HEIF</source><translation>{path} ist nicht lesbar, {reason}; den Pfad eines PNG, TIFF, JPEG oder HEIF angeben</translation></message>
+<message><source>{path} cannot be read, {reason}; give the path of a PNG, TIFF, OpenEXR, JPEG or HEIF</source><translation>{path} ist nicht lesbar, {reason}; den Pfad eines PNG, TIFF, OpenEXR, JPEG oder HEIF angeben</translation></message>
 <message><source>{path} cannot be read, {reason}; give the path of a scene file</source><translation>{path} ist nicht lesbar, {reason}; den Pfad einer Szenendatei angeben</translation></message>
 <message><source>{path} cannot be written, the draft beside it stayed empty; choose another disk</source><translation>{path} ist nicht schreibbar, der Entwurf daneben blieb leer; einen anderen Datenträger wählen</translation></message>
 <message><source>{path} cannot be written, {reason}; choose a folder you may write to</source><translation>{path} ist nicht schreibbar, {reason}; einen Ordner wählen, in den Sie schreiben dürfen</translation></message>
@@ -2579,7 +2579,7 @@
 <message><source>{path} is a damaged PNG ({why}); save the picture again</source><translation>{path} ist ein beschädigtes PNG ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is a damaged {kind} ({why}); save the picture again</source><translation>{path} ist ein beschädigtes {kind} ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG; ohne Interlacing speichern, in RGB oder Grau</translation></message>
-<message><source>{path} is not a PNG, TIFF, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, JPEG oder HEIF; in eines davon umwandeln</translation></message>
+<message><source>{path} is not a PNG, TIFF, OpenEXR, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, OpenEXR, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS; save the snapshot again</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat; den Schnappschuss neu speichern</translation></message>
 <message><source>{path} is not a PSF that this program wrote; export it again with p2sf psf -o</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat; mit p2sf psf -o neu ausgeben</translation></message>
 <message><source>{path} is not a listing of a PSF or a wavefront map that can be read; write it as text from OpticStudio</source><translation>{path} ist keine lesbare Liste einer PSF oder einer Wellenfront; sie als Text aus OpticStudio schreiben</translation></message>
@@ -2594,6 +2594,8 @@
 <message><source>{path}, line {line}: name the columns first, number x_mm y_mm or number x_deg y_deg</source><translation>{path}, Zeile {line}: zuerst die Spalten nennen, number x_mm y_mm oder number x_deg y_deg</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
 <message><source>{path}, line {line}: {words} is number {other} once more; give each point one number and place</source><translation>{path}, Zeile {line}: {words} ist noch einmal Nummer {other}; jedem Punkt eine Nummer und einen Ort geben</translation></message>
+<message><source>{path} has the channels {channels}; give one with R, G and B, or with Y or Z alone</source><translation>{path} hat die Kanäle {channels}; eines mit R, G und B angeben, oder mit Y oder Z allein</translation></message>
+<message><source>{path}: OpenEXR files need its library, which is not installed; pip install 'p2sf[exr]', or use a TIFF of floats</source><translation>{path}: OpenEXR-Dateien brauchen dessen Bibliothek, die nicht installiert ist; pip install 'p2sf[exr]', oder ein TIFF mit Gleitkommazahlen</translation></message>
 <message><source>{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG</source><translation>{path}: HEIF-Fotos brauchen pillow-heif, das nicht installiert ist; pip install 'p2sf[heif]', oder ein JPEG speichern</translation></message>
 <message><source>{path}: numbers of 8 bits are taken for sRGB and made linear; if they are counts, {parameter} linear says so</source><translation>{path}: Zahlen von 8 Bit werden als sRGB gelesen und linear gemacht; sind es Zählwerte, so sagt das {parameter} linear</translation></message>
 <message><source>{path}: PSF data has no ending "{ending}"; choose {endings}</source><translation>{path}: PSF-Daten haben nicht die Endung "{ending}"; {endings} wählen</translation></message>

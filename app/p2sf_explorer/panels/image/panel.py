@@ -55,7 +55,7 @@ SHOWS: dict[str, tuple[str, tuple[str, str]]] = {
     "taken": ("photo it took, sharpened", ("photo", "sharpened")),
     "psfs": ("its PSFs, as a map", ("image", "PSFs, √")),
 }
-PHOTOS = "Pictures (*.png *.tif *.tiff *.jpg *.jpeg *.heic *.heif)"
+PHOTOS = "Pictures (*.png *.tif *.tiff *.exr *.jpg *.jpeg *.heic *.heif)"
 SAVED = "Pictures (*.png *.tif *.tiff)"
 EARLIER, WORKING, NONE = "earlier picture, working", "working", "no picture"
 
@@ -72,7 +72,7 @@ class ImagePanel:
         self.look = chooser(tuple(LOOKS.items()), "How the two pictures are compared", self.widget)
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
         self.open = small_button(
-            "Photo…", "Choose a PNG, TIFF, JPEG or HEIF to photograph, up to 12 megapixels", self._ask_photo
+            "Photo…", "Choose a PNG, TIFF, OpenEXR, JPEG or HEIF to photograph, up to 12 megapixels", self._ask_photo
         )
         self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
         self.split_view, self.headline, self.plan_line, self.words = SplitView(), QLabel(), PlanLine(), Why()
