@@ -15,6 +15,7 @@ from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
+from p2sf.lensfile.paraxial_solves import with_solves
 from p2sf.lensfile.raw import CATALOGUE_AIR, HOLE, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
@@ -27,7 +28,6 @@ SAME_DEG_C, SAME_ATM = 5.0, 0.05  # which change the index of a glass relative t
 MOST_SURFACES = 1000
 FAR_PUPILS = 100.0  # of the longest thickness: chief rays over it are parallel to 1 % of their height
 MOST_OBSCURED = 0.99  # of the stop's rim
-SAME_FOCUS = 1e-4  # relative: glasses of another catalogue, and digits that files leave out
 PLACEHOLDER = Aperture("stop_semi_diameter", 1.0)
 NO_STOP = Message("no stop named")
 RECTANGLE, CIRCLE = Message("a rectangle"), Message("a circle")
@@ -55,7 +55,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     media = _media(raw, sources, notes, source)
     lens = _with_line(lambda: _bare_lens(raw, media), raw, source, None)
     lens = _with_line(lambda: _within_data(lens, raw, notes), raw, source, raw.wavelength_line)
-    lens = _with_line(lambda: _at_solved_focus(lens, raw, notes), raw, source, None)
+    lens = _with_line(lambda: with_solves(lens, raw, notes), raw, source, None)
     lens = _with_line(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
     lens = _with_line(lambda: _with_obscuration(lens, raw, notes), raw, source, None)
     lens = _with_line(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
@@ -64,7 +64,7 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     _read_notes(lens, raw, notes)
     own = {each.kind for each in raw.stated}
     compare([*raw.stated, *(each for each in in_remarks(source) if each.kind not in own)], lens, notes)
-    _note_vignetting(lens, raw, notes)
+    lens = _with_line(lambda: _with_vignetting(lens, raw, notes), raw, source, None)
     _note_telecentric(lens, raw, notes)
     lens = _with_line(lambda: _with_curved_sensor(lens, raw, notes), raw, source, raw.image.line if raw.image else None)
     return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
@@ -282,31 +282,6 @@ def _even(terms: dict[int, float]) -> tuple[float, ...]:
     return tuple(terms.get(power, 0.0) for power in range(4, top + 1, 2))
 
 
-def _at_solved_focus(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
-    """Return the lens with thicknesses that solves put at the paraxial focus, where the file states none.
-
-    The value that the writing program stored stays, with a note where the solve gives another; so does that of a
-    misaligned lens or of one without a focus.
-    """
-    for number, stated in enumerate(raw.surfaces, 1):
-        if stated.beyond_focus is None or lens.misaligned:
-            continue
-        focus = conjugates.focus_behind(lens, number, raw.object_distance * raw.unit_mm)
-        found, old = focus + stated.beyond_focus * raw.unit_mm, lens.surfaces[number - 1].thickness
-        if not abs(found) < FAR or (old and abs(found - old) <= SAME_FOCUS * abs(found)):
-            continue
-        if old:
-            told = (
-                "a solve puts the paraxial focus {found:.7g} mm behind it; the file's thickness, {old:.7g} mm, is kept"
-            )
-            notes.add("read", told, stated.number, stated.line, found=found, old=old)
-            continue
-        notes.add("read", "its thickness, up to the paraxial focus, is {found:.9g} mm", stated.number, found=found)
-        moved = replace(lens.surfaces[number - 1], thickness=found)
-        lens = replace(lens, surfaces=(*lens.surfaces[: number - 1], moved, *lens.surfaces[number:]))
-    return lens
-
-
 def _with_aperture(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     if raw.aperture is None:
         return _open_to_its_rims(lens, raw, notes)
@@ -450,26 +425,19 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         )
 
 
-def _note_vignetting(lens: Lens, raw: RawLens, notes: Notebook) -> None:
-    """Say what became of vignetting factors: rims cut the pencil of every field themselves, without them it is full."""
+def _with_vignetting(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with rims for vignetting factors, where it has none."""
     if raw.vignetting is None:
-        return
-    others = (s for number, s in enumerate(lens.surfaces, 1) if number != lens.stop_surface)
-    if not raw.vignetting:
-        notes.add("ignored", "vignetting factors, all of them 0")
-    elif any(isfinite(surface.semi_diameter) for surface in others):
-        notes.add(
-            "read",
-            "vignetting factors (up to {value:g}) are not needed: the rims of the surfaces cut the pencil themselves",
-            value=raw.vignetting,
-        )
-    else:
-        notes.add(
-            "caution",
-            "vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; "
-            "the pupil is full at every field",
-            value=raw.vignetting,
-        )
+        return lens
+    from p2sf.lensfile.vignetting_rims import with_vignetting  # traces rays
+
+    stop = lens.stop_surface or conjugates.limiting_rim(lens, lens.reference_wavelength_um)[0]
+    try:
+        slopes = conjugates.field_slopes(raw, conjugates.trace(lens, stop, lens.reference_wavelength_um))
+    except GeometryError:
+        slopes = []
+    distance = raw.object_distance * raw.unit_mm
+    return with_vignetting(lens, raw.vignetting, slopes, distance if 0 < distance < FAR else inf, notes)
 
 
 def _aperture_words(aperture: Aperture) -> Message:

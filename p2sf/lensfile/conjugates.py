@@ -25,6 +25,9 @@ KINDS: dict[RawApertureKind, Message] = {
 }
 
 
+Row = tuple[float, float, float, float]
+
+
 @dataclass(frozen=True)
 class Paraxial:
     """Two basis rays (y, nu) = (1, 0) and (0, 1): heights at the stop, heights and angles behind the lens."""
@@ -54,18 +57,14 @@ def trace(lens: Lens, stop: int, wavelength_um: float) -> Paraxial:
     return Paraxial(rows[stop - 1][:2], rows[-1], index[0], index[-1])
 
 
-def focus_behind(lens: Lens, number: int, object_mm: float) -> float:
-    """Return the distance from surface ``number`` to the paraxial image behind it, mm; infinite for parallel rays.
+def indices_of(lens: Lens) -> list[float]:
+    """Return the index of every medium at the reference wavelength, negative where light runs back."""
+    return _indices(lens, lens.reference_wavelength_um)
 
-    The object stands ``object_mm`` before the first surface.
-    """
-    index = _indices(lens, lens.reference_wavelength_um)
-    a, b, c, d = _running_matrices(lens, index, lens.reference_wavelength_um)[number - 1]
-    if object_mm == 0:
-        height, angle = b, d
-    else:
-        height, angle = a + b * index[0] / object_mm, c + d * index[0] / object_mm
-    return -index[number] * height / angle if angle else inf
+
+def running_matrices(lens: Lens) -> list[Row]:
+    """Return heights (a, b) at and reduced angles (c, d) behind every surface of both basis rays there."""
+    return _running_matrices(lens, indices_of(lens), lens.reference_wavelength_um)
 
 
 def _indices(lens: Lens, wavelength_um: float) -> list[float]:
@@ -73,10 +72,10 @@ def _indices(lens: Lens, wavelength_um: float) -> list[float]:
     return [direction * known[medium] for medium, direction in zip(lens.media, lens.directions, strict=True)]
 
 
-def _running_matrices(lens: Lens, index: list[float], wavelength_um: float) -> list[tuple[float, float, float, float]]:
+def _running_matrices(lens: Lens, index: list[float], wavelength_um: float) -> list[Row]:
     """Return heights (a, b) at and reduced angles (c, d) behind every surface of both basis rays."""
     a, b, c, d = 1.0, 0.0, 0.0, 1.0
-    rows = []
+    rows: list[Row] = []
     for number, surface in enumerate(lens.surfaces, 1):
         power = float(surface_power(surface, index[number - 1], index[number], wavelength_um))
         c, d = c - power * a, d - power * b
@@ -135,14 +134,17 @@ def _marginal_height(kind: RawApertureKind, value: float, raw: RawLens, rays: Pa
     if not isfinite(start):
         raise GeometryError("the object lies at the first vertex, where no aperture angle fills the stop; move it")
     per_height = a + b * start
-    if kind == "object_na":
-        return distance * tan(asin(_sine(value, rays.object_index))) * per_height
-    if kind == "object_cone_angle":
-        return distance * tan(radians(_angle(value))) * per_height
+    if kind in ("object_na", "object_cone_angle"):
+        return distance * object_slope(kind, value, rays.object_index) * per_height
     slope = c + d * start
     index = abs(rays.image_index)  # negative behind a mirror
     goal = 1 / (2 * value) if kind == "image_f_number" else index * tan(asin(_sine(value, index)))
     return goal / slope * per_height if slope else inf
+
+
+def object_slope(kind: str, value: float, index: float) -> float:
+    """Return the slope of the marginal ray of an object's numerical aperture or of the half angle of its cone."""
+    return tan(asin(_sine(value, index)) if kind == "object_na" else radians(_angle(value)))
 
 
 def _sine(numerical_aperture: float, index: float) -> float:
@@ -161,13 +163,18 @@ def field_slopes(raw: RawLens, rays: Paraxial) -> list[tuple[float, float]]:
     Raises GeometryError where a height has no slope: an afocal lens, a telecentric one, an object at infinity.
     """
     if raw.field_kind == "angle":
-        return [(tan(radians(_angle(x))), tan(radians(_angle(y)))) for x, y in raw.fields]
+        return [(slope_of_angle(x), slope_of_angle(y)) for x, y in raw.fields]
     if not any(map(any, raw.fields)):
         return [(0.0, 0.0)] * len(raw.fields)
     per_slope = _height_per_slope(raw, rays)
     if not (isfinite(per_slope) and per_slope):
         raise GeometryError("field heights have no angle for this lens")
     return [(x * raw.unit_mm / per_slope, y * raw.unit_mm / per_slope) for x, y in raw.fields]
+
+
+def slope_of_angle(angle_deg: float) -> float:
+    """Return the slope of a field angle; GeometryError from a right angle on."""
+    return tan(radians(_angle(angle_deg)))
 
 
 def _angle(angle_deg: float) -> float:

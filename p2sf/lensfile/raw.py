@@ -1,10 +1,10 @@
 """A lens as a file states it, in the file's own units, every item with its line."""
 
-import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import inf, nan
-from typing import Literal
+from typing import Literal, NamedTuple
+
+import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.glass.media import Medium
@@ -50,13 +50,65 @@ CATALOGUE_AIR = (20.0, 1.0)  # °C and atmospheres, at which makers state indice
 HOLE = "rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip"
 
 
+EDGE_POINTS = 33  # of half an ellipse
+
+
+class PupilEnds(NamedTuple):
+    """The parts of the pupil's radius that its upper, lower and side ends lose at one field."""
+
+    upper: float = 0.0
+    lower: float = 0.0
+    side: float = 0.0
+
+    @property
+    def middle(self) -> float:
+        """Return η of the middle of the ellipse through the ends."""
+        return (self.lower - self.upper) / 2
+
+    def edge(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return ξ and η of points of half the ellipse, from its top."""
+        angle = np.linspace(0, np.pi, EDGE_POINTS)
+        return (1 - self.side) * np.sin(angle), self.middle + (1 - (self.upper + self.lower) / 2) * np.cos(angle)
+
+
+@dataclass(frozen=True)
+class VignettingFactors:
+    """The factors of a file, one set per field; ``skew``: whether some make a pupil that is not even in x."""
+
+    ends: tuple[PupilEnds, ...]
+    line: int | None = None
+    skew: bool = False
+
+    @property
+    def largest(self) -> float:
+        """Return the largest factor."""
+        return max((abs(part) for ends in self.ends for part in ends), default=0.0)
+
+
+@dataclass(frozen=True)
+class ParaxialSolve:
+    """What the curvature or the thickness of a surface follows from: a marginal or a chief ray.
+
+    ``kind``: its "height" at the next surface, its "angle" behind or its "incidence", "aplanatic" refraction, or, of no
+    ray, the "power" of an element; ``value``: that height, slope or power in the file's units; ``beyond``: more
+    thickness; ``name``: what the file calls it.
+    """
+
+    of: Literal["curvature", "thickness"]
+    kind: str
+    value: float = 0.0
+    ray: Literal["marginal", "chief"] = "marginal"
+    beyond: float = 0.0
+    name: str = ""
+
+
 @dataclass
 class RawSurface:
     """One surface while it is being read. ``glass`` None is air; ``keeps_medium`` repeats the one before it.
 
-    ``aspheric`` maps a power of r to its coefficient; ``shape`` is added to it. ``beyond_focus``: how far beyond the
-    paraxial focus the next surface stands, where a solve says so; the thickness follows. ``obscured``: whether
-    ``inner_radius`` is an obscuration and no hole, which in the stop is a part of the pupil's mask.
+    ``aspheric`` maps a power of r to its coefficient; ``shape`` is added to it. ``solves``: what its curvature and its
+    thickness follow from. ``obscured``: whether ``inner_radius`` is an obscuration and no hole, which in the stop is a
+    part of the pupil's mask.
     """
 
     number: int
@@ -76,8 +128,12 @@ class RawSurface:
     after: tuple[Placement, ...] = ()
     ideal_focal_length: float = inf
     rim: Rim | None = None
-    beyond_focus: float | None = None
+    solves: dict[str, ParaxialSolve] = field(default_factory=dict)
     obscured: bool = False
+
+    def solve(self, solve: ParaxialSolve) -> None:
+        """Take note of what the curvature or the thickness follows from."""
+        self.solves[solve.of] = solve
 
     @property
     def name(self) -> Message:
@@ -118,7 +174,7 @@ class RawLens:
     mask: PupilMask = CLEAR
     environment: tuple[float, float] = CATALOGUE_AIR
     environment_line: int | None = None
-    vignetting: float | None = None  # the largest vignetting factor of the file, None where it has no such line
+    vignetting: VignettingFactors | None = None
     title: str = ""
     source: str = ""
     sensor_stated: bool = True
@@ -136,8 +192,3 @@ class RawLens:
             self.mask = PupilMask(apodisation=exponent**-0.5 if exponent > 0 else nan)
         except RequestError as failure:
             raise source.error(failure.message, line) from failure
-
-    def add_vignetting(self, factors: Iterable[str]) -> None:
-        """Take note of a line of vignetting factors; words that are no numbers say that rims give them."""
-        sizes = [abs(float(word)) for word in factors if re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", word)]
-        self.vignetting = max([*sizes, self.vignetting or 0.0])

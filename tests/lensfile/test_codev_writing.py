@@ -8,7 +8,7 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.glass.media import catalogue_glass, model_glass
 from p2sf.lens import Placement, Qbfs, RadialPolynomial, Source, Surface
-from p2sf.lens.lens import indices
+from p2sf.lens.lens import indices, with_aim
 from p2sf.lens.misalignment import displaced, folding
 from p2sf.lens.positions import without_positions
 from p2sf.lens.rim import Rim
@@ -130,3 +130,10 @@ def test_what_no_command_says_is_refused(surface, words):
     rows = (lens.surfaces[0], replace(lens.surfaces[1], **surface), lens.surfaces[2])
     with pytest.raises(LensFileError, match=f"{words}.* save as TOML"):
         lens_to_seq(replace(lens, surfaces=rows))
+
+
+def test_rays_that_fill_the_paraxial_pupil_are_refused_and_not_turned_into_others():
+    lens = find_lens("cooke_triplet")
+    with pytest.raises(LensFileError) as refused:
+        lens_to_seq(with_aim(lens, "paraxial"))
+    assert refused.value.message.values == {"aim": "paraxial"} and "YAN" in lens_to_seq(with_aim(lens, "stop"))

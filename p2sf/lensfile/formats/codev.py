@@ -25,7 +25,16 @@ from p2sf.lensfile.assemble import check_stop, private_glass
 from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_all
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import (
+    ParaxialSolve,
+    PupilEnds,
+    RawApertureKind,
+    RawFieldKind,
+    RawGlass,
+    RawLens,
+    RawSurface,
+    VignettingFactors,
+)
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
@@ -47,25 +56,26 @@ REFUSED = {
 
 HARMLESS = (
     (Message("control codes of the optimiser"), "CCY THC KC AC BC CC DC EC FC GC HC GLC CUM THM CCX DEL CCF"),
-    (Message("solves and pickups, whose stored values are read"), "PIK SOL UMY HMY CUS RED"),
+    (Message("solves, whose stored values are read"), "SOL CUS RED"),
     (Message("weights of fields"), "WTF WTA"),
     (
         Message("titles, sessions and computing settings"),
-        "LEN INI GO DER CLS VER OUT CON ASP SPH POL CA APE ROT PIV CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
+        "SET LEN INI GO DER CLS VER OUT CON ASP SPH POL CA APE ROT PIV CMT WID AFI AFC RFO RSI PFR PTP POR HCC SCC",
     ),
 )
 REASON = {name: reason for reason, names in HARMLESS for name in names.split()}
 
 
-VIGNETTING = ("VUY", "VLY", "VUX", "VLX", "SET")
+VIGNETTING = ("VUY", "VLY", "VUX", "VLX")
+PICKUP = "the pickup {command} is not evaluated; the numbers that the file states are read"
 
 
-def note(notes: Notebook, raw: RawLens, name: str, words: tuple[str, ...], line: int) -> None:
+def note(notes: Notebook, name: str, words: tuple[str, ...], line: int) -> None:
     """Note a command that is not read: harmless ones once per reason, unknown ones by name."""
-    if name in VIGNETTING:
-        raw.add_vignetting(words)
-    elif name in REASON:
+    if name in REASON:
         notes.add("ignored", REASON[name])
+    elif name == "PIK":
+        notes.add("caution", PICKUP, None, line, command=" ".join((name, *words))[:60])
     else:
         notes.add_unknown(name, line)
 
@@ -163,6 +173,8 @@ class CodeVReading:
     returns: dict[int, str] = field(default_factory=dict)  # DAR, REV or BEN by the surface's id
     private: dict[str, Medium] = field(default_factory=dict)
     private_nm: list[float] | None = None
+    vignetting: dict[str, list[float]] = field(default_factory=dict)  # VUX, VLX, VUY and VLY
+    vignetting_line: int = 0
     at_focus: bool = False
     in_private: bool = False
     position: str = ""  # the name of the zoom position
@@ -357,14 +369,40 @@ def _label(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) ->
 
 def _radius(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
     """Read a radius or a curvature; a solve for it (CUY UMY −0.1) leaves the one that is stored."""
-    if command.words and command.words[0].isalpha():
-        reading.notes.add("ignored", REASON["SOL"])
+    if _solved(reading, command, surface):
         return
     surface.curvature = to_curvature(reading.number(command, 0, Message("radius")), command.name.startswith("RD"))
     reading.surfaces_by_number.pop(id(surface), None)
 
 
+SOLVES: dict[str, ParaxialSolve] = {
+    "UMY": ParaxialSolve("curvature", "angle"),
+    "UCY": ParaxialSolve("curvature", "angle", ray="chief"),
+    "IMY": ParaxialSolve("curvature", "incidence"),
+    "ICY": ParaxialSolve("curvature", "incidence", ray="chief"),
+    "HMY": ParaxialSolve("thickness", "height"),
+    "HCY": ParaxialSolve("thickness", "height", ray="chief"),
+}
+
+
+def _solved(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> bool:
+    """Take note of a solve such as CUY UMY −0.1 or THI HMY 0; return whether the command is one."""
+    name = command.words[0].upper() if command.words else ""
+    if not name.isalpha() or name.startswith("INF"):
+        return False
+    if name in SOLVES:
+        value = reading.number(command, 1, Message("number of a solve"), 0.0)
+        surface.solve(replace(SOLVES[name], value=value, name=f"{command.name[:3]} {name}"))
+    else:
+        told = "the solve {command} is not evaluated; the number that the file states is read"
+        words = " ".join((command.name, *command.words))[:60]
+        reading.notes.add("caution", told, surface.number, command.line, command=words)
+    return True
+
+
 def _thickness(reading: CodeVReading, command: CodeVCommand, surface: RawSurface) -> None:
+    if _solved(reading, command, surface):
+        return
     surface.thickness = distance(reading, command, 0, surface)
 
 
@@ -599,8 +637,12 @@ def _dispatch(reading: CodeVReading, command: CodeVCommand, name: str) -> None:
         listed = reading.fields.setdefault(name, [])
         listed[:] = _split_values(reading, command, "F", listed, Message("field"))
         reading.raw.field_line = command.line
+    elif name in VIGNETTING:
+        listed = reading.vignetting.setdefault(name, [])
+        listed[:] = _split_values(reading, command, "F", listed, Message("vignetting factor"))
+        reading.vignetting_line = reading.vignetting_line or command.line
     else:
-        note(reading.notes, reading.raw, name, command.words, command.line)
+        note(reading.notes, name, command.words, command.line)
 
 
 def _split_values(
@@ -702,7 +744,8 @@ def _finish(reading: CodeVReading) -> None:
             ("the file contains no surface (S) between object and image"), len(reading.source.lines)
         )
     if reading.at_focus:
-        raw.surfaces[-1].beyond_focus = reading.image.thickness if reading.image else 0.0
+        beyond = reading.image.thickness if reading.image else 0.0
+        raw.surfaces[-1].solve(ParaxialSolve("thickness", "height", beyond=beyond, name="PIM"))
     if reading.image is not None:
         last = raw.surfaces[-1]
         last.thickness += reading.image.thickness if last.thickness or not reading.at_focus else 0.0  # defocus
@@ -876,3 +919,9 @@ def _gather_fields(reading: CodeVReading) -> None:
     count = max(map(len, columns))
     padded = [[*column, *[0.0] * count][:count] for column in columns]
     reading.raw.field_kind, reading.raw.fields = FIELD_KINDS[kind], list(zip(*padded, strict=True))
+    if reading.vignetting:
+        lists = ([*reading.vignetting.get(name, ()), *[0.0] * count][:count] for name in VIGNETTING)
+        rows = list(zip(*lists, strict=True))
+        ends = tuple(PupilEnds(up, low, right) for up, low, right, _ in rows)
+        skew = "VLX" in reading.vignetting and any(right != left for _, _, right, left in rows)
+        reading.raw.vignetting = VignettingFactors(ends, reading.vignetting_line, skew)

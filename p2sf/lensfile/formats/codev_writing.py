@@ -11,7 +11,7 @@ from p2sf.lens.anamorphic import Anamorphic
 from p2sf.lens.even_terms import power_terms
 from p2sf.lens.freeform import Freeform, XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
 from p2sf.lens.grating import Grating, Phase
-from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.lens import USUAL_AIM, Lens, Surface
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
 from p2sf.lens.properties import CODE_V
 from p2sf.lens.shapes import Shape
@@ -54,6 +54,12 @@ def lens_to_seq(lens: Lens) -> str:
     Of a zoom it is the present position.
     """
     check_endings(lens, CODE_V)
+    if lens.aim != USUAL_AIM:
+        raise LensFileError(
+            "rays fill the paraxial entrance pupil (aim {aim}), but CODE V aims them at the stop; aim at the stop, or "
+            "save as TOML",
+            aim=lens.aim,
+        )
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
     private: dict[Medium, str] = {}
     rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _rows(lens, number)]

@@ -14,7 +14,7 @@ from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.formats.json_parts import JsonPart, read_json
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import PupilEnds, RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface, VignettingFactors
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
 
@@ -137,7 +137,8 @@ def _conditions(top: JsonPart, raw: RawLens, source: LensText) -> None:
         raise source.error("the fields are of type {kind}, which is not read", 1, kind=kind)
     raw.field_kind = FIELDS.get(kind.lower(), "angle")
     raw.fields = [(field.number("x", default=0.0), field.number("y", default=0.0)) for field in listed]
-    raw.add_vignetting(str(field.number(name, default=0.0)) for field in listed for name in ("vx", "vy"))
+    factors = ((field.number("vx", default=0.0), field.number("vy", default=0.0)) for field in listed)
+    raw.vignetting = VignettingFactors(tuple(PupilEnds(y, y, x) for x, y in factors))
     raw.telecentric = bool(fields.values.get("telecentric") or fields.values.get("object_space_telecentric"))
     for place, wave in enumerate(top.part("wavelengths").parts("wavelengths")):
         raw.wavelengths_um.append(

@@ -24,7 +24,15 @@ from p2sf.lensfile.configurations import MOST_COLUMNS, Configuration, assemble_a
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.formats.zemax_solves import SOLVES, Solve, SolvedSurfaces, apply_solves
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.raw import RawApertureKind, RawFieldKind, RawGlass, RawLens, RawSurface
+from p2sf.lensfile.raw import (
+    PupilEnds,
+    RawApertureKind,
+    RawFieldKind,
+    RawGlass,
+    RawLens,
+    RawSurface,
+    VignettingFactors,
+)
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number, whole
 from p2sf.messages import Message
@@ -81,13 +89,11 @@ VIGNETTING = ("VDXN", "VDYN", "VCXN", "VCYN", "VANN", "ZVDX", "ZVDY", "ZVCX", "Z
 RIMS = ("RECA", "ELAP", "SPID", "UDAD", "USAP")
 
 
-def note(notes: Notebook, raw: RawLens, words: list[str], surface: int | None, line: int) -> None:
+def note(notes: Notebook, words: list[str], surface: int | None, line: int) -> None:
     """Note a keyword that is not read: harmless ones once per reason, rims and unknown ones by name."""
     keyword = words[0].upper()
     if keyword in REASON:
         notes.add("ignored", REASON[keyword])
-    elif keyword in VIGNETTING:
-        raw.add_vignetting(words[1:])
     elif keyword in RIMS:
         notes.add(
             "caution",
@@ -140,6 +146,8 @@ class ZemaxReading:
     configurations: int = 1
     operands: list["Operand"] = field(default_factory=list)
     solves: list[Solve] = field(default_factory=list)
+    vignetting: dict[str, list[float]] = field(default_factory=dict)  # VDX, VDY, VCX, VCY and VAN
+    vignetting_line: int = 0
     line: int = 0
 
     @property
@@ -211,6 +219,15 @@ def _fields(reading: ZemaxReading, words: list[str]) -> None:
         reading.x_fields = values
     else:
         reading.y_fields = values
+
+
+def _vignetting(reading: ZemaxReading, words: list[str]) -> None:
+    """Read VDXN, VDYN, VCXN, VCYN or VANN: a number for each field. Those with a Z count unless all are 0."""
+    values = [number(word, Message("vignetting factor"), reading.source, reading.line) for word in words[1:]]
+    reading.vignetting_line = reading.vignetting_line or reading.line
+    name = words[0].upper().removeprefix("Z")[:3]
+    if any(values) or name not in reading.vignetting:
+        reading.vignetting[name] = values
 
 
 def _wavelength(reading: ZemaxReading, words: list[str]) -> None:
@@ -457,6 +474,7 @@ IN_SYSTEM = {
     "GCAT": _glass_catalogues,
     "MNUM": _configurations,
     **dict.fromkeys(APERTURES, _aperture),
+    **dict.fromkeys(VIGNETTING, _vignetting),
     **dict.fromkeys(("XFLN", "YFLN", "XFLD", "YFLD"), _fields),
 }
 
@@ -632,7 +650,7 @@ def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
     elif keyword == "COMM" and reading.surfaces:
         reading.surface.label = text[4:].strip()
     else:
-        note(reading.notes, reading.raw, words, reading.surface.number if reading.surfaces else None, reading.line)
+        note(reading.notes, words, reading.surface.number if reading.surfaces else None, reading.line)
 
 
 def _finish(reading: ZemaxReading) -> None:
@@ -658,6 +676,20 @@ def _finish(reading: ZemaxReading) -> None:
     count = min(reading.field_count or longest, longest)
     padded = [[*values, *[0.0] * count][:count] for values in (reading.x_fields, reading.y_fields)]
     raw.fields = list(zip(*padded, strict=True))
+    raw.vignetting = _factors(reading, count)
+
+
+def _factors(reading: ZemaxReading, count: int) -> VignettingFactors | None:
+    """Return the factors of the fields: the pupil goes from VDY ± (1 − VCY) along y, and ± (1 − VCX) about VDX."""
+    if not reading.vignetting:
+        return None
+    lists = (
+        [*reading.vignetting.get(name, ()), *[0.0] * count][:count] for name in ("VDX", "VDY", "VCX", "VCY", "VAN")
+    )
+    rows = list(zip(*lists, strict=True))
+    ends = tuple(PupilEnds(cy - dy, cy + dy, cx) for _, dy, cx, cy, _ in rows)
+    skew = any(dx or (turn and (dy or cx != cy)) for dx, dy, cx, cy, turn in rows)
+    return VignettingFactors(ends, reading.vignetting_line, skew)
 
 
 def _shape(reading: ZemaxReading, surface: RawSurface) -> None:

@@ -1,21 +1,32 @@
 """Pickups and solves of a .zmx, evaluated in the order of surfaces in every configuration.
 
 A file holds the values of the configuration that was shown when it was saved; in all others they follow from these
-lines. Solves for real rays, for angles and for a clear edge beyond conics keep the stored value.
+lines. Solves for paraxial rays and powers are left to `paraxial_solves`, which knows the media; those for real rays and
+for a clear edge beyond conics keep the stored value.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite
+from math import isfinite
+from typing import Literal
 
 from p2sf.lens.shapes import Conic
-from p2sf.lensfile.raw import RawSurface
+from p2sf.lensfile.raw import ParaxialSolve, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number, whole
 from p2sf.messages import Message
 
 CURVATURE_PICKUP = "4"  # the kind of solve in a CURV line
 FIXED = ("0", "1")  # and of a value or a variable
+F_NUMBER = "11"
+CURVATURE_SOLVES: dict[str, tuple[str, Literal["marginal", "chief"]]] = {
+    "2": ("angle", "marginal"),
+    "3": ("angle", "chief"),
+    "5": ("incidence", "marginal"),
+    "6": ("incidence", "chief"),
+    "7": ("aplanatic", "marginal"),
+    "8": ("power", "marginal"),
+}
 
 
 @dataclass(frozen=True)
@@ -69,10 +80,28 @@ def apply_solves(solves: Sequence[Solve], lens: SolvedSurfaces) -> None:
             SOLVES[solve.name](solve, lens)
 
 
+def _follow(lens: SolvedSurfaces, solve: Solve, found: ParaxialSolve) -> None:
+    """Let a curvature or a thickness follow from a ray, in place of the value of the configuration that was shown."""
+    surface = lens.surfaces[solve.surface]
+    surface.solve(found)
+    if lens.configurations > 1:
+        setattr(surface, found.of, 0.0)
+
+
 def _curvature(solve: Solve, lens: SolvedSurfaces) -> None:
     """Evaluate CURV value 4 surface scale: a curvature that is a multiple of another."""
     kind, *_ = solve.words[1:2] or ("0",)
     if kind in FIXED:
+        return
+    if kind in CURVATURE_SOLVES:
+        of, ray = CURVATURE_SOLVES[kind]
+        value = lens.value(solve, 2) if of in ("angle", "power") else 0.0
+        _follow(lens, solve, ParaxialSolve("curvature", of, value, ray, name=f"CURV {kind}"))
+        return
+    if kind == F_NUMBER:
+        stated = lens.value(solve, 2)
+        angle = -1 / (2 * stated) if stated else 0.0
+        _follow(lens, solve, ParaxialSolve("curvature", "angle", angle, name=f"CURV {kind}"))
         return
     other = lens.picked(solve, 2) if kind == CURVATURE_PICKUP else None
     if other is None:
@@ -130,13 +159,11 @@ def _edge(solve: Solve, lens: SolvedSurfaces) -> None:
 
 
 def _marginal_height(solve: Solve, lens: SolvedSurfaces) -> None:
-    """Evaluate MAZH height zone: at height 0 of paraxial rays, zone 0, the next surface stands at their focus."""
-    if lens.value(solve, 0, inf) or lens.value(solve, 1):
+    """Evaluate MAZH height zone: the height of paraxial rays, zone 0, at the next surface."""
+    if not solve.words or lens.value(solve, 1):
         lens.keep(solve)
         return
-    lens.surfaces[solve.surface].beyond_focus = 0.0
-    if lens.configurations > 1:
-        lens.surfaces[solve.surface].thickness = 0.0  # of the configuration that was shown
+    _follow(lens, solve, ParaxialSolve("thickness", "height", lens.value(solve, 0), name=solve.name))
 
 
 SOLVES: dict[str, Callable[[Solve, SolvedSurfaces], None]] = {

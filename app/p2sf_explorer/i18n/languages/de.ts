@@ -1844,7 +1844,6 @@
 <message><source>six coefficients</source><translation>sechs Koeffizienten</translation></message>
 <message><source>six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed</source><translation>sechs Koeffizienten halten 1 − R² ≤ {error:.1e} ein, erlaubt ist {allowed:.1e}</translation></message>
 <message><source>size of type</source><translation>Schriftgröße</translation></message>
-<message><source>solves and pickups, whose stored values are read</source><translation>Löse- und Übernahmevorschriften, deren gespeicherte Werte gelesen werden</translation></message>
 <message><source>source depth</source><translation>Objektabstand</translation></message>
 <message><source>spatial frequency</source><translation>Ortsfrequenz</translation></message>
 <message><source>spectral lines have no power per wavelength; take their wavelengths one by one</source><translation>Spektrallinien haben keine Leistung je Wellenlänge; ihre Wellenlängen einzeln nehmen</translation></message>
@@ -2238,8 +2237,30 @@
 <message><source>vane width</source><translation>Strebenbreite</translation></message>
 <message><source>vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field</source><translation>die Streben treffen sich außerhalb des freien Teils der Pupille; {parameter} ausschalten oder das Feld verkleinern</translation></message>
 <message><source>vd is {value}; give an Abbe number between 10 and 120</source><translation>vd ist {value}; eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
-<message><source>vignetting factors (up to {value:g}) are not applied, and no surface but the stop states a rim; the pupil is full at every field</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, und außer der Blende gibt keine Fläche einen Rand an; die Pupille ist bei jedem Feld voll</translation></message>
-<message><source>vignetting factors (up to {value:g}) are not needed: the rims of the surfaces cut the pencil themselves</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht nötig: Die Ränder der Flächen beschneiden das Bündel selbst</translation></message>
+<message><source>vignetting factors (up to {value:g}) are not applied, since {reason}; only rims clip</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, da {reason}; nur Ränder beschneiden</translation></message>
+<message><source>where rims clip, those of the file end the pupil within {missed:.2g} of its radius of where its vignetting factors (up to {value:g}) end it</source><translation>wo Ränder beschneiden, endet die Pupille durch die der Datei auf {missed:.2g} ihres Radius dort, wo ihre Vignettierungsfaktoren (bis {value:g}) sie enden lassen</translation></message>
+<message><source>vignetting factors (up to {value:g}) become clear rims of the surfaces {surfaces}; where rims clip, the pupil ends within {missed:.2g} of its radius of where the factors end it</source><translation>Vignettierungsfaktoren (bis {value:g}) werden zu freien Rändern der Flächen {surfaces}; wo Ränder beschneiden, endet die Pupille auf {missed:.2g} ihres Radius dort, wo die Faktoren sie enden lassen</translation></message>
+<message><source>some are of fields along x, or turn or shift the pupil along x</source><translation>einige gehören zu Feldern in x oder drehen oder verschieben die Pupille in x</translation></message>
+<message><source>the file states no fields</source><translation>die Datei keine Felder angibt</translation></message>
+<message><source>a factor of 1 or more leaves no pupil</source><translation>ein Faktor von 1 oder mehr keine Pupille übrig lässt</translation></message>
+<message><source>rays at the edge of a vignetted pupil miss a surface</source><translation>Strahlen am Rand einer vignettierten Pupille eine Fläche verfehlen</translation></message>
+<message><source>no rim about the axis stops these rays and none of another field</source><translation>kein Rand um die Achse diese Strahlen aufhält und keine eines anderen Feldes</translation></message>
+<message><source>a rim for vignetting factors</source><translation>ein Rand für Vignettierungsfaktoren</translation></message>
+<message><source>its {what} by the solve {solve} is {found:.7g} ({unit}); that of the file, {old:.7g}, is kept</source><translation>ihre {what} nach dem Solve {solve} ist {found:.7g} ({unit}); die der Datei, {old:.7g}, bleibt</translation></message>
+<message><source>its {what} by the solve {solve} is {found:.9g} ({unit})</source><translation>ihre {what} nach dem Solve {solve} ist {found:.9g} ({unit})</translation></message>
+<message><source>surface {surface}: its {what} follows from the solve {solve}, {reason}; state the number instead</source><translation>Fläche {surface}: ihre {what} folgt aus dem Solve {solve}, {reason}; geben Sie statt dessen die Zahl an</translation></message>
+<message><source>whose ray meets the surface on the axis, or where nothing refracts</source><translation>deren Strahl die Fläche auf der Achse trifft oder wo nichts bricht</translation></message>
+<message><source>before which no surface stands</source><translation>vor der keine Fläche steht</translation></message>
+<message><source>whose ray leaves parallel to the axis</source><translation>deren Strahl parallel zur Achse austritt</translation></message>
+<message><source>whose ray depends on surfaces behind it, before the stop</source><translation>deren Strahl von Flächen dahinter, vor der Blende, abhängt</translation></message>
+<message><source>whose ray depends on the whole lens by its aperture</source><translation>deren Strahl durch die Öffnung vom ganzen Objektiv abhängt</translation></message>
+<message><source>whose entrance pupil is at infinity</source><translation>deren Eintrittspupille im Unendlichen liegt</translation></message>
+<message><source>whose chief ray depends on the whole lens by its fields</source><translation>deren Hauptstrahl durch die Felder vom ganzen Objektiv abhängt</translation></message>
+<message><source>the pickup {command} is not evaluated; the numbers that the file states are read</source><translation>der Bezug {command} wird nicht ausgewertet; gelesen sind die Zahlen, die die Datei angibt</translation></message>
+<message><source>the solve {command} is not evaluated; the number that the file states is read</source><translation>der Solve {command} wird nicht ausgewertet; gelesen ist die Zahl, die die Datei angibt</translation></message>
+<message><source>solves, whose stored values are read</source><translation>Solves, deren gespeicherte Werte gelesen sind</translation></message>
+<message><source>vignetting factor</source><translation>Vignettierungsfaktor</translation></message>
+<message><source>rays fill the paraxial entrance pupil (aim {aim}), but CODE V aims them at the stop; aim at the stop, or save as TOML</source><translation>Strahlen füllen die paraxiale Eintrittspupille (Ziel {aim}), CODE V zielt aber auf die Blende; zielen Sie auf die Blende, oder speichern Sie als TOML</translation></message>
 <message><source>vignetting factors, all of them 0</source><translation>Vignettierungsfaktoren, alle 0</translation></message>
 <message><source>wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>wavelength number</source><translation>Nummer der Wellenlänge</translation></message>
