@@ -292,11 +292,11 @@ def _blurred(
     box, planes, inside = _spread(slab, channels, part.kernels.shape[-1] // 2, shade.shape)
     planes[:channels] *= shade[box]
     level = np.pad(slab.level, [(i.start, n - i.stop) for i, n in zip(inside, planes.shape[1:], strict=True)], "edge")
-    even = len(planes) == channels and slab.level.max() > slab.level.min()
-    if even:
+    sloping = len(planes) == channels and slab.level.max() > slab.level.min()
+    if sloping:
         planes = np.append(planes, np.ones_like(planes[:1]), axis=0)
     planes = blur(planes, level, part, (box[0].start, box[1].start))
-    if even:  # where the blur changes from place to place, points do not lose light to others
+    if sloping:  # where the blur changes from place to place, points do not lose light to others
         planes = planes[:channels] / planes[channels:]
     own = shade[slab.box]
     for number in range(len(gains) - 1, -1, -1):

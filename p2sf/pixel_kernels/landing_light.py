@@ -1,12 +1,12 @@
 """Kernels of pixels far wider than λ/2NA from where the rays of fitted pupils land: no wave is summed."""
 
+from functools import lru_cache
+
 import numpy as np
 
-from p2sf.pixel_kernels.pupil_stack import PupilStack
-from p2sf.pupil.basis import at_nodes
-from p2sf.pupil.domain import HALF
+from p2sf.pixel_kernels.pupil_stack import PupilStack, turn_pupils
 
-NODES = 40, 80
+NODES = 40, 96  # rings and directions
 
 
 def landing_kernels(
@@ -18,27 +18,43 @@ def landing_kernels(
     fields lie ``angles`` radians from +y towards +x, and ``shifts_um``, (pupils, 2), displace them, x and y up. Pupil
     masks are left out.
     """
-    at = at_nodes(pupils.basis, NODES)
-    of_xi, of_eta = at.map_slopes  # the phase has the terms of η
-    (right, up), (eta_u, eta_v), (xi_u, xi_v) = (
-        (form @ across, form @ along)
-        for form, (across, along) in ((pupils.phase, of_eta), (pupils.eta, of_eta), (pupils.xi, of_xi))
+    turned, order = turn_pupils(pupils, angles), pupils.order
+    value, by_u, by_v = _powers(order)
+
+    def at(form: np.ndarray, powers: np.ndarray) -> np.ndarray:
+        found: np.ndarray = form.reshape(len(form), -1) @ powers
+        return found
+
+    area = np.abs(at(turned.xi, by_u) * at(turned.eta, by_v) - at(turned.xi, by_v) * at(turned.eta, by_u))
+    inside = at(turned.xi, value) ** 2 + at(turned.eta, value) ** 2 <= 1
+    for rim in turned.rims:
+        inside &= at(rim, value) > 0
+    light = np.where(inside, area**2, 0.0)  # nodes have equal areas
+    if turned.weight is not None:
+        light *= at(turned.weight, value) ** 2
+    x, y = (
+        shift[:, None] - at(turned.phase, slope) / turned.radius[:, None]
+        for shift, slope in zip(shifts_um.T, (by_u, by_v), strict=True)
     )
-    area = np.abs(xi_u * eta_v - xi_v * eta_u)
-    inside = (pupils.eta @ at.values.fy) ** 2 + (pupils.xi @ at.values.fx) ** 2 <= 1
-    light = np.where(inside & (pupils.rims @ at.values.fy > 0).all(1), at.nodes.weight * area**2, 0.0)
-    if pupils.weight.size:
-        light *= (pupils.weight @ at.values.fy) ** 2
-    right, up = (-slope / pupils.radius[:, None] for slope in (right, up))
-    if pupils.basis.domain is HALF:  # the other half is its mirror image
-        right, up, light = np.concatenate([right, -right], 1), np.tile(up, 2), np.tile(light, 2)
-    cosine, sine = np.cos(angles)[:, None], np.sin(angles)[:, None]
-    x = right * cosine + up * sine + shifts_um[:, :1]
-    y = up * cosine - right * sine + shifts_um[:, 1:]
-    return [
-        _shared(half - y_k / pixel_um, half + x_k / pixel_um, light_k, 2 * half + 1)
-        for half, x_k, y_k, light_k in zip(halves.tolist(), x, y, light, strict=True)
-    ]
+    points = zip(halves.tolist(), x / pixel_um, y / pixel_um, light, strict=True)
+    return [_shared(half - up, half + across, share, 2 * half + 1) for half, across, up, share in points]
+
+
+@lru_cache(maxsize=8)
+def _powers(order: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return uⁱ·vʲ and its slopes by u and v, (terms, nodes) each, at nodes of equal areas over the unit disc."""
+    rings, directions = NODES
+    radius = np.sqrt((np.arange(rings) + 0.5) / rings)
+    angle = 2 * np.pi * (np.arange(directions) + np.arange(rings)[:, None] / rings) / directions
+    u, v = (radius[:, None] * np.cos(angle)).ravel(), (radius[:, None] * np.sin(angle)).ravel()
+    exponent = np.arange(order + 1)[:, None]
+    (of_u, slope_u), (of_v, slope_v) = (
+        (x**exponent, exponent * x ** np.maximum(exponent - 1, 0)) for x in (u, v)
+    )  # fmt: skip
+    value, by_u, by_v = (
+        (one[:, None] * two).reshape(-1, u.size) for one, two in ((of_u, of_v), (slope_u, of_v), (of_u, slope_v))
+    )
+    return value, by_u, by_v
 
 
 def _shared(row: np.ndarray, column: np.ndarray, light: np.ndarray, size: int) -> np.ndarray:
@@ -48,9 +64,12 @@ def _shared(row: np.ndarray, column: np.ndarray, light: np.ndarray, size: int) -
     top, left = row.astype(int), column.astype(int)
     down, across = row - top, column - left
     first = top * size + left
-    corners = (
-        (0, (1 - down) * (1 - across)), (1, (1 - down) * across), (size, down * (1 - across)), (size + 1, down * across)
-    )  # fmt: skip
-    total = sum(np.bincount(first + step, light * share, size * size) for step, share in corners)
+    corners = {
+        0: (1 - down) * (1 - across),
+        1: (1 - down) * across,
+        size: down * (1 - across),
+        size + 1: down * across,
+    }
+    total = sum(np.bincount(first + step, light * share, size * size) for step, share in corners.items())
     kernel: np.ndarray = (total / np.sum(total)).reshape(size, size).astype(np.float32)
     return kernel
