@@ -73,7 +73,8 @@ class KeptPicture:
     """What of a picture with depth does not depend on the setting of the lens: its slabs, from far to near.
 
     ``scene`` has the sensor, grown to whole coarse pixels; ``shape`` is the picture's own. ``powers``: the mean square
-    of each octave by level of depth, (LEVELS,); ``contrast``: the standard deviation of the picture.
+    of each octave by level of depth, (LEVELS,); ``contrast``: the standard deviation of the picture; ``gradient``: the
+    RMS step from pixel to pixel. ``moved_px``: how far the lens's distortion is from that of the picture.
     """
 
     scene: Scene
@@ -82,6 +83,18 @@ class KeptPicture:
     effort: Effort
     powers: list[np.ndarray]
     contrast: float
+    gradient: float
+    moved_px: float = 0.0
+
+    def in_scene(self, scene: Scene, moved_px: float) -> "KeptPicture":
+        """Return the same for another setting of the lens, whose distortion moves pixels so far from where they are."""
+        rows, columns = (n - own for n, own in zip(self.whole_shape, self.shape, strict=True))
+        return replace(self, scene=replace(scene, sensor=_grown(scene.sensor, rows, columns)), moved_px=moved_px)
+
+    @property
+    def whole_shape(self) -> tuple[int, int]:
+        """Return the rows and columns of whole coarse pixels."""
+        return self.scene.sensor.rows, self.scene.sensor.columns
 
     @property
     def times(self) -> int:
@@ -115,7 +128,12 @@ def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: Se
     cut = cut_into_slabs(placed, levels, effort.halvings)
     by_slab = [np.sum([octave_powers(slab, number) for slab in cut], axis=0) for number in range(effort.halvings)]
     powers = [4.0**number * power / levels.size for number, power in enumerate(by_slab)]
-    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()))
+    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()), _gradient(placed))
+
+
+def _gradient(planes: np.ndarray) -> float:
+    """Return the RMS step from pixel to pixel, down and across together."""
+    return float(np.sqrt(sum(np.mean(np.square(np.diff(planes, axis=axis))) for axis in (-1, -2))))
 
 
 def _grown(sensor: Sensor, rows: int, columns: int) -> Sensor:
@@ -239,10 +257,14 @@ def halved_kernels(nodes: KernelNodes) -> KernelNodes:
 
 
 class FocusedPicture(NamedTuple):
-    """Linear light, (rows, columns, channels) float32, and the RMS error expected of it, of white."""
+    """Linear light, (rows, columns, channels) float32, the RMS error expected of it, of white, and its ``kernels``.
+
+    These are of two pixels' pitch where the picture was halved before the blur.
+    """
 
     values: np.ndarray
     error: float
+    kernels: KernelNodes
 
 
 @one_blas_thread
@@ -252,7 +274,7 @@ def focused_picture(kept: KeptPicture, camera: Lens) -> FocusedPicture:
     Raises GeometryError where rays of the field do not reach the sensor.
     """
     made, effort, pixel = setting(camera, kept), kept.effort, kept.scene.sensor.pixel_um
-    nodes = kernel_nodes(made, pixel * max(1, kept.times // 2), kept)
+    nodes = shown = kernel_nodes(made, pixel * max(1, kept.times // 2), kept)
     responses = [_fine_responses(made, pixel * 2**number, kept) for number in range(effort.halvings - 1)]
     if effort.halvings:
         responses.append(octave_responses(nodes))
@@ -271,17 +293,18 @@ def focused_picture(kept: KeptPicture, camera: Lens) -> FocusedPicture:
         behind *= 1 - planes[len(behind) :]
         behind += planes[: len(behind)]
     assert out is not None
-    return FocusedPicture(np.moveaxis(out[:, : kept.shape[0], : kept.shape[1]], 0, -1), error)
+    return FocusedPicture(np.moveaxis(out[:, : kept.shape[0], : kept.shape[1]], 0, -1), error, shown)
 
 
 def expected_error(kept: KeptPicture, part: KernelComponents, spreads: list[np.ndarray]) -> float:
     """Return the RMS error expected of a picture, of white, times a margin.
 
     An octave is off by what the kernels' response varies within it (``spreads``, its variance, as `over_levels` has
-    it); the coarse picture by what the components leave of the kernels, of its contrast.
+    it); the coarse picture by what the components leave of the kernels, of its contrast; all of it where it has moved.
     """
+    moved = (kept.moved_px * kept.gradient) ** 2
     octaves = sum(float(power @ spread.mean((0, 1, 2))) for power, spread in zip(kept.powers, spreads, strict=True))
-    return float(MARGIN * np.sqrt(octaves + (part.left * kept.contrast) ** 2 + LEAST_ERROR**2))
+    return float(MARGIN * np.sqrt(octaves + (part.left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
 
 
 def _blurred(

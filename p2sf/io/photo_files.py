@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 
@@ -46,16 +47,18 @@ def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Pho
     linear, in which light above white is kept. HEIF needs pillow-heif, OpenEXR its own library. Raises RequestError for
     a file of another kind, or without 1 or 3 channels.
     """
-    raw = _samples(Path(path))
+    raw = read_samples(Path(path))
     depth = {"u1": "8", "u2": "16"}.get(raw.dtype.str[1:], "float")
     encoding = encoding or ("linear" if depth == "float" else "srgb")
     check_encoding(encoding)
-    values = _channels(raw, path).astype(np.float32)
-    if depth != "float":
-        values /= np.float32(np.iinfo(raw.dtype).max)
-    if not np.isfinite(values).all():
-        raise RequestError("{path} holds values that are not finite; replace them first", path=str(path))
-    return Photo(linear_from_srgb(values) if encoding == "srgb" else values, encoding, depth)
+    values = _channels(raw, path)
+    if depth == "float":
+        if not np.isfinite(values).all():
+            raise RequestError("{path} holds values that are not finite; replace them first", path=str(path))
+        values = values.astype(np.float32)
+        return Photo(linear_from_srgb(values) if encoding == "srgb" else values, encoding, depth)
+    codes = np.arange(np.iinfo(raw.dtype).max + 1, dtype=np.float32) / np.float32(np.iinfo(raw.dtype).max)
+    return Photo((linear_from_srgb(codes) if encoding == "srgb" else codes)[values], encoding, depth)
 
 
 def write_photo(
@@ -137,7 +140,7 @@ def photo_shape(path: str | os.PathLike[str]) -> tuple[int, int]:
     from PIL import Image, UnidentifiedImageError
 
     if Path(path).suffix.lower() in HEIF:
-        _open_heif(Path(path))
+        _let_pillow_open_heif(path)
     try:
         with Image.open(path) as picture:
             turned = picture.getexif().get(ORIENTATION, 1) in SIDEWAYS and picture.format != "TIFF"
@@ -148,7 +151,8 @@ def photo_shape(path: str | os.PathLike[str]) -> tuple[int, int]:
         return read_photo(path).values.shape[:2]
 
 
-def _samples(path: Path) -> np.ndarray:
+def read_samples(path: Path) -> np.ndarray:
+    """Return the samples of a picture file as they are stored, upright; RequestError where it cannot be read."""
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -164,21 +168,37 @@ def _samples(path: Path) -> np.ndarray:
     if data[:4] == EXR_MARK:
         return _from_exr(path, len(data))
     if data[4:8] == b"ftyp":
-        _open_heif(path)
+        _let_pillow_open_heif(path)
         return _by_pillow(data, path, ("HEIF",))
     return _by_pillow(data, path, ("JPEG",) if data[:3] == b"\xff\xd8\xff" else ("PNG",))
 
 
-def _open_heif(path: Path) -> None:
-    """Let Pillow open HEIF; RequestError where pillow-heif is not installed."""
+def pillow_heif(path: str | os.PathLike[str]) -> Any:
+    """Return the library that reads HEIF; RequestError where it is not installed."""
     try:
-        from pillow_heif import register_heif_opener
+        import pillow_heif
     except ImportError as error:
         raise RequestError(
             "{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG",
             path=str(path),
         ) from error
-    register_heif_opener()
+    return pillow_heif
+
+
+def open_heif(path: str | os.PathLike[str]) -> Any:
+    """Return a HEIF file, opened; RequestError where it is none, or damaged."""
+    library = pillow_heif(path)
+    try:
+        return library.open_heif(path)
+    except (OSError, ValueError, RuntimeError, EOFError) as error:
+        raise RequestError(
+            "{path} is a HEIF that cannot be read ({why}); save it again", path=str(path), why=str(error)
+        ) from error
+
+
+def _let_pillow_open_heif(path: str | os.PathLike[str]) -> None:
+    """Let Pillow open HEIF; RequestError where pillow-heif is not installed."""
+    pillow_heif(path).register_heif_opener()
 
 
 def _exr_library(path: str | os.PathLike[str]) -> ModuleType:

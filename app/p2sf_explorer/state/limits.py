@@ -1,5 +1,8 @@
 """Allowed values of the entries of a State: choices, ranges, kinds. Uses no Qt."""
 
+from math import inf
+
+from p2sf.io.depth_files import MEANINGS
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
@@ -23,6 +26,7 @@ CHOICES = {
     "keep_focus": ("off", "paraxial", "rms"),
     "photo_show": ("lens", "sharpened", "axis", "taken", "psfs"),
     "photo_look": ("split", "side", "blink"),
+    "photo_depth_meaning": MEANINGS,
     "measured_encoding": ("automatic", "srgb", "linear"),
     "rail_side": ("right", "bottom"),
     "colours": ("standard", "viridis", "cividis", "grey"),
@@ -61,6 +65,8 @@ RANGES: dict[str, tuple[float, float, Message, str]] = {
     "blur_um": (0.01, 10000.0, Message("blur to tolerate"), "µm"),
     "playback_seconds": (0.1, 600.0, Message("duration of a sweep"), "s"),
     "photo_pixel_um": (0.1, 1000.0, Message("pixel of the photo"), "µm"),
+    "photo_near_mm": (1.0, inf, Message("nearest depth of the photo"), "mm"),
+    "photo_far_mm": (1.0, inf, Message("farthest depth of the photo"), "mm"),
     "measured_pixel_um": (0.05, 1000.0, Message("pixel of the measured picture"), "µm"),
     "photo_split": (0.0, 1.0, Message("split of the photo"), ""),
     "exaggerated": (1, 1000, Message("exaggeration of tilts and decentres"), ""),
@@ -121,6 +127,7 @@ PLAIN: dict[str, type] = {
     "language": str,
     "photo_source": str,
     "photo_full": bool,
+    "photo_depths": str,
     "measured_picture": str,
     "measured_beside": bool,
     "lesson_name": str,

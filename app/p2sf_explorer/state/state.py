@@ -333,6 +333,8 @@ class PhotoView:
 
     ``full`` then takes every pixel of the photo. ``look`` is how before and after are put to the eye. Where ``show`` is
     "taken", the photo was taken through the lens: its own pixels are of ``pixel_um``, and ``full`` takes all of them.
+    ``depths``: "" for one distance, "slope", "steps", "photo" for its own, or the path of a map, whose numbers have a
+    ``depth_meaning`` between ``near_mm`` and ``far_mm``.
     """
 
     PREFIX: ClassVar[str] = "photo_"
@@ -343,6 +345,10 @@ class PhotoView:
     split: float = 0.5
     full: bool = False
     look: str = "split"
+    depths: str = ""
+    depth_meaning: str = "near_white"
+    near_mm: float = 1000.0
+    far_mm: float = 10000.0
 
     def __post_init__(self) -> None:
         _check_entries(self)

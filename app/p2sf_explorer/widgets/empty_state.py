@@ -16,7 +16,8 @@ class EmptyState(QWidget):
 
     def __init__(self, title: str, words: str, buttons: tuple[QWidget, ...], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        head, text = QLabel(title, self), QLabel(words, self)
+        head = QLabel(title, self)
+        text = self.words = QLabel(words, self)
         head.setObjectName("sentence")
         text.setObjectName("muted")
         for label in (head, text):

@@ -303,8 +303,8 @@ def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
 
 def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     window.store.update(photo_source="/nowhere/photo.png")
-    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text)
-    assert image_panel.widget.readout.text() == "no picture"
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.empty.words.text())
+    assert image_panel.widget.readout.text() == "no picture" and image_panel.empty.isVisible()
     window.store.update(psf_scale="log")  # nothing the picture depends on
     assert image_panel.widget.readout.text() == "no picture" and not image_panel.headline.isVisible()
     assert not image_panel.save.isEnabled() and not image_panel.words.button.isEnabled()
@@ -312,7 +312,7 @@ def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):
     assert "there is no picture yet" in window.banner.text.text().lower()
     window.store.update(photo_source="text")
     qtbot.waitUntil(lambda: not image_panel._stale())
-    assert not image_panel.overlay.text and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
+    assert not image_panel.empty.isVisible() and image_panel.save.isEnabled() and image_panel.words.button.isEnabled()
 
 
 def test_shown_pictures_have_the_scene_left_and_the_image_right(found):
@@ -407,7 +407,7 @@ def test_a_photo_taken_by_a_tilted_sensor_is_sharpened_by_a_plan(tmp_path, clip)
 @pytest.mark.parametrize("view", [{"photo_show": "taken"}, {"photo_pixel_um": None, "photo_full": True}])
 def test_a_photo_that_is_missing_leaves_the_button_to_choose_another(window, image_panel, qtbot, tmp_path, view):
     window.store.update(**view, photo_source=str(tmp_path / "moved.png"))
-    qtbot.waitUntil(lambda: "cannot be read" in image_panel.overlay.text)
+    qtbot.waitUntil(lambda: "cannot be read" in image_panel.empty.words.text())
     assert image_panel.show_box.currentData() == window.store.state.photo.show
     at = image_panel.open.mapTo(window, image_panel.open.rect().center())
     assert window.childAt(at) is image_panel.open

@@ -1,10 +1,12 @@
 """A photo through the present lens: a coarse picture, a planned one, and one sharpened by its own PSFs.
 
-Only `question` runs on the live path; a worker runs `coarse` (some 0.2 s) and `planned_picture` (some seconds).
+Only `question` runs on the live path; a worker runs `moving` or `coarse` (some 0.1 s) and `planned_picture` (some
+seconds).
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import ceil, exp, hypot, prod
 from pathlib import Path
@@ -13,35 +15,42 @@ from time import perf_counter
 
 import numpy as np
 
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees, vergence
 from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
+from p2sf.image.components import KernelNodes
 from p2sf.image.deblur import photo_noise, psnr, wiener, with_one_kernel
+from p2sf.image.focus_pull import MOVING, KeptPicture, focused_picture, keep
 from p2sf.image.lattice import Lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
+from p2sf.image.slabs import LEVELS
+from p2sf.io.depth_files import DepthScale
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_image_height
-from p2sf.pixel_kernels import RAYS, Recipe
+from p2sf.pixel_kernels import RAYS, Recipe, SensorMap
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
 from p2sf.scene.planning.pricing import computed_counts
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.depths import FLAT, ONE_DISTANCE, OWN, DepthChoice, depth_map
 from p2sf_explorer.compute.views.photos import (
     MOST_PIXELS,
     NOISE,
+    change_time,
     channels_of,
     cut_away,
     full_shape,
     own_shape,
     scene_values,
 )
+from p2sf_explorer.state.state import State
 
 SEEN = 0.005  # of a photo's side: less is a pixel or two
 
@@ -128,7 +137,7 @@ def frame_notes(photo: str, shape: tuple[int, int]) -> tuple[Message, Message] |
 
 
 ROWS, COLUMNS = 208, 312
-ENLARGED = (1, 1.5, 2, 2.5, 3, 4, 5)  # times so many, where the panel has room for them
+ENLARGED = (1, 1.5, 2, 2.5, 3, 3.5, 4, 5)  # times so many, where the panel has room for them
 MOST_SAMPLES = 24  # of λ/2NA across a pixel: a plan of larger pixels takes minutes, and they hide what it is about
 TOO_WIDE, TOO_LARGE = Message("No plan: these PSFs are too wide"), Message("No plan: these pixels hide the PSF")
 UNMEASURED = {
@@ -146,7 +155,7 @@ NO_PIXEL = "choose how large the pixels of the camera are; To Image in Measured 
 FILTERED = "Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo."
 TOO_MANY = "the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it"
 CELL_PX = 24  # of the map of PSFs, at least
-ROWS_AT_ONCE = 256
+ROWS_AT_ONCE, FINEST = 64, 2**16 - 1
 CORNER = 0.97  # of the way to the outermost chief ray
 BEYOND = 1.02  # of the widest field: image heights of colours, and of near objects, differ by that
 TOLERANCE = 0.1  # relative error of a pixel's kernel: less cannot be seen
@@ -157,11 +166,24 @@ USUAL_STEPS = 60  # a plan has 140 to 220 measurements, nobody knows how many, a
 TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, where the outermost chief ray is lost
 
 
+@dataclass(frozen=True, eq=False)
+class PsfsByDepth:
+    """The PSFs of a picture at some depths, ``vergences`` 1/mm from far to near."""
+
+    lattices: tuple[Lattice, ...]
+    vergences: np.ndarray
+
+    def nearest(self, depth_mm: float) -> Lattice:
+        """Return those nearest to a depth."""
+        return self.lattices[int(np.abs(self.vergences - vergence(depth_mm)).argmin())]
+
+
 @dataclass(frozen=True)
 class ImageRequest:
     """Everything the picture depends on; ``pixel_um`` None takes the lens's whole field, ``shape`` is the sensor's.
 
-    ``grey_nm``: the wavelength of a photo without colours that the lens took; 0 where it does not matter.
+    ``grey_nm``: the wavelength of a photo without colours that the lens took; 0 where it does not matter. ``depths``:
+    how far away its parts are, all of it at ``depth_mm`` where it has one distance.
     """
 
     lens: Lens
@@ -173,6 +195,7 @@ class ImageRequest:
     clip: bool = False
     shape: tuple[int, int] = (ROWS, COLUMNS)
     grey_nm: float = 0.0
+    depths: DepthChoice = ONE_DISTANCE
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,6 +204,7 @@ class ImageResult:
 
     ``quality`` is "coarse" or "planned"; ``headline`` and ``notes`` say what was computed and why, ``cut`` what of the
     photo is not taken, ``no_plan`` why no plan follows a coarse picture, ``alike`` how near the sharpened one comes.
+    ``error``: the RMS error expected of a moving picture, of white. ``psfs``: those of a picture with depths.
     """
 
     question: ImageRequest
@@ -195,6 +219,13 @@ class ImageResult:
     cut: Message | None = None
     no_plan: Message | None = None
     alike: tuple[Message, ...] = ()
+    error: float | None = None
+    psfs: PsfsByDepth | None = None
+
+    @cached_property
+    def painted(self) -> np.ndarray:
+        """Return what is seen after the lens, as `pixels`."""
+        return pixels(self.after)
 
 
 def question(live: Live) -> ImageRequest:
@@ -207,7 +238,19 @@ def question(live: Live) -> ImageRequest:
     photo, optics = state.photo, state.optics
     shape = _known_shape(full_shape, photo.source) if whole and photo.full else None
     what = photo.source, photo.show, photo.pixel_um
-    return ImageRequest(setup.lens, optics.depth_mm, *what, centre, optics.clip, shape or (ROWS, COLUMNS))
+    depths = depth_choice(state) if photo.show == "lens" else ONE_DISTANCE
+    far = optics.depth_mm if depths.source == FLAT else depths.scale.far_mm
+    sensor = shape or (ROWS, COLUMNS)
+    return ImageRequest(setup.lens, far, *what, centre, optics.clip, sensor, depths=depths)
+
+
+def depth_choice(state: State) -> DepthChoice:
+    """Return where the depths of the state's picture come from; its numbers only where they matter."""
+    photo = state.photo
+    if photo.depths in (FLAT, OWN):
+        return DepthChoice(photo.depths)
+    low, high = sorted((photo.near_mm, photo.far_mm))
+    return DepthChoice(photo.depths, DepthScale(photo.depth_meaning, low, high))
 
 
 def on_stage(request: ImageRequest, room: tuple[int, int]) -> ImageRequest:
@@ -281,6 +324,91 @@ def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     return replace(_answer(small, coarse_plan, watch, begun, notes, lattice), question=request, no_plan=why_not)
 
 
+MOST_MOVED_PX = 1.0  # of a kept picture, before it is made anew
+
+
+class Keeper:
+    """The picture that is kept from one setting of a lens to the next, one at a time; for one thread."""
+
+    def __init__(self) -> None:
+        self._key: tuple[object, ...] = ()
+        self._kept: KeptPicture | None = None
+        self._seen: SensorMap | None = None
+
+    def kept(self, request: ImageRequest, values: np.ndarray, scene: Scene, seen: SensorMap) -> KeptPicture:
+        """Return what is kept of a picture, made anew where it is another, or distorted otherwise."""
+        stamps = change_time(request.photo), change_time(request.depths.source)
+        key = (request.photo, request.depths, *stamps, request.shape, scene.near_mm, scene.far_mm, scene.channels)
+        if self._kept is not None and self._seen is not None and key == self._key:
+            moved = moved_px(self._seen, self._kept.scene.sensor, seen, scene.sensor)
+            if moved <= MOST_MOVED_PX:
+                return self._kept.in_scene(scene, moved)
+        self._kept = None  # before the next is made: one is kept
+        self._kept = keep(values, depth_map(request.depths, request.photo, request.shape), scene, seen, MOVING)
+        self._key, self._seen = key, seen
+        return self._kept
+
+
+def moved_px(before: SensorMap, its: Sensor, now: SensorMap, sensor: Sensor) -> float:
+    """Return how far apart two settings of a lens put any part of a picture, pixels at most."""
+    places = [
+        seen.ideal_mm(
+            *np.meshgrid(own.x_mm(np.linspace(0, own.columns - 1, 9)), own.y_mm(np.linspace(0, own.rows - 1, 9)))
+        )
+        for seen, own in ((before, its), (now, sensor))
+    ]
+    (x, y), (across, up) = ([axis / own.pixel_mm for axis in at] for at, own in zip(places, (its, sensor), strict=True))
+    return float(np.hypot(across - x, up - y).max())
+
+
+def moving(request: ImageRequest, watch: Progress | None = None, keeper: Keeper | None = None) -> ImageResult:
+    """Return the picture with all of its pixels and depths, as a lens that moves shows it, with the error expected.
+
+    What need not be made anew is in the ``keeper``. Where pupils have no polynomials, the coarse picture by rays.
+    """
+    begun = perf_counter()
+    values, scene = scene_values(request.photo, request.shape), scene_of(request)
+    camera = scene.camera(request.lens)
+    try:
+        plan = preview_plan(camera, scene)
+        kept = (keeper or Keeper()).kept(request, values, scene, plan.sensor_map(float(scene.vergences(2)[0])))
+        found = focused_picture(kept, camera)
+    except GeometryError:
+        return coarse(replace(request, depths=ONE_DISTANCE), watch)
+    psfs = psfs_by_depth(found.kernels, kept)
+    count = Message("{count} PSFs", count=int(np.prod(found.kernels.kernels.shape[:4])))
+    cut = frame_notes(request.photo, request.shape)
+    why_not = no_plan(plan)
+    frame = ((Message("Frame"), cut[1]),) if cut else ()
+    off = Message("RMS at most {error:.2g} of white, as expected from the response of its PSFs", error=found.error)
+    return ImageResult(
+        question=request,
+        before=values,
+        after=found.values,
+        quality="coarse",
+        plan=plan,
+        lattice=psfs.lattices[0],
+        seconds=perf_counter() - begun,
+        headline=count,
+        notes=(*frame, *moved_in(request, plan), (Message("Coarse"), UNMEASURED[why_not]), (Message("Error"), off)),
+        cut=cut[0] if cut else None,
+        no_plan=why_not,
+        error=found.error,
+        psfs=psfs,
+    )
+
+
+def psfs_by_depth(nodes: KernelNodes, kept: KeptPicture) -> PsfsByDepth:
+    """Return the PSFs of a moving picture, at its own pixels."""
+    times = kept.times
+    rows, columns = ((n + 0.5) * times - 0.5 for n in (nodes.row_nodes, nodes.column_nodes))
+    far, near = kept.scene.vergences(2)
+    depths = far + nodes.depths / (LEVELS - 1) * (near - far)
+    by_depth = np.moveaxis(nodes.kernels, 0, 3)
+    lattices = tuple(Lattice(rows, columns, [list(line) for line in at]) for at in by_depth)
+    return PsfsByDepth(lattices, depths)
+
+
 def unmeasured_plan(request: ImageRequest) -> Plan:
     """Return the plan of a coarse picture; GeometryError."""
     scene = scene_of(request)
@@ -310,7 +438,7 @@ def planned_picture(
     begun, watch = perf_counter(), watch or Progress()
     if request.show == TAKEN:
         return _sharpen(request, watch, begun, known)
-    if known:
+    if known and request.depths == ONE_DISTANCE:
         return _answer(request, known.plan, watch, begun, plan_notes(known.plan), known.lattice)
     share = PLANNING if request.shape == small_shape(request.shape) else PLANNING_LARGE
     new_plan = plan(request.lens, scene_of(request), planning(watch, share))
@@ -419,7 +547,8 @@ def _answer(
 ) -> ImageResult:
     values = scene_values(request.photo, request.shape)
     lattice = lattice or plan_lattice(plan, plan.vergences[0], part_of(watch, 0.0, KERNELS))
-    before, after, sharpening = shown_picture(request.show, plan, values, lattice, part_of(watch, KERNELS, 1.0))
+    depths = depth_map(request.depths, request.photo, request.shape)
+    before, after, sharpening = shown_picture(request.show, plan, values, lattice, part_of(watch, KERNELS, 1.0), depths)
     alike = (
         [
             Message("{name}: {likeness}", name=name, likeness=likeness(x, values))
@@ -447,11 +576,11 @@ def _answer(
 
 
 def shown_picture(
-    show: str, plan: Plan, values: np.ndarray, lattice: Lattice, watch: Progress
+    show: str, plan: Plan, values: np.ndarray, lattice: Lattice, watch: Progress, depth_mm: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray, Notes]:
     """Return the two pictures to compare, and notes on them."""
     if show == "lens":
-        return values, form_image(plan, values, watch=watch, lattice=lattice), ()
+        return values, form_image(plan, values, depth_mm, watch=watch, lattice=lattice), ()
     if show == "psfs":
         formed = form_image(plan, values, watch=watch, lattice=lattice)
         return formed, psf_map(lattice, values.shape[:2]), method_notes(plan)
@@ -565,6 +694,7 @@ def scene_of(request: ImageRequest) -> Scene:
     channels = channels_of(request.lens)
     if request.pixel_um is not None:
         _check_within(request)
+    near, far = depth_ends(request)
     reach = CORNER * rim_mm(request.lens, request.depth_mm, float(channels[1].wavelengths_um[1]))
     half_um = hypot(*request.shape) / 2
     if request.pixel_um is None:
@@ -572,7 +702,13 @@ def scene_of(request: ImageRequest) -> Scene:
     else:
         room = max(0.0, reach - half_um * request.pixel_um / UM_PER_MM)
         sensor = Sensor(*request.shape, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
-    return Scene(sensor, channels, request.depth_mm, request.depth_mm, TOLERANCE, clip=request.clip)
+    return Scene(sensor, channels, near, far, TOLERANCE, clip=request.clip)
+
+
+def depth_ends(request: ImageRequest) -> tuple[float, float]:
+    """Return the nearest and the farthest depth of a picture, mm; RequestError for a map that cannot be read."""
+    depths = depth_map(request.depths, request.photo, request.shape)
+    return (request.depth_mm, request.depth_mm) if depths is None else (float(depths.min()), float(depths.max()))
 
 
 def moved_in(request: ImageRequest, plan: Plan) -> Notes:
@@ -613,7 +749,8 @@ def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
 
 def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
     """Return the PSF of a place in the picture as the picture uses it, (size, size, 3), its peak at 1."""
-    lattice, size = answer.lattice, 2 * answer.lattice.half + 1
+    lattice = psf_lattice(answer, row, column)
+    size = 2 * lattice.half + 1
     down = hats(lattice.row_nodes, np.array([row]))[:, 0]
     right = hats(lattice.column_nodes, np.array([column]))[:, 0]
     total = np.zeros((lattice.channels, size, size), np.float32)
@@ -624,21 +761,44 @@ def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
     return in_colours(np.moveaxis(total / total.max(), 0, -1))
 
 
+def psf_lattice(answer: ImageResult, row: float, column: float) -> Lattice:
+    """Return the PSFs of the depth that a place in the picture has."""
+    asked = answer.question
+    depths = depth_map(asked.depths, asked.photo, asked.shape)
+    if depths is None or answer.psfs is None:
+        return answer.lattice
+    return answer.psfs.nearest(float(depths[round(row), round(column)]))
+
+
 def pixels(values: np.ndarray) -> np.ndarray:
     """Return linear light (rows, columns, 3) as 0xffRRGGBB in sRGB, row 0 the top; a few rows at a time."""
-    found = np.empty(values.shape[:2], np.uint32)
+    found, levels = np.empty(values.shape[:2], np.uint32), srgb_levels()
     for start in range(0, len(values), ROWS_AT_ONCE):
         part = values[start : start + ROWS_AT_ONCE]
-        levels = np.rint(255 * np.clip(srgb_from_linear(np.clip(part, 0, 1)), 0, 1)).astype(np.uint32)
-        found[start : start + len(part)] = 0xFF000000 | levels[..., 0] << 16 | levels[..., 1] << 8 | levels[..., 2]
+        codes = (np.clip(part, 0, 1) * np.float32(FINEST) + np.float32(0.5)).astype(np.uint16)
+        red, green, blue = (levels[codes[..., channel]] for channel in range(3))
+        found[start : start + len(part)] = 0xFF000000 | red << 16 | green << 8 | blue
+    return found
+
+
+@lru_cache(maxsize=1)
+def srgb_levels() -> np.ndarray:
+    """Return the level of sRGB, 0 to 255, of linear light in steps of 1/FINEST, which are a twentieth of it at most."""
+    found: np.ndarray = np.rint(255 * srgb_from_linear(np.arange(FINEST + 1) / FINEST)).astype(np.uint32)
     return found
 
 
 def work(
     make: Callable[[ImageRequest, Progress], ImageResult], request: ImageRequest
 ) -> Callable[[Event, Callable[[float], None]], ImageResult]:
-    """Return a worker's job for one way of making the picture."""
-    return lambda cancelled, progress: make(request, Progress(progress, cancelled.is_set))
+    """Return a worker's job for one way of making the picture, and what is seen of it."""
+
+    def job(cancelled: Event, progress: Callable[[float], None]) -> ImageResult:
+        found = make(request, Progress(progress, cancelled.is_set))
+        assert found.painted.size  # here, and not in the window's thread
+        return found
+
+    return job
 
 
 def save_picture(answer: ImageResult, path: str | Path) -> None:

@@ -13,7 +13,7 @@ from p2sf_explorer.compute.setup import wavelength_range
 
 NOISE = 0.005  # of white: what a small camera has in good light
 MOST_PIXELS = 12_000_000
-MOST_KEPT = 1_000_000  # pixels of a photo that is kept in memory for the next picture
+MOST_KEPT = 2_000_000  # pixels of a photo that is kept in memory for the next picture
 CHART_SHAPE = 2000, 3000  # of a chart with every pixel
 CHART_WORDS = {
     "landscape": "Landscape",
@@ -92,15 +92,20 @@ def middle(rows: int, columns: int, shape: tuple[int, int]) -> tuple[float, floa
     return min(rows, columns * shape[0] / shape[1]), min(columns, rows * shape[1] / shape[0])
 
 
+def frame_box(own: tuple[int, int], shape: tuple[int, int]) -> tuple[float, float, float, float]:
+    """Return top, left, height and width of `middle` in a picture of its own rows and columns."""
+    tall, wide = middle(*own, shape)
+    return (own[0] - tall) / 2, (own[1] - wide) / 2, tall, wide
+
+
 def crop_and_resize(values: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     """Return the middle of a picture in another size, (rows, columns, 3): its sides cut to the frame's, averaged."""
     from PIL import Image
 
-    rows, columns = values.shape[:2]
-    if (rows, columns) == shape:
+    if values.shape[:2] == shape:
         return values
-    tall, wide = middle(rows, columns, shape)
-    box = (columns - wide) / 2, (rows - tall) / 2, (columns + wide) / 2, (rows + tall) / 2
+    top, left, tall, wide = frame_box(values.shape[:2], shape)
+    box = left, top, left + wide, top + tall
     planes = (Image.fromarray(np.ascontiguousarray(plane)) for plane in np.moveaxis(values, -1, 0))
     size, smooth = (shape[1], shape[0]), Image.Resampling.BILINEAR
     return np.stack([np.asarray(plane.resize(size, smooth, box)) for plane in planes], axis=-1)

@@ -3,6 +3,36 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>A landscape that reaches from 1 m to 10 m: move the focus through it</source><translation>Eine Landschaft, die von 1 m bis 10 m reicht: die Schärfe hindurchziehen</translation></message>
+<message><source>Choose a map of depths</source><translation>Eine Karte der Entfernungen wählen</translation></message>
+<message><source>Choose another photo</source><translation>Ein anderes Foto wählen</translation></message>
+<message><source>Drop a photo here</source><translation>Ein Foto hierher ziehen</translation></message>
+<message><source>Farthest depth</source><translation>Größte Entfernung</translation></message>
+<message><source>How far away the parts of the picture are: one distance, nearer towards the bottom, three steps to the right …</source><translation>Wie weit die Teile des Bildes entfernt sind: eine Entfernung, nach unten hin näher, drei Stufen nach rechts …</translation></message>
+<message><source>Maps of depths (*.png *.tif *.tiff)</source><translation>Karten der Entfernungen (*.png *.tif *.tiff)</translation></message>
+<message><source>Nearest depth</source><translation>Kleinste Entfernung</translation></message>
+<message><source>RMS at most {error:.2g} of white, as expected from the response of its PSFs</source><translation>RMS höchstens {error:.2g} von Weiß, wie es die Übertragung seiner PSFs erwarten lässt</translation></message>
+<message><source>What the numbers of the map mean</source><translation>Was die Zahlen der Karte bedeuten</translation></message>
+<message><source>a map of depths means "{meaning}"; choose {choices}</source><translation>eine Karte der Entfernungen bedeutet „{meaning}“; wählen: {choices}</translation></message>
+<message><source>error up to {percent} % of white</source><translation>Fehler bis {percent} % von Weiß</translation></message>
+<message><source>farthest depth of the photo</source><translation>größte Entfernung des Fotos</translation></message>
+<message><source>nearest depth of the photo</source><translation>kleinste Entfernung des Fotos</translation></message>
+<message><source>the map reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Karte reicht von {near:g} mm bis {far:g} mm; positive Entfernungen angeben, die nahe zuerst</translation></message>
+<message><source>{path} does not state how far away its depths are; save them as a PNG and give near and far</source><translation>{path} sagt nicht, wie groß seine Entfernungen sind; als PNG speichern und nah und fern angeben</translation></message>
+<message><source>{path} has no depths of its own; choose a map of depths</source><translation>{path} hat keine eigenen Entfernungen; eine Karte der Entfernungen wählen</translation></message>
+<message><source>{path} has the shape ({shape}); a map of depths has one grey channel</source><translation>{path} hat die Form ({shape}); eine Karte der Entfernungen hat einen grauen Kanal</translation></message>
+<message><source>{path} holds depths that are negative or not finite; correct them</source><translation>{path} enthält Entfernungen, die negativ oder nicht endlich sind; berichtigen</translation></message>
+<message><source>{path} holds no depth: all of it is 0; choose another map</source><translation>{path} enthält keine Entfernung: alles ist 0; eine andere Karte wählen</translation></message>
+<message><source>{path} holds numbers up to {most:g}, between near and far they reach from 0 to 1; choose mm or m</source><translation>{path} enthält Zahlen bis {most:g}, zwischen nah und fern reichen sie von 0 bis 1; mm oder m wählen</translation></message>
+<message><source>{path} is a HEIF that cannot be read ({why}); save it again</source><translation>{path} ist ein HEIF, das nicht gelesen werden kann ({why}); noch einmal speichern</translation></message>
+<message><source>one distance</source><translation>eine Entfernung</translation></message>
+<message><source>sloping</source><translation>geneigt</translation></message>
+<message><source>three steps</source><translation>drei Stufen</translation></message>
+<message><source>its own depths</source><translation>eigene Entfernungen</translation></message>
+<message><source>white is near</source><translation>Weiß ist nah</translation></message>
+<message><source>black is near</source><translation>Schwarz ist nah</translation></message>
+<message><source>in mm</source><translation>in mm</translation></message>
+<message><source>in m</source><translation>in m</translation></message>
 <message><source>Build a lens in Python</source><translation>Ein Objektiv in Python bauen</translation></message>
 <message><source>Gallery</source><translation>Galerie</translation></message>
 <message><source>Add a step for every step of undo of this lens, up to what is on screen</source><translation>Für jeden Schritt, den Rückgängig kennt, einen Schritt mit diesem Objektiv anfügen, bis zu dem, was zu sehen ist</translation></message>
@@ -1420,7 +1450,8 @@
 <message><source>every chief ray meets the sensor on the axis, so it contains no picture; move the stop</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse, also enthält er kein Bild; die Blende verschieben</translation></message>
 <message><source>every chief ray meets the sensor on the axis; give the field as an angle</source><translation>jeder Hauptstrahl trifft den Sensor auf der Achse; das Feld als Winkel angeben</translation></message>
 <message><source>every medium of this lens has the index {index:g}, so no surface bends light; state its glasses</source><translation>jedes Medium dieses Objektivs hat den Brechungsindex {index:g}, also bricht keine Fläche das Licht; seine Gläser nennen</translation></message>
-<message><source>every pixel of the photo</source><translation>jedes Pixel des Fotos</translation></message>
+<message><source>every pixel</source><translation>jedes Pixel</translation></message>
+<message><source>map…</source><translation>Karte …</translation></message>
 <message><source>exact</source><translation>genau</translation></message>
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>

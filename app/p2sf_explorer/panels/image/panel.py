@@ -1,12 +1,13 @@
 """A photo or chart through the present lens: coarse at once, planned when the sliders rest, with the reasons."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QFileDialog, QLabel
+from PySide6.QtWidgets import QFileDialog, QLabel, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.image import Progress
@@ -14,13 +15,16 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.views.depths import OWN, has_own_depths
 from p2sf_explorer.compute.views.image import (
     TAKEN,
     ImageRequest,
     ImageResult,
+    Keeper,
     coarse,
     fine_enough,
     local_psf,
+    moving,
     on_stage,
     pixels,
     planned_picture,
@@ -32,12 +36,14 @@ from p2sf_explorer.compute.views.photos import CHART_WORDS
 from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr, unbroken
+from p2sf_explorer.panels.image.depth_row import DepthRow
 from p2sf_explorer.panels.image.split_view import SplitView
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import TurningCard, chooser, select
 from p2sf_explorer.widgets.drop import PhotoDrop
+from p2sf_explorer.widgets.empty_state import EmptyState
 from p2sf_explorer.widgets.plan_note import PlanLine, Why, small_button
 
 TIP = (
@@ -57,6 +63,8 @@ SHOWS: dict[str, tuple[str, tuple[str, str]]] = {
 }
 PHOTOS = "Pictures (*.png *.tif *.tiff *.exr *.jpg *.jpeg *.heic *.heif)"
 SAVED = "Pictures (*.png *.tif *.tiff)"
+SAMPLE = {"photo_source": "landscape", "photo_depths": "slope", "photo_near_mm": 1000.0, "photo_far_mm": 10000.0}
+SAMPLE_TIP = "A landscape that reaches from 1 m to 10 m: move the focus through it"
 EARLIER, WORKING, NONE = "earlier picture, working", "working", "no picture"
 
 
@@ -67,7 +75,7 @@ class ImagePanel:
         self._store = store
         self.widget = TurningCard("Image", TIP)
         self.photo = chooser(tuple(CHART_WORDS.items()), "What stands in front of the lens", self.widget)
-        sizes = (*PIXELS.items(), (FULL, "every pixel of the photo"))
+        sizes = (*PIXELS.items(), (FULL, "every pixel"))
         self.pixel = chooser(sizes, "Pixels at the field point, or the field", self.widget)
         self.look = chooser(tuple(LOOKS.items()), "How the two pictures are compared", self.widget)
         self.show_box = chooser(tuple((k, v[0]) for k, v in SHOWS.items()), "Which picture is made", self.widget)
@@ -75,8 +83,14 @@ class ImagePanel:
             "Photo…", "Choose a PNG, TIFF, OpenEXR, JPEG or HEIF to photograph, up to 12 megapixels", self._ask_photo
         )
         self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
+        self.depth_row = DepthRow(store, self.widget)
         self.split_view, self.headline, self.plan_line, self.words = SplitView(), QLabel(), PlanLine(), Why()
         self.overlay = Overlay(self.split_view)
+        buttons = (
+            small_button("Photo…", "Choose another photo", self._ask_photo),
+            small_button("Try a sample", SAMPLE_TIP, lambda: store.update(**SAMPLE)),
+        )
+        self.empty = EmptyState(tr("Drop a photo here"), "", buttons)
         self._lay_out()
         self._connect()
         self._live: Live | None = None
@@ -88,6 +102,8 @@ class ImagePanel:
         self._unplanned: ImageRequest | None = None  # and for which none can be made, so that none is tried again
         self._refusal = ""
         self._settled, self._place = True, (0.5, 0.5)
+        self._before, self._before_pixels = np.empty(0), np.empty(0)
+        self._keeper = Keeper()
         self.quick, self.fine = LatestWins(self.widget), LatestWins(self.widget)
         for worker in (self.quick, self.fine):
             worker.finished.connect(self._on_answer)
@@ -96,14 +112,20 @@ class ImagePanel:
 
     def _lay_out(self) -> None:
         looking = (self.look, self.words.button, self.save)
-        for group in ((self.photo, self.open), (self.pixel,), (self.show_box,), looking):
+        sensor = self.pixel, self.depth_row.source
+        for group in ((self.photo, self.open), sensor, (self.show_box,), looking, self.depth_row.scale):
             self.widget.add_group(*group)
         self.headline.setObjectName("muted")
         self.headline.setWordWrap(True)
         self.headline.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.widget.add_line(self.plan_line)
         self.widget.add_rest(self.headline)
-        self.widget.set_body(self.split_view)
+        body = QWidget()
+        column = QVBoxLayout(body)
+        column.setContentsMargins(0, 0, 0, 0)
+        for part in (self.split_view, self.empty):
+            column.addWidget(part, 1)
+        self.widget.set_body(body)
 
     def _connect(self) -> None:
         store = self._store
@@ -119,7 +141,7 @@ class ImagePanel:
         self._resized.timeout.connect(self._on_resized)
         self.split_view.resized.connect(self._resized.start)
         self.drop = PhotoDrop(self.widget)
-        self.drop.photo.connect(lambda path: store.update(photo_source=path))
+        self.drop.photo.connect(self.take_photo)
         self.drop.refused.connect(store.refused)
 
     def show(self, live: Live) -> None:
@@ -152,12 +174,15 @@ class ImagePanel:
         if self.pixel.findData(size) < 0:
             self.pixel.addItem(tr("{pitch} µm pixels", pitch=f"{pitch:g}"), size)
         select(self.photo, state.photo.source)
+        self.depth_row.show(state)
         select(self.pixel, size)
 
     def _quickest(self, asked: ImageRequest) -> Callable[[ImageRequest, Progress], ImageResult]:
         """Return what makes a picture at once: the known plan, where only the photo or what is shown has changed."""
         known = self._planned
-        return partial(planned_picture, known=known) if known and same_optics(known.question, asked) else coarse
+        if known and same_optics(known.question, asked):
+            return partial(planned_picture, known=known)
+        return partial(moving, keeper=self._keeper) if asked.show == "lens" else coarse
 
     def _present(self) -> ImageResult | None:
         """Return the picture on screen where it is the present question's."""
@@ -192,13 +217,22 @@ class ImagePanel:
 
     def _show_readout(self) -> None:
         planning, stopped, quality = self._ordered is not None, self._stopped == self._asked, self._quality()
-        self.widget.set_readout(tr(quality))
+        self.widget.set_readout(self._badge(quality))
         for button in (self.words.button, self.save):  # enabled in a drag too, so that they keep the focus
             button.setEnabled(quality not in (WORKING, NONE))
-        instead = {NONE: self._refusal, WORKING: tr("The first picture is being made …")}
-        self.overlay.say(instead.get(quality, ""), 0)
+        self.overlay.say(tr("The first picture is being made …") if quality == WORKING else "", 0)
+        self.split_view.setVisible(quality != NONE)
+        self.empty.setVisible(quality == NONE)
+        self.empty.words.setText(self._refusal)
         self.plan_line.show_plan(planning, stopped)
-        self.headline.setHidden(planning or stopped or bool(self.overlay.text))
+        self.headline.setHidden(planning or stopped or quality in (WORKING, NONE))
+
+    def _badge(self, quality: str) -> str:
+        """Return what the picture on screen is, and the error expected of it where that is known."""
+        if self._answer is None or self._answer.error is None or quality in (WORKING, NONE):
+            return tr(quality)
+        off = tr("error up to {percent} % of white", percent=f"{100 * self._answer.error:.2g}")
+        return f"{tr(quality)} · {off}"
 
     def _quality(self) -> str:
         """Return what the picture on screen is, in English."""
@@ -211,6 +245,8 @@ class ImagePanel:
             self._planned = found if found.plan.decisions else None
             self._ordered = None if key == self._ordered else self._ordered
             self._stopped = None if key == self._stopped else self._stopped  # it was made all the same
+        if self._answer and found.psfs is None and key == self._answer.question:
+            found = replace(found, psfs=self._answer.psfs)
         if key == self._asked or self._stale():  # an earlier plan, late to stop, must not cover the present picture
             self._answer = found
             self._paint(found)
@@ -237,7 +273,9 @@ class ImagePanel:
 
     def _paint(self, found: ImageResult) -> None:
         before, after = SHOWS[found.question.show][1]
-        self.split_view.show_pictures(pixels(found.before), pixels(found.after), (tr(before), tr(after)))
+        if found.before is not self._before:  # which stays the same in a drag
+            self._before, self._before_pixels = found.before, pixels(found.before)
+        self.split_view.show_pictures(self._before_pixels, found.painted, (tr(before), tr(after)))
         sensor = found.plan.scene.sensor
         pitch = f"{sensor.pixel_um:.3g}"
         size = tr("{columns} × {rows} pixels of {pitch} µm", columns=sensor.columns, rows=sensor.rows, pitch=pitch)
@@ -266,7 +304,14 @@ class ImagePanel:
     def _ask_photo(self) -> None:
         path, _ = QFileDialog.getOpenFileName(self.widget, tr("Choose a photo"), "", tr(PHOTOS))
         if path:
-            self._store.update(photo_source=path)
+            self.take_photo(path)
+
+    def take_photo(self, path: str) -> None:
+        """Show a photo, with the depths that it brings with it."""
+        depths = self._store.state.photo.depths
+        self._store.update(
+            photo_source=path, photo_depths=OWN if has_own_depths(path) else "" if depths == OWN else depths
+        )
 
     def _ask_save(self) -> None:
         path, _ = QFileDialog.getSaveFileName(self.widget, tr("Save the picture"), "image.png", tr(SAVED))

@@ -1,0 +1,144 @@
+"""Pictures a second, and the error, of a picture with depth that follows the focus; a photo seen through three lenses.
+
+``python -m tests.benchmarks.focus_pull`` prints a table; ``--windows`` chooses 1440, 3840 or both, and ``--exact 0``
+leaves out the exact pictures, which take most of the time. Times are of CPU and of the clock, the machine's load is
+stated beside them, and a picture counts from the setting of the lens to the pixels that are painted. The error is RMS,
+of white, against the picture by a plan of relative error 0.02, but for a rim of eight pixels.
+"""
+
+import argparse
+import os
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter, process_time
+
+import numpy as np
+
+from p2sf.image import form_image
+from p2sf.image.charts import draw_chart
+from p2sf.io.photo_files import write_photo
+from p2sf.scene import plan
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.views.depths import depth_map
+from p2sf_explorer.compute.views.image import ImageRequest, Keeper, moving, on_stage, question, scene_of
+from p2sf_explorer.state.state import change, new_state
+
+ROOMS = {1440: (846, 1420), 3840: (2088, 3800)}  # pixels of the stage when presenting, the line of controls left out
+LENSES = {
+    "cooke_triplet": {"photo_pixel_um": 8.0, "photo_near_mm": 900.0, "photo_far_mm": 4000.0},
+    "double_gauss_28": {"photo_pixel_um": 16.0, "photo_near_mm": 2000.0, "photo_far_mm": 6000.0, "f_number": 8.0},
+    "tessar": {"photo_pixel_um": 1.5, "photo_near_mm": 200.0, "photo_far_mm": 2000.0},
+}
+SCENES = {
+    "print, sloping": {"photo_source": "text", "photo_depths": "slope"},
+    "landscape, three depths": {"photo_source": "landscape", "photo_depths": "steps"},
+    "star before a landscape": {"photo_source": "star", "photo_depths": "map"},
+}
+PULL, EXACT = 8, 0.02  # settings of the focus from near to far; relative error of the exact picture
+RIM = 8
+
+
+@dataclass(frozen=True)
+class Row:
+    """One lens and scene: milliseconds a picture, and the stated and the true error at one setting."""
+
+    lens: str
+    scene: str
+    shape: tuple[int, int]
+    cpu_ms: float
+    wall_ms: float
+    stated: float
+    true: float
+
+
+def star_before_a_landscape(folder: Path, shape: tuple[int, int] = (1040, 1560)) -> dict[str, str]:
+    """Write a photo of a star before a landscape and its map of depths; return their paths as entries of a state."""
+    row, column = np.mgrid[: shape[0], : shape[1]]
+    star = np.hypot(row - shape[0] / 2, column - shape[1] / 2) < 0.3 * shape[0]
+    both = np.where(star[..., None], draw_chart("siemens_star", *shape), draw_chart("landscape", *shape))
+    write_photo(folder / "star.png", both)
+    write_photo(folder / "star_depth.png", star.astype(float), "linear", "16")
+    return {"photo_source": str(folder / "star.png"), "photo_depths": str(folder / "star_depth.png")}
+
+
+def focused(lens: str, scene: dict[str, str], room: tuple[int, int], focus_mm: float) -> ImageRequest:
+    """Return the request for a picture on the stage with the lens focused at a distance."""
+    state = change(new_state(lens=lens, method="seidel", field_deg=0.0), **LENSES[lens], **scene, focus_mm=focus_mm)
+    return on_stage(question(live(state, "preview")), room)
+
+
+def distances(lens: str) -> np.ndarray:
+    """Return the distances of a pull, even in 1/distance."""
+    near, far = (LENSES[lens][f"photo_{end}_mm"] for end in ("near", "far"))
+    return 1 / np.linspace(1 / near, 1 / far, PULL)
+
+
+def row(lens: str, name: str, scene: dict[str, str], room: tuple[int, int], exact: float) -> Row:
+    """Return the figures of one lens and scene; with ``exact`` 0 without the true error."""
+    keeper, spent = Keeper(), []
+    asked = [focused(lens, scene, room, float(d)) for d in distances(lens)]
+    moving(asked[0], keeper=keeper)
+    for request in asked:
+        begun = process_time(), perf_counter()
+        assert moving(request, keeper=keeper).painted.size
+        spent.append((1e3 * (process_time() - begun[0]), 1e3 * (perf_counter() - begun[1])))
+    middle = asked[PULL // 2]
+    found = moving(middle, keeper=keeper)
+    true = float("nan")
+    if exact:
+        whole = replace(scene_of(middle), rtol=exact)
+        depths = depth_map(middle.depths, middle.photo, middle.shape)
+        best = form_image(plan(middle.lens, whole), found.before, depths)
+        true = float(np.sqrt(np.mean(np.square(found.after - best)[RIM:-RIM, RIM:-RIM])))
+    cpu, wall = np.median(spent, axis=0)
+    return Row(lens, name, middle.shape, float(cpu), float(wall), found.error or 0.0, true)
+
+
+def photo_through_three_lenses(folder: Path, room: tuple[int, int]) -> tuple[float, float, int]:
+    """Return CPU and clock seconds from a JPEG of 12 megapixels and its map to three pictures, and its megapixels."""
+    from PIL import Image
+
+    shape = 3000, 4000
+    names = star_before_a_landscape(folder, (750, 1000))
+    for path in names.values():
+        with Image.open(path) as small:
+            small.resize(shape[::-1]).save(Path(path).with_suffix(".png"))
+    with Image.open(names["photo_source"]) as large:
+        large.save(folder / "star.jpg", quality=92)
+    names["photo_source"] = str(folder / "star.jpg")
+    asked = [focused(lens, names, room, float(distances(lens)[2])) for lens in LENSES]
+    keeper, begun = Keeper(), (process_time(), perf_counter())
+    for request in asked:
+        assert moving(request, keeper=keeper).painted.size
+    return process_time() - begun[0], perf_counter() - begun[1], shape[0] * shape[1] // 10**6
+
+
+def main() -> None:
+    """Print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--windows", type=int, nargs="+", choices=ROOMS, default=list(ROOMS))
+    parser.add_argument("--exact", type=float, default=EXACT)
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        scenes = dict(SCENES) | {"star before a landscape": star_before_a_landscape(folder)}
+        print(
+            "window  lens             scene                    pixels       CPU ms  clock ms  1/s  stated   true  load"
+        )
+        for window in given.windows:
+            for lens in LENSES:
+                for scene, entries in scenes.items():
+                    made = row(lens, scene, entries, ROOMS[window], given.exact)
+                    size = f"{made.shape[1]} × {made.shape[0]}"
+                    print(
+                        f"{window:6}  {lens:15}  {scene:23}  {size:11}  {made.cpu_ms:6.0f}  {made.wall_ms:8.0f}"
+                        f"  {1e3 / made.wall_ms:3.1f}  {made.stated:.4f}  {made.true:.4f}  {os.getloadavg()[0]:4.1f}",
+                        flush=True,
+                    )
+        cpu, wall, mega = photo_through_three_lenses(folder, ROOMS[given.windows[0]])
+        print(f"{mega} megapixels, JPEG and PNG, through three lenses: CPU {cpu:.2f} s, clock {wall:.2f} s")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,115 @@
+"""Photos with depths in the image panel: the picture that moves with the lens, what is kept of it, and its controls."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import RequestError
+from p2sf.io.photo_files import write_photo
+from p2sf.io.transfer import srgb_from_linear
+from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.views import depths, image
+from p2sf_explorer.compute.views.depths import DepthChoice, depth_map
+from p2sf_explorer.compute.views.image import Keeper, local_psf, moving, pixels, question, scene_of
+from p2sf_explorer.state.state import change, new_state
+
+STEPS = new_state(
+    lens="cooke_triplet", method="seidel", photo_pixel_um=16.0, photo_source="text", field_deg=0.0, photo_depths="steps"
+)
+
+
+def asked(**changes):
+    return question(compute.live(change(STEPS, **changes)))
+
+
+@pytest.fixture(scope="module")
+def keeper():
+    return Keeper()
+
+
+@pytest.fixture(scope="module")
+def near(keeper):
+    return moving(asked(focus_mm=1000.0), keeper=keeper)
+
+
+def test_the_picture_moves_with_the_focus_and_keeps_what_it_can(keeper, near):
+    kept = keeper._kept
+    far = moving(asked(focus_mm=10000.0), keeper=keeper)
+    assert keeper._kept is kept and kept.slabs is not None, "the picture was cut once"
+    left, right = slice(20, 80), slice(-80, -20)
+    blurs = [
+        [float(np.abs(np.diff(found.after[:, part], axis=1)).mean()) for part in (left, right)] for found in (near, far)
+    ]
+    assert blurs[0][0] > 1.5 * blurs[1][0] and blurs[1][1] > 1.5 * blurs[0][1]
+    assert near.error > 0 and near.quality == "coarse" and near.after.shape == near.before.shape
+
+
+def test_another_photo_or_another_distortion_is_kept_anew(keeper):
+    moving(asked(), keeper=keeper)
+    kept = keeper._kept
+    moving(asked(photo_source="checkerboard"), keeper=keeper)
+    assert keeper._kept is not kept and keeper._kept.moved_px == 0
+    kept = keeper._kept
+    far_off = replace(keeper._seen, scale_mm=1.01 * keeper._seen.scale_mm)
+    sensor = kept.scene.sensor
+    assert image.moved_px(keeper._seen, sensor, keeper._seen, sensor) == 0
+    moved = image.moved_px(keeper._seen, sensor, far_off, sensor)
+    assert moved == pytest.approx(0.01 * np.hypot(*np.subtract(kept.shape, 1)) / 2, rel=0.1)
+
+
+def test_the_psf_of_a_place_is_that_of_its_depth(near):
+    rows, columns = near.after.shape[:2]
+    sharp, wide = (local_psf(near, rows / 2, column) for column in (columns // 6, 5 * columns // 6))
+    assert (wide > 0.1).sum() > 2 * (sharp > 0.1).sum()
+
+
+def test_depths_count_through_the_lens_alone():
+    assert asked().depths.source == "steps" and asked(photo_show="psfs").depths.source == ""
+    assert scene_of(asked()).near_mm == 1000.0 and scene_of(asked()).far_mm == 10000.0
+    backwards = asked(photo_near_mm=9000.0, photo_far_mm=3000.0)
+    assert (scene_of(backwards).near_mm, scene_of(backwards).far_mm) == (3000.0, 9000.0)
+    assert asked(photo_depths="").depth_mm == STEPS.optics.depth_mm
+
+
+def test_a_map_is_cut_and_resized_as_its_photo_and_no_depth_lies_between_two(tmp_path):
+    write_photo(tmp_path / "map.png", np.repeat([[0.0], [1.0]], 10, 0).repeat(60, 1), "linear")
+    found = depth_map(DepthChoice(str(tmp_path / "map.png")), "text", (208, 312))
+    assert found.shape == (208, 312) and np.unique(found) == pytest.approx([1000.0, 10000.0], rel=1e-6)
+    with pytest.raises(RequestError):
+        depth_map(DepthChoice("photo"), "photo.png", (208, 312))
+    assert not depths.has_own_depths("photo.heic")
+
+
+def test_pixels_are_the_levels_of_srgb():
+    light = np.linspace(-0.1, 1.1, 3000, dtype=np.float32).reshape(20, 50, 3)
+    exact = np.rint(255 * srgb_from_linear(np.clip(light, 0, 1)))
+    shown = pixels(light)
+    levels = np.stack([shown >> 16 & 255, shown >> 8 & 255, shown & 255], axis=-1)
+    assert (shown >> 24 == 255).all() and np.abs(levels - exact).max() <= 1 and (levels == exact).mean() > 0.95
+
+
+def test_the_badge_says_the_error_and_depths_have_their_controls(window, image_panel, qtbot):
+    row = image_panel.depth_row
+    assert not row.near.isVisible() and not row.meaning.isVisible()
+    window.store.update(photo_depths="slope", photo_near_mm=800.0)
+    qtbot.waitUntil(lambda: not image_panel._stale())
+    assert f"{100 * image_panel._answer.error:.2g}" in image_panel.widget.readout.text()
+    assert row.near.isVisible() and row.near.value() == pytest.approx(0.8) and not row.meaning.isVisible()
+    row.far.setValue(5.0)
+    assert window.store.state.photo.far_mm == 5000.0
+    window.store.update(photo_depths="/nowhere/map.png")
+    qtbot.waitUntil(lambda: image_panel.empty.isVisible())
+    assert "/nowhere/map.png" in image_panel.empty.words.text() and row.meaning.isVisible()
+    image_panel.empty.findChildren(type(image_panel.open))[1].click()  # the sample
+    qtbot.waitUntil(lambda: image_panel.split_view.isVisible() and not image_panel._stale())
+
+
+def test_a_photo_takes_its_own_depths_with_it(window, image_panel, monkeypatch, tmp_path):
+    write_photo(tmp_path / "one.png", np.full((20, 30, 3), 0.5, np.float32))
+    names = image_panel.take_photo.__globals__
+    for own, kept, wanted in ((True, "slope", "photo"), (False, "photo", ""), (False, "slope", "slope")):
+        monkeypatch.setitem(names, "has_own_depths", lambda path, own=own: own)
+        window.store.update(photo_depths=kept)
+        image_panel.take_photo(str(tmp_path / "one.png"))
+        assert window.store.state.photo.depths == wanted

@@ -1,0 +1,125 @@
+"""Maps of depth from files: what their numbers mean, those of HEIF photos, and files that are none."""
+
+from math import inf
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import RequestError
+from p2sf.io import depth_files, photo_files
+from p2sf.io.depth_files import DepthScale, heif_depths, own_depths, read_depths
+from p2sf.io.photo_files import write_photo
+
+RAMP = np.linspace(0, 1, 12, dtype=np.float32).reshape(3, 4)
+
+
+@pytest.mark.parametrize("depth", ["8", "16"])
+@pytest.mark.parametrize("meaning", ["near_white", "near_black"])
+def test_whole_numbers_are_even_in_1_over_distance_between_near_and_far(tmp_path, depth, meaning):
+    write_photo(tmp_path / "map.png", RAMP, "linear", depth)
+    found = read_depths(tmp_path / "map.png", DepthScale(meaning, 500.0, 4000.0))
+    nearness = RAMP if meaning == "near_white" else 1 - RAMP
+    step = 2.0 ** -int(depth)  # half a level
+    assert np.abs(1 / found - (1 / 4000 + nearness * (1 / 500 - 1 / 4000))).max() < step * (1 / 500)
+    assert found.dtype == np.float32 and found.min() == pytest.approx(500) and found.max() == pytest.approx(4000)
+
+
+def test_far_may_be_infinity(tmp_path):
+    write_photo(tmp_path / "map.png", RAMP, "linear", "16")
+    found = read_depths(tmp_path / "map.png", DepthScale("near_white", 500.0, inf))
+    assert found[0, 0] == inf and found[-1, -1] == pytest.approx(500)
+
+
+@pytest.mark.parametrize(("meaning", "unit"), [("mm", 1.0), ("m", 1000.0)])
+def test_millimetres_and_metres_are_taken_as_they_are_and_0_is_infinity(tmp_path, meaning, unit):
+    write_photo(tmp_path / "map.tif", np.array([[0.0, 1.5], [2.5, 4.0]], np.float32), "linear", "float")
+    found = read_depths(tmp_path / "map.tif", DepthScale(meaning))
+    assert found.tolist() == [[inf, 1.5 * unit], [2.5 * unit, 4.0 * unit]]
+    import tifffile
+
+    tifffile.imwrite(tmp_path / "whole.tif", np.array([[1200, 65535]], np.uint16))
+    assert read_depths(tmp_path / "whole.tif", DepthScale("mm")).tolist() == [[1200.0, 65535.0]]
+
+
+def test_grey_saved_in_colours_is_a_map_and_colours_are_none(tmp_path):
+    write_photo(tmp_path / "grey.png", np.repeat(RAMP[..., None], 3, -1), "linear")
+    write_photo(tmp_path / "colours.png", np.random.default_rng(0).random((3, 4, 3)), "linear")
+    assert read_depths(tmp_path / "grey.png", DepthScale()).shape == (3, 4)
+    with pytest.raises(RequestError) as raised:
+        read_depths(tmp_path / "colours.png", DepthScale())
+    assert raised.value.message.values["shape"] == (3, 4, 3)
+
+
+@pytest.mark.parametrize(
+    ("values", "scale"),
+    [
+        ([[0.5, -1.0], [0.5, -1.0]], DepthScale()),
+        ([[0.5, np.nan], [0.5, np.nan]], DepthScale()),
+        ([[0.5, 3.0], [0.5, 3.0]], DepthScale()),
+        ([[0.0, 0.0], [0.0, 0.0]], DepthScale("mm")),
+    ],
+    ids=["negative", "nan", "beyond 1", "all 0"],
+)
+def test_numbers_that_are_no_depths_are_one_sentence(tmp_path, values, scale):
+    write_photo(tmp_path / "map.tif", np.array(values, np.float32), "linear", "float")
+    with pytest.raises(RequestError) as raised:
+        read_depths(tmp_path / "map.tif", scale)
+    assert str(tmp_path / "map.tif") in str(raised.value)
+
+
+def test_files_that_are_no_pictures_are_one_sentence(tmp_path):
+    (tmp_path / "map.png").write_bytes(b"no picture")
+    for name in ("map.png", "none.png"):
+        with pytest.raises(RequestError):
+            read_depths(tmp_path / name, DepthScale())
+
+
+@pytest.mark.parametrize("wrong", [{"meaning": "feet"}, {"near_mm": 0.0}, {"near_mm": 5.0, "far_mm": 4.0}])
+def test_a_scale_that_means_nothing_is_refused(wrong):
+    with pytest.raises(RequestError):
+        DepthScale(**wrong)
+
+
+LIMITS = {"d_min": 0.25, "d_max": 2.0, "z_near": 0.5, "z_far": 4.0}  # 1/m and m: the same depths
+
+
+@pytest.mark.parametrize(("kind", "middle"), [(0, 1 / 1.125), (1, 1 / 1.125), (2, 2.25)])
+def test_depths_of_heif_are_disparities_inverse_depths_or_depths(kind, middle):
+    raw = np.array([[0, 65535 // 2, 65535]], np.uint16)[..., None]
+    found = heif_depths(raw, LIMITS | {"representation_type": kind}, "photo.heic")[0]
+    assert sorted(found.tolist()) == [
+        pytest.approx(500),
+        pytest.approx(1000 * middle, rel=1e-4),  # of 65535 steps
+        pytest.approx(4000),
+    ]
+
+
+@pytest.mark.parametrize("stated", [{}, {"representation_type": 1}, LIMITS | {"representation_type": 3}])
+def test_depths_of_heif_without_limits_are_refused(stated):
+    with pytest.raises(RequestError):
+        heif_depths(np.zeros((2, 2), np.uint8), stated, "photo.heic")
+
+
+def test_a_photos_own_depths_are_those_of_its_first_depth_image(monkeypatch):
+    class DepthImage:
+        def __init__(self):
+            self.info = {"metadata": LIMITS | {"representation_type": 1}}
+
+        def __array__(self, dtype=None, copy=None):
+            return np.array([[0, 255]], np.uint8)
+
+    monkeypatch.setattr(depth_files, "open_heif", lambda path: SimpleNamespace(info={"depth_images": [DepthImage()]}))
+    assert own_depths("photo.heic").tolist() == [[pytest.approx(4000), pytest.approx(500)]]
+    monkeypatch.setattr(depth_files, "open_heif", lambda path: SimpleNamespace(info={}))
+    assert own_depths("photo.heic") is None and own_depths("photo.jpg") is None
+
+
+def test_a_damaged_heif_is_one_sentence(monkeypatch, tmp_path):
+    def fail(path):
+        raise ValueError("no ftyp")
+
+    monkeypatch.setattr(photo_files, "pillow_heif", lambda path: SimpleNamespace(open_heif=fail))
+    with pytest.raises(RequestError) as raised:
+        own_depths(tmp_path / "photo.heic")
+    assert raised.value.message.values["why"] == "no ftyp"
