@@ -67,7 +67,7 @@ class DepthMap:
                 yield DepthLayer(number, colours, opacity, self.hiding * _hides(self.place - number, opacity))
             hidden = reaching_on >= 1
             if (hidden & self.continued).any():  # elsewhere nothing is seen of what goes on
-                nearest = _nearest_open(hidden)
+                nearest = nearest_open(hidden)
                 jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
                 place = np.where(jumps, place[nearest], place)
                 colours = np.where(jumps[..., None], colours[nearest], colours)
@@ -117,7 +117,7 @@ def _places(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...])
     return place.astype(np.float32)
 
 
-def _nearest_open(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def nearest_open(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return row and column of the nearest pixel along row or column that is not hidden; of itself where none is."""
     rows, columns = np.ogrid[: hidden.shape[0], : hidden.shape[1]]
     column, across = _nearest_in_row(hidden)

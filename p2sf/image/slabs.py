@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.image.layers import _nearest_open as nearest_open
+from p2sf.image.layers import nearest_open
 from p2sf.image.octaves import block_means, enlarge, finest_octave
 
 LEVELS = 512  # of depth, even in 1/depth: of 60 pixels of blur each is an eighth of a pixel
