@@ -36,7 +36,7 @@ COMMANDS = {
     "plan": ("scenes:plan_command", "The least model that a scene requires, each decision explained."),
     "image": ("scenes:image", "A picture through the lens, blurred as field, depth and colour demand."),
     "sharpen": ("scenes:sharpen", "A photo that the lens took, sharpened by the PSF of every place."),
-    "course": ("reports:course", "The results of a class that worked through the course, as a table."),
+    "course": ("reports:course", "Sheets of the six lectures as PDF; the results of a class as a table."),
     "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
     "database": ("databases:app", "Every PSF of a lens as a file: build one, look into one."),
     "cluster": ("clusters:cluster", "How to render a stack on many machines, and who works there."),

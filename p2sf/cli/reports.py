@@ -1,12 +1,13 @@
-"""`p2sf report`, what an engineer reads first of a lens, and `p2sf course`, what a lecturer reads of a class."""
+"""`p2sf report`, what an engineer reads first of a lens; `p2sf course`, sheets of lectures and results of a class."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import percent_line, print_json, print_table, warn
+from p2sf.errors import ExportError
 
 ENDINGS = ".pdf", ".html", ".json"
 Fields = Annotated[
@@ -17,7 +18,13 @@ Frequencies = Annotated[
     tuple[float, ...],
     Parameter(consume_multiple=True, negative="", help="Cycles per mm on the sensor; 10 and 30 when not given."),
 ]
-Results = Annotated[Path, Parameter(help="A folder with the files of results that students saved.")]
+Results = Annotated[Path | None, Parameter(help="A folder with the files of results that students saved.")]
+Sheets = Annotated[
+    Path | None,
+    Parameter(["--output", "-o"], negative="", help="Folder for the sheets; with --results a .csv file."),
+]
+Language = Annotated[str, Parameter(help="Language of the sheets, such as en or de.")]
+PaperName = Annotated[Literal["a4", "letter"], Parameter(help="Paper of the sheets.")]
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
 
 
@@ -62,8 +69,16 @@ def report(
         warn(why)
 
 
-def course(*, results: Results, output: Output = None) -> None:
-    """Show the results of a class, students by tasks; write them as CSV with -o."""
+def course(
+    *, results: Results = None, output: Sheets = None, language: Language = "en", paper: PaperName = "a4"
+) -> None:
+    """Write the sheets of the course into a folder with -o: for students, with solutions, and a state for every page.
+
+    With --results show the results of a class instead, students by tasks, or write them as CSV with -o.
+    """
+    if results is None:
+        _write_sheets(output, language, paper)
+        return
     check_output(output, (".csv",))
     from p2sf_explorer.course.lectures import find_lectures, task_keys
     from p2sf_explorer.course.results_table import read_folder, write_table
@@ -81,3 +96,15 @@ def course(*, results: Results, output: Output = None) -> None:
         wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
         rows.append((task, str(found.count), f"{100 * found.share_right:.0f} %", wrong))
     print_table(str(results), ("task", "tried", "right", "wrong at first"), rows)
+
+
+def _write_sheets(output: Path | None, language: str, paper: str) -> None:
+    from p2sf_explorer.course.sheets import write_course
+    from p2sf_explorer.report.pages import PAPERS
+
+    if output is None:
+        raise ExportError("a folder for the sheets is missing; name one with -o, or results of a class with --results")
+    with percent_line() as tell:
+        written = write_course(output, language, PAPERS[paper], tell or (lambda _: None))
+    sheets = sum(path.suffix == ".pdf" for path in written)
+    print_table(str(output), ("sheets", "pages of lectures"), [(str(sheets), str(len(written) - sheets))])

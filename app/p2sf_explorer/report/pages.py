@@ -74,6 +74,7 @@ def _wide_at_100(text: str, bold: bool, italic: bool) -> float:
 
 Line = list[tuple[str, Lettering]]
 """The parts of a line, each with its lettering."""
+PART = re.compile(r"[^ \n]+")  # a space that keeps a number beside its unit parts no words
 MARKED = re.compile(r"\*\*(\S(?:.*?\S)?)\*\*|\*(\S(?:.*?\S)?)\*")
 
 
@@ -104,7 +105,7 @@ def _words(text: str, lettering: Lettering) -> list[Line]:
     ended = True  # the piece before, with a space
     looks = lettering, replace(lettering, bold=True), replace(lettering, italic=True)
     for turn, piece in enumerate(MARKED.split(text)):  # plain, bold, italic, plain …
-        for number, part in enumerate((piece or "").split()):
+        for number, part in enumerate(PART.findall(piece or "")):
             if number or ended or piece[0].isspace():
                 words.append([])
             words[-1].append((part, looks[turn % 3]))

@@ -224,7 +224,6 @@
 <message><source>Right answer</source><translation>Richtige Antwort</translation></message>
 <message><source>Set the window so that the goal is reached, then press this</source><translation>Das Fenster so einstellen, dass das Ziel erreicht ist, dann hier drücken</translation></message>
 <message><source>Sliders to be set</source><translation>Regler einzustellen</translation></message>
-<message><source>Solution</source><translation>Lösung</translation></message>
 <message><source>Step {number}: {words}</source><translation>Schritt {number}: {words}</translation></message>
 <message><source>Test my lesson</source><translation>Meine Lektion prüfen</translation></message>
 <message><source>The sliders as they are now solve it</source><translation>Die Regler, wie sie jetzt stehen, lösen sie</translation></message>
@@ -243,7 +242,6 @@
 <message><source>{count} checks were made, and nothing is wrong.</source><translation>{count} Prüfungen wurden gemacht, und nichts ist falsch.</translation></message>
 <message><source>{count} checks were made; this is wrong:</source><translation>{count} Prüfungen wurden gemacht; das ist falsch:</translation></message>
 <message><source>Tasks right</source><translation>Aufgaben richtig</translation></message>
-<message><source>Name</source><translation>Name</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
@@ -1508,6 +1506,18 @@
 <message><source>predicted error up to {error:.1g}</source><translation>vorhergesagter Fehler bis {error:.1g}</translation></message>
 <message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
+<message><source>field 34° is beyond 14°, the largest; type a smaller one</source><translation>Feld 34° liegt jenseits von 14°, dem größten; geben Sie ein kleineres ein</translation></message>
+<message><source>Date</source><translation>Datum</translation></message>
+<message><source>Each page is in the window under Course…, and a file beside this sheet opens it.</source><translation>Jede Seite steht im Fenster unter Kurs …, und eine Datei neben diesem Blatt öffnet sie.</translation></message>
+<message><source>For the lecturer</source><translation>Für die Lehrperson</translation></message>
+<message><source>Hint {number}</source><translation>Hinweis {number}</translation></message>
+<message><source>Name</source><translation>Name</translation></message>
+<message><source>Else</source><translation>Sonst</translation></message>
+<message><source>Solution</source><translation>Lösung</translation></message>
+<message><source>Who answers {answer}</source><translation>Wer {answer} antwortet</translation></message>
+<message><source>{path} cannot be made ({reason}); choose another folder</source><translation>{path} kann nicht angelegt werden ({reason}); wählen Sie einen anderen Ordner</translation></message>
+<message><source>{parameter} is {value}; choose one of {choices}</source><translation>{parameter} ist {value}; wählen Sie eines aus {choices}</translation></message>
+<message><source>{title}: solutions and notes</source><translation>{title}: Lösungen und Hinweise</translation></message>
 <message><source>geometric: ray density, no diffraction</source><translation>geometrisch: Strahlendichte, keine Beugung</translation></message>
 <message><source>geometric: ray density, no diffraction; {percent:.0f} % of the light in the window</source><translation>geometrisch: Strahlendichte, keine Beugung; {percent:.0f} % des Lichts im Fenster</translation></message>
 <message><source>give fields along x as well, or align it</source><translation>auch Felder längs x angeben oder sie gerade stellen</translation></message>
