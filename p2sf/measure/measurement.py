@@ -139,6 +139,11 @@ def measure_frame(
     A frame of fewer than five usable points is fitted point by point only. Raises RequestError where no point can be
     used.
     """
+    if asked and asked.lens and asked.lens.sensor_surface.curvature and not frames[0].psf:
+        raise RequestError(
+            "the sensor of the lens is curved, and pictures of points are measured on plane ones; measure single PSFs, "
+            "or give the lens a plane sensor"
+        )
     asked = asked or FrameRequest()
     lens, depth_mm, singly, f_number_error = asked.lens, asked.depth_mm, asked.singly, asked.f_number_error
     _check(frames, asked.focus_um, asked.model, f_number_error)

@@ -55,6 +55,8 @@ def _by_six(lens: Lens, source: Source, numbers: int | None, clip: bool) -> Pupi
 
 def _by_fit(lens: Lens, source: Source, numbers: int | None, clip: bool) -> PupilStack:
     found = fit(lens, source, numbers)
+    if lens.sensor_surface.curvature:
+        return pupils_of(lens, [source], fitted_forms(lens, [source], found.level)[0], found.level, clip)
     columns = (found.phase, found.fx, found.fy, found.amplitude, found.residual_waves)
     forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.amplitude_residual)))
     return pupils_of(lens, [source], forms, found.level, clip)
@@ -78,7 +80,8 @@ def fitted_forms(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[P
     Raises GeometryError where rays do not reach the sensor.
     """
     groups = of_azimuths(sources)
-    rays = [all_reaching(on_sensor(lens, [sources[k] for k in group], *level_rays(level)[:2])) for group in groups]
+    points = level_rays(level)[:2]
+    rays = [all_reaching(on_sensor(lens, [sources[k] for k in group], *points)).along_axis(lens) for group in groups]
     forms, order = [pencil_forms(some, level) for some in rays], np.argsort(np.concatenate(groups))
     landed = [np.concatenate(np.broadcast_arrays(some.chief_x, some.chief_y), axis=1) for some in rays]
     columns = ([getattr(form, field.name) for form in forms] for field in fields(PencilForms))
@@ -161,20 +164,26 @@ def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> P
     rims, sources = _rims(lens, points, clip, HALF), Sources.of(points)
     six = coefficients(lens, sources.depth_mm, sources.field_slope, sources.wavelength_um)
     scale = -np.asarray(six.reduced_slope) / sources.wavelength_um
+    _, slope = lens.sensor_surface.sag_and_slope(np.square(six.image_height))
+    short = (
+        1 / np.sqrt(1 + np.square(2 * slope * six.image_height))[:, None]
+    )  # of a curved sensor along y, as pixels count
     if not scale.all():
         raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
     nodes, sign = HALF.nodes(NODES), np.sign(scale)[:, None]
     basis = frequency_basis(ORDERS[0] if rims.shape[1] else 4, HALF)
-    kinds = _kinds_over(basis.wave_order, sign * nodes.xi, sign * nodes.eta)
+    kinds = _kinds_over(basis.wave_order, sign * short * nodes.xi, sign * nodes.eta)
     phase = wavefront(six, nodes.xi, nodes.eta)
     eta, across = (np.broadcast_to(v, phase.shape) for v in (nodes.eta, nodes.xi))
     found = _solve(basis.phase.of(kinds), np.concatenate([np.stack([phase, eta], axis=1), rims], axis=1))
     xi = _solve(basis.fx.of(kinds), across[:, None])[:, 0]
-    energy = np.pi * np.where((rims > 0).all(1), nodes.weight, 0.0).sum(1) / scale**2
+    energy = np.pi * np.where((rims > 0).all(1), nodes.weight, 0.0).sum(1) / scale**2 * short[:, 0]
     none, unknown = np.empty((len(scale), 0)), np.full(len(scale), np.nan)
     forms = found[:, 0], found[:, 1], xi, none, found[:, 2:]
     sizes = energy, unknown, 0 * scale, -np.asarray(sources.wavelength_um, float) + 0 * scale
-    return with_reach(PupilStack(basis, np.abs(scale), *forms, *sizes, "seidel", 6, _mask_of(lens, points)))
+    return with_reach(
+        PupilStack(basis, np.abs(scale) / short[:, 0], *forms, *sizes, "seidel", 6, _mask_of(lens, points))
+    )
 
 
 def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> tuple[PupilStack, float]:

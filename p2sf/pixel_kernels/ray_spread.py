@@ -65,7 +65,7 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     sides, mask = lens.pupil_domain.images, mask_seen(lens, source)
     grid = _grid(len(sides))
     check_rays(lens)
-    rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip)
+    rays = pencil(lens, source, grid.xi.ravel(), grid.eta.ravel(), clip).along_axis(lens)
     passed = rays.passed.reshape(grid.xi.shape)
     if not passed.any():
         raise GeometryError("no ray reaches the sensor; choose a smaller field or stop the lens down")

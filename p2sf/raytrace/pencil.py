@@ -178,6 +178,22 @@ class Rays:
         own: dict[str, Any] = {name: v[number] for name, v in columns if np.ndim(v) == 2}
         return replace(self, **own)
 
+    def along_axis(self, lens: Lens) -> "Rays":
+        """Return the rays of a curved sensor as they lie on pixels, which count along x and y of its own axes.
+
+        What lies in the plane that touches it is foreshortened: X = T·x of places, so that f = T⁻¹·f of frequencies.
+        The phase does not change.
+        """
+        if not lens.sensor_surface.curvature:
+            return self
+        (a, b), (_, d) = tangent_axes(lens, self.chief_x, self.chief_y)[:2, :2]
+        area, new = a * d - b * b, dict[str, Any](crossings=None)
+        new |= {"dx": a * self.dx + b * self.dy, "dy": b * self.dx + d * self.dy}
+        for x, y in (("kx", "ky"), ("chief_kx", "chief_ky")):
+            across, up = getattr(self, x), getattr(self, y)
+            new |= {x: (d * across - b * up) / area, y: (a * up - b * across) / area}
+        return replace(self, **new)
+
     def turned(self, angle_deg: float) -> "Rays":
         """Return the rays in pupil and sensor axes from which these are turned, from +y towards +x."""
         sine, cosine = np.sin(np.deg2rad(angle_deg)), np.cos(np.deg2rad(angle_deg))

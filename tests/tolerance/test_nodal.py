@@ -1,5 +1,6 @@
 """Nodes of coma and astigmatism: laws of symmetry, and Seidel's sums against exact rays."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -171,3 +172,14 @@ def test_a_ring_without_astigmatism_has_no_nodes():
     axis = np.linspace(-14.0, 14.0, 5)
     found = field_aberrations(find_lens("double_gauss_28"), np.inf, 0.5875618, axis, axis)
     assert found.astigmatism_nodes_deg == pytest.approx(np.zeros((1, 2)), abs=1e-6)
+
+
+def test_nodes_do_not_move_with_the_curvature_of_the_sensor():
+    """It adds defocus and distortion to every field, and no coma or astigmatism of any order in the tilt of a lens."""
+    lens = displaced(find_lens("cooke_triplet"), 3, 4, Placement(decentre_y=0.05))
+    angles = np.linspace(-8, 8, 3)
+    flat, bent = (field_aberrations(replace(lens, sensor_radius=r), inf, 0.55, angles, angles) for r in (inf, -60.0))
+    # In degrees; the sphere of the displayed wavefront is another, which changes it by its square: thousandths.
+    assert np.abs(bent.astigmatism_nodes_deg - flat.astigmatism_nodes_deg).max() < 2e-3
+    assert bent.third_order.coma_node == flat.third_order.coma_node
+    assert np.abs(bent.defocus - flat.defocus).max() > 0.1

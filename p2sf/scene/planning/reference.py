@@ -54,14 +54,14 @@ def exact_pixels(
     # The mask, fixed in the lens, is rotated, and so are tilts and decentres of the lens.
     seen = replace(source, azimuth_deg=float(np.rad2deg(angle)))
     probe = pupil_nodes(lens, seen, PROBE, clip)
-    steep = steepness(pencil(lens, seen, probe.xi, probe.eta), probe.xi, probe.eta)
+    steep = steepness(pencil(lens, seen, probe.xi, probe.eta).along_axis(lens), probe.xi, probe.eta)
     steep = with_slopes(steep, lens.mask, source.wavelength_um)
     size = 2 * half + 1
     place, share = _pixel_points(size, pixel_um, steep.spread)
     counts = counts_for(steep, window_reach_um(size, pixel_um))
     radii, directions = (2 * ceil(0.55 * count) for count in counts)
     nodes = pupil_nodes(lens, seen, (radii, directions), clip).unfolded()
-    rays = rays_through(lens, seen, nodes)
+    rays = rays_through(lens, seen, nodes).along_axis(lens)
     weight, across_f, along_f = rays.share * rays.amplitude, rays.fx, rays.fy
     sine, cosine = np.sin(angle), np.cos(angle)
     fx, fy = across_f * cosine + along_f * sine, along_f * cosine - across_f * sine

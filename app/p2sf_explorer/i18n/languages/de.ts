@@ -2302,6 +2302,7 @@
 <message><source>solves, whose stored values are read</source><translation>Solves, deren gespeicherte Werte gelesen sind</translation></message>
 <message><source>vignetting factor</source><translation>Vignettierungsfaktor</translation></message>
 <message><source>rays fill the paraxial entrance pupil (aim {aim}), but CODE V aims them at the stop; aim at the stop, or save as TOML</source><translation>Strahlen füllen die paraxiale Eintrittspupille (Ziel {aim}), CODE V zielt aber auf die Blende; zielen Sie auf die Blende, oder speichern Sie als TOML</translation></message>
+<message><source>the sensor of the lens is curved, and pictures of points are measured on plane ones; measure single PSFs, or give the lens a plane sensor</source><translation>der Sensor des Objektivs ist gewölbt, und Bilder von Punkten werden auf ebenen gemessen; messen Sie einzelne PSFs, oder geben Sie dem Objektiv einen ebenen Sensor</translation></message>
 <message><source>vignetting factors, all of them 0</source><translation>Vignettierungsfaktoren, alle 0</translation></message>
 <message><source>wavelength</source><translation>Wellenlänge</translation></message>
 <message><source>wavelength number</source><translation>Nummer der Wellenlänge</translation></message>
