@@ -46,10 +46,10 @@ TELL_EVERY_S = 1.0
 BARELY_WHITE = 1.001  # rounding of white is no light that is cut off
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
-    "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db), f_number, zoom, focus_position, focus_mm, "
-    "aim, clip; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, black_level, mosaic, "
-    "fill_factor; [depth] near_mm, far_mm or map; [[channel]] name, wavelengths_nm, weights, or [filters] curves, "
-    "light, by default red, green and blue."
+    "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db, tail_error), f_number, zoom, focus_position, "
+    "focus_mm, aim, clip; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, black_level, "
+    "mosaic, fill_factor; [depth] near_mm, far_mm or map; [[channel]] name, wavelengths_nm, weights, or [filters] "
+    "curves, light, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]

@@ -6,6 +6,7 @@ See handbook 10.1.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
+from math import inf
 from threading import Lock
 
 import numpy as np
@@ -15,12 +16,22 @@ from p2sf.arguments import real_array
 from p2sf.errors import RequestError
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.geometry import illumination, region_of, resample, source_places
-from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels
+from p2sf.image.highlights import (
+    BrightLight,
+    FullKernels,
+    add_halo,
+    dimmest,
+    gather,
+    groups_of,
+    has_halos,
+    kernel_between,
+)
+from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels, pad_kernel
 from p2sf.image.layers import CONTINUED, DepthMap, map_depths
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.region import Region, tiles, whole
-from p2sf.messages import Alternatives
+from p2sf.messages import Alternatives, ParameterName
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.planning.plan import Plan
@@ -88,6 +99,12 @@ def form_image(
     that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is cancelled.
     """
     picture, watch = check_picture(planned.scene, values), watch or Progress()
+    if how.method != "patches" and has_halos(planned):
+        raise RequestError(
+            "a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches",
+            parameter="tail_error",
+            method=ParameterName("method"),
+        )
     kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)
     if depth_mm is None:
         depths, half = None, kernels.over(0, whole(picture.shape)).half
@@ -96,16 +113,41 @@ def form_image(
         half = max(_corner_halves(planned))
         depths = map_depths(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2], half)
     former = _Former(planned, picture, depths, how, half, kernels, watch)
-    out, parts = np.empty_like(picture), list(tiles(picture.shape, TILE))
+    out, parts, bright = np.empty_like(picture), list(tiles(picture.shape, TILE)), []
     watch.expect(TILE_STEPS * len(parts))
 
-    def take(formed: tuple[Region, np.ndarray]) -> None:
-        region, light = formed
+    def take(formed: tuple[Region, np.ndarray, BrightLight]) -> None:
+        region, light, highlights = formed
         out[region.within(whole(out.shape))] = light
+        bright.append(highlights)
         watch.advance(TILE_STEPS)
 
-    for_each(lambda region: (region, former.form(region)), parts, take)
+    for_each(lambda region: (region, *former.form(region)), parts, take)
+    _add_halos(out, gather(bright), former)
     return out
+
+
+def _add_halos(out: np.ndarray, bright: BrightLight, former: "_Former") -> None:
+    """Add to a formed picture, in place, what the kernels of its bright light hold beyond their windows."""
+    groups, full = list(groups_of(bright, out.shape)), FullKernels(former.planned)
+    former.watch.expect(TILE_STEPS * len(groups))
+
+    def difference(group: BrightLight) -> tuple[BrightLight, np.ndarray]:
+        share = group.light.sum(1) / group.light.sum()
+        row, column, place = (float(share @ each) for each in (group.rows, group.columns, group.places))
+        vergences = former.planned.vergences
+        wide = full.at(row, column, float(np.interp(place, np.arange(len(vergences)), vergences)))
+        near = int(min(place, max(len(vergences) - 2, 0)))
+        for number, part in ((near, near + 1 - place), (near + 1, place - near)):
+            if part:
+                wide -= part * pad_kernel(former.kernel_at(number, row, column), wide.shape[-1])
+        return group, wide
+
+    def take(found: tuple[BrightLight, np.ndarray]) -> None:
+        add_halo(out, *found)
+        former.watch.advance(TILE_STEPS)
+
+    for_each(difference, groups, take)
 
 
 class DepthKernels:
@@ -146,16 +188,31 @@ class _Former:
     kernels: DepthKernels
     watch: Progress
 
-    def form(self, tile: Region) -> np.ndarray:
-        """Return a tile of the formed picture."""
+    def form(self, tile: Region) -> tuple[np.ndarray, BrightLight]:
+        """Return a tile of the formed picture without halos, and its light that has some."""
         reach = tile.grown(self.half)
         inside = reach.meet(whole(self.picture.shape))
         placed = _Placing(self, inside)
         if self.depths is None:
-            planes, box = self._surrounded(placed.light(inside), inside, reach)
+            planes, box = self._surrounded(placed.lit, inside, reach)
             blurred, spread = self._blur(0, planes, box, tuple(range(planes.shape[-1])))
-            return blurred[tile.within(spread)]
-        return self._add_layers(tile, reach, placed.layers(self.depths))
+            return blurred[tile.within(spread)], placed.bright(tile)
+        return self._add_layers(tile, reach, placed.layers(self.depths)), placed.bright(tile)
+
+    def kernel_at(self, number: int, row: float, column: float) -> np.ndarray:
+        """Return the kernels of a pixel at a depth node, (channels, size, size)."""
+        top, left = int(row), int(column)
+        lattice = self.kernels.over(number, Region(top, top + 2, left, left + 2))
+        return kernel_between(lattice, row - top, column - left)
+
+    @cached_property
+    def dimmest(self) -> float:
+        """Return the light above which a pixel has a halo that counts."""
+        if not has_halos(self.planned):
+            return inf
+        row, column = (n // 2 for n in self.picture.shape[:2])
+        full = FullKernels(self.planned).at(row, column, self.planned.vergences[0])
+        return dimmest(full, self.kernel_at(0, row, column), float(self.picture.max()))
 
     def _add_layers(self, tile: Region, reach: Region, layers: Iterator[tuple[int, np.ndarray, Region]]) -> np.ndarray:
         """Return the light of the layers from near to far, each behind those before it, over what they cover."""
@@ -200,7 +257,9 @@ class _Former:
             blurred = low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
             return blurred, box.grown(parts[0].mean.shape[0] // 2)
         lattice = self.kernels.over(number, box)
-        blurred = BlurOperator(lattice, box.shape, channels=channels).spread(planes, self.watch)
+        # Halos are far below the rounding of float32 beside very bright light.
+        kind = np.float64 if has_halos(self.planned) else np.float32
+        blurred = BlurOperator(lattice, box.shape, channels=channels, kind=kind).spread(planes, self.watch)
         return blurred, box.grown(lattice.half)
 
     @cached_property
@@ -229,9 +288,23 @@ class _Placing:
             self._places = source_places(seen, sensor, inside)
             self._shade = illumination(seen, sensor, LIGHT_HEIGHTS[former.how.spline > 1], inside)[..., None]
 
-    def light(self, box: Region) -> np.ndarray:
-        """Return the picture's colours on the pixels of a box."""
-        return self._shaded(self._moved(self._former.picture, self._all, box, self._former.how.spline), box)
+    @cached_property
+    def lit(self) -> np.ndarray:
+        """Return the picture's colours on the pixels of the region."""
+        moved = self._moved(self._former.picture, self._all, self._inside, self._former.how.spline)
+        return self._shaded(moved, self._inside)
+
+    def bright(self, tile: Region) -> BrightLight:
+        """Return the light of a tile that has halos."""
+        lit, depths = self.lit[tile.within(self._inside)], self._former.depths
+        rows, columns = np.nonzero((lit > self._former.dimmest).any(-1))
+        light = lit[rows, columns]
+        rows, columns = rows + tile.top, columns + tile.left
+        source = np.stack([rows, columns])
+        if self._places is not None:
+            at = self._places[:, rows - self._inside.top, columns - self._inside.left]
+            source = np.clip(np.rint(at).astype(int), 0, np.array(self._former.picture.shape[:2])[:, None] - 1)
+        return BrightLight(rows, columns, np.zeros(len(rows)) if depths is None else depths.place[*source], light)
 
     def layers(self, depths: DepthMap) -> Iterator[tuple[int, np.ndarray, Region]]:
         """Yield each layer's number, its colours and behind them its opacity, and the box that holds it.
@@ -241,14 +314,14 @@ class _Placing:
         source = self._inside if self._places is None else region_of(self._places, self._all)
         if depths.hiding[source.within(self._all)].any():
             source = source.grown(CONTINUED * self._former.half).meet(self._all)
-        picture, lit = self._former.picture[source.within(self._all)], self.light(self._inside)
+        picture = self._former.picture[source.within(self._all)]
         for layer in depths.over(source).layers(picture):
             box = self._box(layer.opacity > 0, source)
             if box.empty:
                 continue
             planes = [layer.opacity, layer.hiding] if layer.hiding.any() else [layer.opacity]
             opacity = self._moved(np.stack(planes, axis=-1), source, box, 1)
-            colours = lit[box.within(self._inside)]
+            colours = self.lit[box.within(self._inside)]
             other = (
                 Region(0, 0, 0, 0)
                 if layer.colours is picture

@@ -14,6 +14,7 @@ from p2sf.pupil.mask_cells import inside_share, open_share, turned_back, wings
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
 LARGEST_WINDOW = 4096
+SINC = np.float32(1 - np.pi**2 / 6), np.float32(np.pi**4 / 120 + 1 - np.pi**2 / 6)  # of sinc(t)/(1 − t²), in t²
 BLOCK = 32768  # samples of pupils in one block
 TOGETHER = 65536  # samples of the light that are transformed together
 
@@ -130,6 +131,21 @@ def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
     light: np.ndarray = plane.real**2
     light += plane.imag**2
     return light
+
+
+def rim_gain(half: int, pitch_um: float, period_um: float, reach_um: float) -> np.ndarray:
+    """Return what the light of samples at most ``half`` from the middle is to be multiplied by, (2·half + 1,)² float32.
+
+    A cell that an edge of the pupil cuts counts by its open part, a mean over a cell across the edge. So the waves that
+    an edge sends to r are too weak by sinc(r/``period_um``), that of the transform; the light within ``reach_um``
+    comes from rays, which are not. The gain is 1/sinc², to 1e-3 up to half a period, as
+    (1 − t²)⁻²(1 + at² + bt⁴)⁻² of t = r/period.
+    """
+    square = (np.arange(-half, half + 1) * np.float32(pitch_um / period_um)) ** 2
+    t = square + square[:, None]
+    root = (1 - t) * (1 + t * (SINC[0] + t * SINC[1]))
+    gain: np.ndarray = 1 / (root * root)
+    return np.where(t > np.float32((reach_um / period_um) ** 2), gain, np.float32(1))
 
 
 def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.ndarray:

@@ -19,7 +19,7 @@ from p2sf.parameters import check_aim, check_reach
 from p2sf.scene.sensor import Sensor
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
-LIMITS = {"rtol": "relative", "min_r2": "r2", "mtf_error": "mtf", "min_psnr_db": "psnr"}
+LIMITS = {"rtol": "relative", "min_r2": "r2", "mtf_error": "mtf", "min_psnr_db": "psnr", "tail_error": "hdr"}
 """Numbers that state the tolerable error, and how each measures it."""
 USUAL_RTOL = 0.05
 TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil do not achieve less
@@ -79,7 +79,9 @@ class Scene:
     One of four numbers says which error is tolerable: ``rtol``, the relative L2 error of a pixel's kernel, 0.05 where
     none is given; ``min_r2``, its least R²; ``mtf_error``, the RMS error of the MTF over all spatial frequencies that
     the pixels resolve; ``min_psnr_db``, the least peak signal-to-noise ratio, dB, of a picture of white noise between
-    black and white. Pictures with most of their light at low frequencies have smaller errors.
+    black and white. Pictures with most of their light at low frequencies have smaller errors. ``tail_error`` is the
+    relative error of every kernel, and of the azimuthal mean of its faint light wherever that is at least 1e-6 of its
+    peak within 200 Airy radii (`p2sf.metrics.tails`), which pictures of very bright points need.
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
     the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
@@ -94,6 +96,7 @@ class Scene:
     min_r2: float | None = None
     mtf_error: float | None = None
     min_psnr_db: float | None = None
+    tail_error: float | None = None
     focus_mm: float | None = None
     f_number: float | None = None
     aim: AimChoice | None = None
@@ -181,7 +184,7 @@ class Scene:
         ``norm``. Pixels of white noise are independent: the mean square error of its picture is its variance times that
         sum, the peak being 1.
         """
-        if self.measure == "relative":
+        if self.measure in ("relative", "hdr"):
             return self.limit
         if self.measure == "r2":
             return sqrt(1 - self.limit)
@@ -190,7 +193,7 @@ class Scene:
 
     def measured(self, relative: float, norm: float) -> float:
         """Return a relative error in the measure of the tolerance, for kernels as in `relative_error`."""
-        if self.measure == "relative":
+        if self.measure in ("relative", "hdr"):
             return relative
         if self.measure == "r2":
             return 1 - relative**2

@@ -34,6 +34,7 @@ def _as_asked(planned: Plan) -> str:
         "mtf": "an MTF error of {0:.2g}, at most {1:g}",
         "psnr": "{0:.1f} dB, at least {1:g}",
         "r2": "R² {0:.4f}, at least {1:g}",
+        "hdr": "halos of bright light by kernels of full size, to {1:g} of their means",
     }
     return f": {words[scene.measure].format(found, scene.limit)}" if scene.measure in words else ""
 

@@ -1245,6 +1245,7 @@
 <message><source>a wavelength of {nm:g} nm that brings {share:g} of the light; give two positive numbers</source><translation>eine Wellenlänge von {nm:g} nm, die {share:g} des Lichts bringt; zwei positive Zahlen angeben</translation></message>
 <message><source>a whole number</source><translation>eine ganze Zahl</translation></message>
 <message><source>a {axis} node is not finite; only a depth may be infinite</source><translation>bei {axis} ist ein Knoten nicht endlich; nur ein Objektabstand darf unendlich sein</translation></message>
+<message><source>a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches</source><translation>eine Szene mit {parameter} hat Lichthöfe, die schwächer sind als der Fehler eines niedrigen Rangs; {method} patches wählen</translation></message>
 <message><source>a {ending} of depth {depth} cannot be written; choose {choices}</source><translation>ein {ending} der Tiefe {depth} lässt sich nicht schreiben; {choices} wählen</translation></message>
 <message><source>adds, λ</source><translation>Beitrag, λ</translation></message>
 <message><source>agf_formula is {formula}; write a number from 1 to 13</source><translation>agf_formula ist {formula}; eine Zahl von 1 bis 13 schreiben</translation></message>
@@ -2657,6 +2658,7 @@
 <message><source>{path}, line {line}: name the columns first, number x_mm y_mm or number x_deg y_deg</source><translation>{path}, Zeile {line}: zuerst die Spalten nennen, number x_mm y_mm oder number x_deg y_deg</translation></message>
 <message><source>{path}, line {line}: {message}</source><translation>{path}, Zeile {line}: {message}</translation></message>
 <message><source>{path}, line {line}: {words} is number {other} once more; give each point one number and place</source><translation>{path}, Zeile {line}: {words} ist noch einmal Nummer {other}; jedem Punkt eine Nummer und einen Ort geben</translation></message>
+<message><source>{share:.2g} % of the picture is brighter than white, which {path} cuts off; choose {parameter} float in a .tif, or .exr</source><translation>{share:.2g} % des Bildes sind heller als Weiß, was {path} abschneidet; {parameter} float in einem .tif wählen, oder .exr</translation></message>
 <message><source>{path} has the channels {channels}; give one with R, G and B, or with Y or Z alone</source><translation>{path} hat die Kanäle {channels}; eines mit R, G und B angeben, oder mit Y oder Z allein</translation></message>
 <message><source>{path}: OpenEXR files need its library, which is not installed; pip install 'p2sf[exr]', or use a TIFF of floats</source><translation>{path}: OpenEXR-Dateien brauchen dessen Bibliothek, die nicht installiert ist; pip install 'p2sf[exr]', oder ein TIFF mit Gleitkommazahlen</translation></message>
 <message><source>{path}: HEIF photos need pillow-heif, which is not installed; pip install 'p2sf[heif]', or save a JPEG</source><translation>{path}: HEIF-Fotos brauchen pillow-heif, das nicht installiert ist; pip install 'p2sf[heif]', oder ein JPEG speichern</translation></message>

@@ -1,0 +1,100 @@
+"""Halos: bright points as sums of exact rays have them, down to a millionth of the peak."""
+
+import numpy as np
+import pytest
+
+from p2sf.errors import RequestError
+from p2sf.image import Forming, form_image
+from p2sf.image.highlights import BrightLight, add_halo, groups_of
+from p2sf.lens.lens import with_mask
+from p2sf.lensfile.library import find_lens
+from p2sf.pixel_kernels.pixels import rim_gain
+from p2sf.pupil.mask import PupilMask
+from p2sf.scene import Channel, Scene, Sensor, plan, read_scene
+from p2sf.scene.planning.reference import reference_kernel
+from tests.support.tiers import in_tiers
+
+GREEN, RED = Channel("green", (540.0,), (1.0,)), Channel("red", (590.0, 620.0, 650.0), (1.0, 2.0, 1.0))
+BLUR = Forming(geometry=False)
+MASKS = PupilMask(), PupilMask(blades=6), PupilMask(vanes=4)
+CASES = [(mask, channel) for channel in (GREEN, RED) for mask in MASKS]
+
+
+def rings(values: np.ndarray) -> np.ndarray:
+    """Return the mean of an odd square in rings a pixel wide about its middle."""
+    half = len(values) // 2
+    ring = np.hypot(*np.mgrid[-half : half + 1, -half : half + 1]).astype(int).ravel()
+    return (np.bincount(ring, values.ravel()) / np.bincount(ring))[: half + 1]
+
+
+@pytest.mark.parametrize(("mask", "channel"), in_tiers(CASES, (CASES[1],)), ids=str)
+def test_the_halo_of_a_bright_point_is_that_of_every_ray(mask, channel):
+    """The mean of every ring to 2 %, of which edges counted by their open part take 1 % far out; a tenth is asked.
+
+    A single pixel is off by at most 3e-5 of the peak, where spikes are finer than pixels.
+    """
+    half, at = (60, 66) if channel is RED else (20, 30)
+    lens = with_mask(find_lens("double_gauss_28"), mask)
+    sensor = Sensor(2 * at + 1, 2 * at + 1, 6.0, (0.0, 8.0))
+    planned = plan(lens, Scene(sensor, (channel,), f_number=5.6, tail_error=0.1))
+    picture = np.full((2 * at + 1, 2 * at + 1, 1), 0.01, np.float32)
+    picture[at, at] = 1e4
+    found = form_image(planned, picture, how=BLUR).astype(float)[..., 0] - 0.01
+    part = found[at - half : at + half + 1, at - half : at + half + 1] / 1e4
+    place = float(sensor.x_mm(at)), float(sensor.y_mm(at))
+    exact = reference_kernel(planned.sensor_map(0.0), channel, *place, half, 6.0)
+    exact *= part.sum() / exact.sum()  # in this window
+    np.testing.assert_allclose(rings(part), rings(exact), rtol=0.02)
+    assert rings(exact)[-1] < (2e-6 if half == 60 else 3e-5) * exact.max()
+    far = np.hypot(*np.mgrid[-half : half + 1, -half : half + 1]) > 6
+    assert np.abs(part - exact)[far].max() < 3e-5 * exact.max()
+
+
+def test_points_add_up_each_with_its_own_depth_and_halo():
+    """Two headlamps at two depths: their picture is the sum of those of each, to the light that counts as dark."""
+    sensor = Sensor(60, 90, 6.0)
+    planned = plan(find_lens("double_gauss_28"), Scene(sensor, (GREEN,), 9000.0, f_number=8.0, tail_error=0.3))
+    depth, pictures = np.full((60, 90), 1e5), np.zeros((2, 60, 90, 1), np.float32)
+    depth[:, 45:] = 9000.0
+    pictures[0, 20, 20], pictures[1, 40, 70] = 1e4, 3e3
+    one, other, both = (form_image(planned, each, depth, BLUR) for each in (*pictures, pictures.sum(0)))
+    np.testing.assert_allclose(both, one + other, rtol=1e-5, atol=1e-6 * both.max())
+    assert one[20, 40, 0] > 1e-6 * one.max()  # a small kernel ends at 9 pixels
+
+
+def test_a_group_is_spread_as_the_sum_of_its_points_and_cut_at_the_edge():
+    random = np.random.default_rng(4)
+    rows, columns = random.integers(0, 12, 5), random.integers(0, 15, 5)
+    bright = BrightLight(rows, columns, np.zeros(5), random.random((5, 2)))
+    kernel, out, wanted = random.normal(size=(2, 9, 9)), np.zeros((12, 15, 2)), np.zeros((20, 23, 2))
+    add_halo(out, bright, kernel)
+    for row, column, light in zip(rows, columns, bright.light, strict=True):
+        wanted[row : row + 9, column : column + 9] += light * np.moveaxis(kernel, 0, -1)
+    np.testing.assert_allclose(out, wanted[4:-4, 4:-4], atol=1e-14)
+    split = list(groups_of(BrightLight(rows, columns, np.arange(5.0), bright.light), (800, 800)))
+    assert len(split) == 5 and sum(float(each.light.sum()) for each in split) == pytest.approx(bright.light.sum())
+
+
+def test_the_gain_of_a_rim_is_that_of_a_mean_over_a_cell():
+    """A slit whose outer cells count in part has the light of the slit itself, up to a quarter of the period."""
+    count, wide = 256, np.linspace(30, 32, 41)[:-1]  # of many, so that edges meet cells everywhere
+    cells = np.clip(wide / 2 + 0.5 - np.abs(np.arange(-32, 33))[:, None], 0, 1)
+    x = np.arange(-100, 101)
+    found = (np.abs(np.exp(-2j * np.pi * np.outer(x, np.arange(-32, 33)) / count) @ cells) ** 2).sum(1)
+    true = (np.sinc(x[:, None] * wide / count) ** 2 * wide**2).sum(1)
+    gain = rim_gain(100, 1.0, count, 0.0)[100]
+    bands = [np.abs(x) // 20 == k for k in (1, 2)]
+    for band in bands:
+        assert (found * gain)[band].sum() == pytest.approx(true[band].sum(), rel=0.02)  # of the copies a period away
+    assert found[bands[1]].sum() < 0.95 * true[bands[1]].sum()
+
+
+def test_a_scene_states_faint_light_in_two_ways(tmp_path):
+    lines = "[sensor]\nrows = 4\ncolumns = 6\npixel_um = 9\n"
+    for name, head in (("new", "tail_error = 0.1\n"), ("old", 'measure = "hdr"\ntolerance = 0.1\n')):
+        (tmp_path / f"{name}.toml").write_text(head + lines)
+    new, old = (read_scene(tmp_path / f"{name}.toml") for name in ("new", "old"))
+    assert new.measure == old.measure == "hdr" and new.limit == old.limit == new.relative_tolerance == 0.1
+    planned = plan(find_lens("double_gauss_28"), new)
+    with pytest.raises(RequestError, match="patches"):
+        form_image(planned, np.ones((4, 6, 3)), how=Forming("lowrank"))
