@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.long import golden, structure
+from tests.long import golden, structure, walks
 
 
 def test_a_difference_is_judged_by_the_larger_value():
@@ -67,3 +67,11 @@ def test_code_is_counted_without_text():
     assert [place[1] for place in structure.branches(path, tree)] == [7]
     assert [place[2] for place in structure.method_comparisons(path, tree)] == ["c == 'traced'"]
     assert [place[2] for place in structure.long_signatures(path, tree)] == ["f"]
+
+
+MOST_ACTIONS = {"MTF of five fields": 2, "report": 2, "a lesson of the screen": 3, "A beside B": 1}
+
+
+def test_what_a_lecturer_and_an_engineer_want_takes_few_actions():
+    taken = {task: len(actions) for walk in walks.WALKS for task, actions in walk.tasks}
+    assert all(taken[task] <= most for task, most in MOST_ACTIONS.items())

@@ -19,6 +19,7 @@ from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.store.panel_jobs import Asking
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.chart_card import NOTE_PX
 from p2sf_explorer.widgets.differences import DIFFERENCE_MAP
 from p2sf_explorer.widgets.tiles import Tile, TilesChart, tile
 
@@ -56,11 +57,12 @@ class StripChart(TilesChart):
         self._strip = tiles, shifts
         step, area = float(shifts[1] - shifts[0]), self.area
         wide = area.width() / (len(shifts) + 2 * ENDS - 1)  # of a step, in pixels
-        rows = max(range(1, MOST_ROWS + 1), key=lambda count: min(count * wide, area.height() / count))
+        tall = max(1.0, area.height() - self.theme.px(NOTE_PX))  # below the line of the notes
+        rows = max(range(1, MOST_ROWS + 1), key=lambda count: min(count * wide, tall / count))
         placed = (each and replace(each, y=1 - (k % rows + 0.5) / rows) for k, each in enumerate(tiles))
         air = max(ENDS, rows / 2) * step  # so that the first and the last tile are whole
-        self.set_range((float(shifts[0]) - air, float(shifts[-1]) + air), (0.0, 1.0))
-        self.show_tiles(placed, rows * step, rows)
+        self.set_range((float(shifts[0]) - air, float(shifts[-1]) + air), (0.0, area.height() / tall))
+        self.show_tiles(placed, rows * step, rows * area.height() / tall)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Choose again how many rows there is room for."""

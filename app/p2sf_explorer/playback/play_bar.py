@@ -108,6 +108,7 @@ class PlayBar(QFrame):
         row.addWidget(self.progress, 1)
         row.addWidget(self.stop_film)
         row.addStretch(1)
+        film.addStretch(1)
         for part in (self.subject, self.export, self.close_bar):
             film.addWidget(part)
         self._show_filming(False)

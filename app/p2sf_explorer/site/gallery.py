@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication
 
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import configure_plots, screen_scale
+from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.state.limits import CHOICES
@@ -78,8 +79,8 @@ def stages() -> dict[str, State]:
 
 
 def workspace(name: str, theme: str) -> State:
-    """Return the first state in a workspace; that of teaching with the first lesson."""
-    first = new_state(theme=theme)
+    """Return what the window shows at its first start in a workspace; that of teaching with the first lesson."""
+    first = change(first_state(), theme=theme)
     return shipped_lessons()[0].state(0, first) if name == TEACH else with_workspace(first, name, WORKSPACES[name])
 
 

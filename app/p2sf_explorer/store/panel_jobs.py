@@ -55,6 +55,9 @@ class Asking(QObject):
 
     def ask_when_held(self, question: object) -> None:
         """Ask once no other question has come for `HELD_MS`, since the frames of a slider that moves go first."""
+        if question == self.asked:
+            return
+        self.forget()
         self._later = question
         self._held.start()
 

@@ -54,8 +54,8 @@ def curve_sign(token: str, theme: Tokens) -> str:
 
 Note = tuple[float, float, str, str, int]
 """Place x, y (infinite for the upper edge, where notes go below those in their way), text as it is, token, and side: −1
-left, 0 middle, 1 right end."""
-NOTE_PX, NOTE_WIDTH = 16, 120  # the height of a note's line at scale 1, and pixels within which it is written
+left end (right, where it would not fit), 0 middle, 1 right end."""
+NOTE_PX = 16  # the height of a note's line at scale 1
 
 
 class NotedChart(Chart):
@@ -77,10 +77,9 @@ class NotedChart(Chart):
             at = float(self.to_pixels(x, 0.0)[0])
             wide = self.theme.scale
             painter.fillRect(QRectF(at - wide / 2, self.area.top(), wide, self.area.height()), self._colour(token))
-        for (_, _, words, token, side), room in zip(self.notes, self.note_rooms(), strict=True):
+        for (_, _, words, token, _), room in zip(self.notes, self.note_rooms(), strict=True):
             painter.setPen(self._colour(token))
-            left = room.left() - (side + 1) / 2 * (NOTE_WIDTH - room.width())
-            write(painter, QRectF(left, room.top(), NOTE_WIDTH, room.height()), words, side, self.theme.tick)
+            write(painter, room, words, -1, self.theme.tick)
 
     def note_rooms(self) -> list[QRectF]:
         """Return the rectangles of the notes, in pixels."""
@@ -90,6 +89,8 @@ class NotedChart(Chart):
             left, middle = (float(v) for v in self.to_pixels(x, y if isfinite(y) else 0.0))
             wide = width_of(words, self.theme.tick)
             top = middle - tall / 2 if isfinite(y) else self.area.top()
+            if side < 0 and left + wide > self.width():
+                side = 1
             room = QRectF(left - (side + 1) / 2 * wide, top, wide, tall)
             while not isfinite(y) and any(room.intersects(other) for other in rooms):
                 room.translate(0, tall)

@@ -299,11 +299,18 @@ class Columns(QWidget):
 
 
 class Scrolling(QScrollArea):
-    """A scroll area that keeps its contents clear of the scroll bar."""
+    """A scroll area of a table that keeps its contents clear of the scroll bar, and shows whole rows."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, table: FactTable, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._table = table
         self.verticalScrollBar().rangeChanged.connect(self._make_room)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave out what has no room for a whole row."""
+        super().resizeEvent(event)
+        cut = self._table.sizeHint().height() > self.height()
+        self.setViewportMargins(0, 0, 0, round(self.height() % self._table.row) if cut else 0)
 
     def _make_room(self, first: int, last: int) -> None:
         """Leave a margin beside the bar, and none where there is no bar."""
@@ -316,7 +323,7 @@ def in_scroll_area(table: FactTable, at_foot: bool = True) -> QScrollArea:
     """Return a table at the foot or top of an area that scrolls where room is little, so that no row is cut in two."""
     body = QWidget()
     column = QVBoxLayout(body)
-    area = Scrolling()
+    area = Scrolling(table)
     column.setContentsMargins(0, 0, 0, 0)
     column.addStretch(1 if at_foot else 0)
     column.addWidget(table)

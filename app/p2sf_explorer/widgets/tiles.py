@@ -45,10 +45,10 @@ class TilesChart(NotedChart):
     def __init__(self, bottom: str = "", left: str = "", framed: bool = True):
         super().__init__(bottom, left, framed=framed)
         self.tiles: tuple[Tile, ...] = ()
-        self.side, self.rows = 1.0, 1
+        self.side, self.rows = 1.0, 1.0
         self.colours = BRIGHTNESS
 
-    def show_tiles(self, tiles: Iterable[Tile | None], side: float, rows: int = 1) -> None:
+    def show_tiles(self, tiles: Iterable[Tile | None], side: float, rows: float = 1) -> None:
         """Show tiles, None where there is no light; each has ``side`` of the width and 1/``rows`` of the height."""
         self.tiles, self.side, self.rows = tuple(each for each in tiles if each), side, rows
         self.update()

@@ -10,7 +10,7 @@ from p2sf_explorer.state.state import Display
 from p2sf_explorer.widgets.card import PANEL_MIME
 
 SETTLE_MS = 250  # after the last move of a handle, before its place goes into the state
-UPRIGHT = 1.2  # height over width from which two cards stand one above the other
+UPRIGHT = 1.5  # height over width from which two cards stand one above the other
 WHOLE = 10_000  # of the sizes of a splitter's parts, which are whole numbers
 
 
