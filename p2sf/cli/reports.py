@@ -81,7 +81,7 @@ def course(
         return
     check_output(output, (".csv",))
     from p2sf_explorer.course.lectures import find_lectures, task_keys
-    from p2sf_explorer.course.results_table import read_folder, write_table
+    from p2sf_explorer.course.results_table import concept_gain, read_folder, write_table
 
     lectures, _ = find_lectures()
     table = read_folder(results, task_keys(lectures.values()))
@@ -96,6 +96,9 @@ def course(
         wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
         rows.append((task, str(found.count), f"{100 * found.share_right:.0f} %", wrong))
     print_table(str(results), ("task", "tried", "right", "wrong at first"), rows)
+    if gain := concept_gain(table):
+        shares = f"{100 * gain.before:.0f} % right before, {100 * gain.after:.0f} % after"
+        print(f"concept check of {gain.count}: {shares}, gain {gain.normalized:.2f}")
 
 
 def _write_sheets(output: Path | None, language: str, paper: str) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from p2sf.errors import ExportError, P2SFError
 from p2sf.files.writing import write_beside
+from p2sf_explorer.course.lectures import AFTER, BEFORE
 from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord, read_result
 
 MOST_FILES = 5_000
@@ -30,6 +31,20 @@ class TaskSummary:
 
 
 @dataclass(frozen=True)
+class Gain:
+    """Mean shares right in the concept check before and after the course, of ``count`` people who took both."""
+
+    count: int
+    before: float
+    after: float
+
+    @property
+    def normalized(self) -> float:
+        """Return the share of what was not right before that is right after (Hake 1998, Am. J. Phys. 66, 64)."""
+        return (self.after - self.before) / (1 - self.before) if self.before < 1 else 0.0
+
+
+@dataclass(frozen=True)
 class ResultTable:
     """Files with the results in them, in the order of names, the tasks of the columns, and the files left out."""
 
@@ -43,6 +58,24 @@ class ResultTable:
         first_wrong = Counter(record.answers[0] for record in records if not (record.right and record.attempts == 1))
         share = sum(record.right for record in records) / len(records) if records else 0.0
         return TaskSummary(len(records), share, tuple(first_wrong.most_common(3)))
+
+
+def concept_gain(table: ResultTable) -> Gain | None:
+    """Return what a class gains in the concept check, None where nobody took it twice.
+
+    Of each person the questions count that were answered both times.
+    """
+    shares = []
+    for _, result in table.rows:
+        names = (task.partition(JOINT)[2] for task in result.tasks if task.startswith(f"{BEFORE}{JOINT}"))
+        pairs = [(result.record(BEFORE, name), result.record(AFTER, name)) for name in names]
+        both = [(before.right, after.right) for before, after in pairs if before.answers and after.answers]
+        if both:
+            shares.append([sum(column) / len(both) for column in zip(*both, strict=True)])
+    if not shares:
+        return None
+    before, after = (sum(column) / len(shares) for column in zip(*shares, strict=True))
+    return Gain(len(shares), before, after)
 
 
 def read_folder(folder: Path, known: Sequence[tuple[str, str]] = ()) -> ResultTable:

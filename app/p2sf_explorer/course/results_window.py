@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.course.results_table import ResultTable, write_table
+from p2sf_explorer.course.results_table import ResultTable, concept_gain, write_table
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord
@@ -56,8 +56,10 @@ class ResultsWindow(QDialog):
         self.save.clicked.connect(self.ask_save)
         close.clicked.connect(self.close)
         foot = QHBoxLayout()
-        foot.addWidget(QLabel(tr("{count} students", count=len(table.rows)), self))
-        foot.addStretch(1)
+        self.count = QLabel(count_words(table), self)
+        self.count.setWordWrap(True)
+        self.count.setToolTip(tr("Gain: the share of what was wrong before that is right after (Hake 1998)"))
+        foot.addWidget(self.count, 1)
         foot.addWidget(self.save)
         foot.addWidget(close)
         column = QVBoxLayout(self)
@@ -109,6 +111,21 @@ class ResultsWindow(QDialog):
             self._done(error)
             return
         self._done(Message("Saved {name}", name=path.name))
+
+
+def count_words(table: ResultTable) -> str:
+    """Return how many students there are, and what they gained between the concept checks."""
+    words, gain = tr("{count} students", count=len(table.rows)), concept_gain(table)
+    if gain is None:
+        return words
+    both = tr(
+        "Concept check of {count}: {before} right before, {after} after, gain {gain}",
+        count=gain.count,
+        before=f"{100 * gain.before:.0f} %",
+        after=f"{100 * gain.after:.0f} %",
+        gain=f"{gain.normalized:.2f}".replace("-", "−"),
+    )
+    return f"{words} · {both}"
 
 
 def sign(record: TaskRecord) -> str:

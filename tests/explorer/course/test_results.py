@@ -9,7 +9,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.errors import ExportError
 from p2sf_explorer.course.lectures import course_version
-from p2sf_explorer.course.results_table import OF_TASK, PERSON, read_folder, write_table
+from p2sf_explorer.course.results_table import OF_TASK, PERSON, concept_gain, read_folder, write_table
 from p2sf_explorer.lessons.task_record import FORMAT, MARK, CourseResult, TaskRecord, read_result, write_result
 
 KNOWN = (("lecture_1", "airy"), ("lecture_1", "flare"), ("lecture_2", "never"))
@@ -49,6 +49,23 @@ def test_thirty_files_are_a_table_of_students_and_tasks(folder):
     airy, flare = (table.summary(task) for task in table.tasks)
     assert (airy.count, airy.share_right) == (30, 1.0) and (flare.count, flare.share_right) == (30, 0.0)
     assert airy.wrong == (("0 µm", 20),) and flare.wrong == (("1", 30),)  # two thirds were wrong at first
+
+
+def test_the_gain_is_hakes_of_those_who_took_both_checks(tmp_path):
+    """Of four questions 1 and 3 are right before, 3 and 4 after: 50 % and 87.5 %, so three quarters are gained."""
+    for number, (before, after) in enumerate(((1, 3), (3, 4))):
+        made = CourseResult(name=str(number))
+        for question in range(4):
+            for lesson, right in (("check_before", before), ("check_after", after)):
+                made = made.with_record(lesson, f"c{question}", TaskRecord().with_answer("1", question < right))
+        write_result(tmp_path / f"{number}.json", made)
+    absent = CourseResult(name="only before").with_record("check_before", "c0", TaskRecord().with_answer("1", True))
+    write_result(tmp_path / "absent.json", absent)
+    gain = concept_gain(read_folder(tmp_path))
+    assert (gain.count, gain.before, gain.after, gain.normalized) == (2, 0.5, 0.875, 0.75)
+    (tmp_path / "0.json").unlink()
+    (tmp_path / "1.json").unlink()
+    assert concept_gain(read_folder(tmp_path)) is None
 
 
 def test_the_csv_has_one_row_a_student_and_the_same_numbers(folder, tmp_path):

@@ -242,6 +242,9 @@
 <message><source>{count} checks were made, and nothing is wrong.</source><translation>{count} Prüfungen wurden gemacht, und nichts ist falsch.</translation></message>
 <message><source>{count} checks were made; this is wrong:</source><translation>{count} Prüfungen wurden gemacht; das ist falsch:</translation></message>
 <message><source>Tasks right</source><translation>Aufgaben richtig</translation></message>
+<message><source>Name</source><translation>Name</translation></message>
+<message><source>Concept check of {count}: {before} right before, {after} after, gain {gain}</source><translation>Verständnistest von {count}: {before} vorher richtig, {after} nachher, Gewinn {gain}</translation></message>
+<message><source>Gain: the share of what was wrong before that is right after (Hake 1998)</source><translation>Gewinn: der Anteil dessen, was vorher falsch war und nachher richtig ist (Hake 1998)</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
@@ -1512,7 +1515,6 @@
 <message><source>Each page is in the window under Course…, and a file beside this sheet opens it.</source><translation>Jede Seite steht im Fenster unter Kurs …, und eine Datei neben diesem Blatt öffnet sie.</translation></message>
 <message><source>For the lecturer</source><translation>Für die Lehrperson</translation></message>
 <message><source>Hint {number}</source><translation>Hinweis {number}</translation></message>
-<message><source>Name</source><translation>Name</translation></message>
 <message><source>Else</source><translation>Sonst</translation></message>
 <message><source>Solution</source><translation>Lösung</translation></message>
 <message><source>Who answers {answer}</source><translation>Wer {answer} antwortet</translation></message>
