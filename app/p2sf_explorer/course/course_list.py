@@ -8,10 +8,9 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QWidget
 from p2sf_explorer.course.lectures import tasks_of
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import Lesson
-from p2sf_explorer.lessons.lesson_list import LessonList
+from p2sf_explorer.lessons.lesson_list import LessonList, lecture_heading
 from p2sf_explorer.lessons.task_record import CourseResult
 
-LECTURE = "lecture_"  # with which the names of their files begin
 INTRO = "Work through the lectures alone, or give them with F5. Answers are kept on this computer, and sent nowhere."
 
 
@@ -55,8 +54,7 @@ class CourseList(LessonList):
         """Return the lines of a lecture: title, sentence, tasks done."""
         result, tasks = self._result(), tasks_of(lesson)
         records = [result.record(lesson.name, task.name) for task in tasks]
-        count = lesson.name.partition(LECTURE)[2]
-        head = tr("Lecture {number}: {title}", number=count, title=lesson.title) if count else lesson.title
+        head = lecture_heading(lesson)
         if not tasks:
             return f"{head}\n{lesson.about}"
         answered, right = sum(bool(record.answers) for record in records), sum(record.right for record in records)

@@ -3,7 +3,7 @@
 from functools import partial
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QMouseEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QButtonGroup,
@@ -145,6 +145,10 @@ class OrderList(AnswerField):
             item = QListWidgetItem(local(self._items[number]), self.list)
             item.setData(NUMBER, number)
         self.list.setCurrentRow(0)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Be as high as the items, whatever the size of type."""
+        super().resizeEvent(event)
         lines = sum(1 + len(item) // LETTERS for item in self._items)
         self.list.setFixedHeight(lines * (self.list.fontMetrics().height() + 2) + 8)
 

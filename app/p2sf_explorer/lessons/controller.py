@@ -286,7 +286,7 @@ class LessonController(QObject):
         """Offer the lessons of a shelf in the page's list."""
         if self.panel and self._on_offer != tuple(shelf.values()):
             self._on_offer = tuple(shelf.values())
-            self.panel.list_lessons(self._on_offer)
+            self.panel.list_lessons(self._on_offer, numbered=shelf is not self.lectures())
 
     @property
     def active(self) -> bool:

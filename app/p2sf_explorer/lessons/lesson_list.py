@@ -19,6 +19,7 @@ from p2sf_explorer.lessons.lesson import Lesson
 NAME = Qt.ItemDataRole.UserRole
 PICTURE_PX, SIZE = 56, (520, 560)
 SAMPLES = 256
+LECTURE = "lecture_"  # with which the names of lectures' files begin
 
 
 class LessonList(QDialog):
@@ -106,6 +107,12 @@ class LessonList(QDialog):
         if item is not None and item.data(NAME) and self.isVisible():
             self.hide()
             self.chosen.emit(item.data(NAME))
+
+
+def lecture_heading(lesson: Lesson) -> str:
+    """Return the title of a lecture with the number that its name ends in; of anything else the title."""
+    number = lesson.name.partition(LECTURE)[2]
+    return tr("Lecture {number}: {title}", number=number, title=lesson.title) if number else lesson.title
 
 
 def content(lesson: Lesson) -> str:

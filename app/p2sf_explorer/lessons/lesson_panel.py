@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollA
 from p2sf_explorer.charts.theme import SPACE
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.lesson import Lesson
+from p2sf_explorer.lessons.lesson_list import lecture_heading
 from p2sf_explorer.lessons.offer import tool
 from p2sf_explorer.lessons.task_panel import TaskPanel
 from p2sf_explorer.widgets.card import chooser, select
@@ -71,11 +72,11 @@ class LessonPanel(QFrame):
         self._connect()
         self.hide()
 
-    def list_lessons(self, lessons: tuple[Lesson, ...]) -> None:
-        """Offer these lessons."""
+    def list_lessons(self, lessons: tuple[Lesson, ...], numbered: bool = True) -> None:
+        """Offer these lessons, with their numbers, or lectures, which have their own."""
         self.choice.clear()
         for number, lesson in enumerate(lessons, 1):
-            self.choice.addItem(f"{number}  {lesson.title}", lesson.name)
+            self.choice.addItem(f"{number}  {lesson.title}" if numbered else lecture_heading(lesson), lesson.name)
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()

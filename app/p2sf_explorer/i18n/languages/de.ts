@@ -245,6 +245,7 @@
 <message><source>Name</source><translation>Name</translation></message>
 <message><source>Concept check of {count}: {before} right before, {after} after, gain {gain}</source><translation>Verständnistest von {count}: {before} vorher richtig, {after} nachher, Gewinn {gain}</translation></message>
 <message><source>Gain: the share of what was wrong before that is right after (Hake 1998)</source><translation>Gewinn: der Anteil dessen, was vorher falsch war und nachher richtig ist (Hake 1998)</translation></message>
+<message><source>field 34° is beyond 14°, the largest; type a smaller one</source><translation>Feld 34° liegt jenseits von 14°, dem größten; ein kleineres eingeben</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
 <message><source>Skip</source><translation>Überspringen</translation></message>
