@@ -1511,7 +1511,6 @@
 <message><source>predicted error up to {error:.1g}</source><translation>vorhergesagter Fehler bis {error:.1g}</translation></message>
 <message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
-<message><source>field 34° is beyond 14°, the largest; type a smaller one</source><translation>Feld 34° liegt jenseits von 14°, dem größten; geben Sie ein kleineres ein</translation></message>
 <message><source>Date</source><translation>Datum</translation></message>
 <message><source>Each page is in the window under Course…, and a file beside this sheet opens it.</source><translation>Jede Seite steht im Fenster unter Kurs …, und eine Datei neben diesem Blatt öffnet sie.</translation></message>
 <message><source>For the lecturer</source><translation>Für die Lehrperson</translation></message>
