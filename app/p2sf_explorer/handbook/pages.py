@@ -14,6 +14,7 @@ PAGES = {
     "find": "Find it in two minutes",
     "install": "Install",
     "tutorial": "Tutorial",
+    "first_lecture": "How to give the first lecture",
     "import": "Import a lens",
     "lens_files": "Write a lens file",
     "export": "Export",

@@ -5,9 +5,12 @@ from pathlib import Path
 
 import p2sf
 from p2sf.cli import command_line_markdown
+from p2sf_explorer.course.lectures import FOLDER as COURSE
+from p2sf_explorer.course.sheets import ENDINGS, sheet_languages
 from p2sf_explorer.handbook.pages import PAGES
-from p2sf_explorer.lessons.lesson import APPENDIX, Lesson, Step, shipped_lessons
+from p2sf_explorer.lessons.lesson import APPENDIX, Lesson, Step, found_lessons, shipped_lessons
 from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
+from p2sf_explorer.lessons.task import shuffled
 from p2sf_explorer.site.notebooks import SHOWN as NOTEBOOKS
 from p2sf_explorer.site.notebooks import notebook_text
 from p2sf_explorer.site.python_beside import with_python
@@ -24,8 +27,12 @@ LINK = re.compile(r"(?<=\]\()(" + "|".join(map(re.escape, PLACES)) + ")")
 MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", "p2sf.psf.result"
 
 
+SHEETS = "sheets"  # the folder of the PDFs on the site
+
+
 def pages() -> dict[str, str]:
     """Return the Markdown of every generated page by its path on the site."""
+    lectures = {f"course/{name}.md": lecture_page(lecture) for name, lecture in _lectures().items()}
     lessons = {f"lessons/{lesson.name}.md": lesson_page(lesson) for lesson in shipped_lessons()}
     notebooks = {f"examples/{name}.md": notebook_text(name) for name in NOTEBOOKS}
     own = {
@@ -34,10 +41,11 @@ def pages() -> dict[str, str]:
         "changelog.md": _with_moved_links("CHANGELOG.md"),
         "cli.md": command_line_page(),
         "api.md": library_page(),
+        "course/index.md": course_page(),
         "lessons/index.md": lessons_page(),
         "lessons/format.md": (LESSONS / "README.md").read_text(encoding="utf-8"),
     }
-    return own | lessons | notebooks
+    return own | lectures | lessons | notebooks
 
 
 def navigation() -> list[dict[str, object]]:
@@ -47,6 +55,8 @@ def navigation() -> list[dict[str, object]]:
     def entry(path: str) -> dict[str, object]:
         return {named[path]: path}
 
+    lectures: list[object] = ["course/index.md", entry("first_lecture.md")]
+    lectures += [{lecture.title: f"course/{name}.md"} for name, lecture in _lectures().items()]
     lessons: list[object] = ["lessons/index.md"]
     lessons += [{lesson.title: f"lessons/{lesson.name}.md"} for lesson in shipped_lessons()]
     how_to = [
@@ -73,6 +83,7 @@ def navigation() -> list[dict[str, object]]:
         {"How to": [*how_to,
             {"Add a panel, a format, a lesson": "contributing.md"}, {"Write a lesson": "lessons/format.md"},
         ]},
+        {"Course": lectures},
         {"Lessons": lessons},
         {"Theory and figures": [entry(path) for path in ("theory.md", "numerics.md", "speed.md")]},
         {"Reference": [{"Library": "api.md"}, {"Command line": "cli.md"}, {"Changes": "changelog.md"}]},
@@ -106,6 +117,31 @@ def lessons_page() -> str:
     )  # fmt: skip
 
 
+def _lectures() -> dict[str, Lesson]:
+    return found_lessons((COURSE,))[0]
+
+
+def course_page() -> str:
+    """Return the list of lectures with their sheets."""
+    rows = [f"- [{lecture.title}]({name}.md): {lecture.about}" for name, lecture in _lectures().items()]
+    return "\n".join(("# Course", "", "Ctrl+F3 opens the lectures in the window.", "", *rows, ""))
+
+
+def lecture_page(lecture: Lesson) -> str:
+    """Return a lecture as a page: its sheets, the lessons it plays, and its pages with questions and solutions."""
+    sheets = [
+        f"[{words}, {language}](../{SHEETS}/{language}/{lecture.name}{ending})"
+        for language in sheet_languages()
+        for words, ending in zip(("for students", "with solutions"), ENDINGS, strict=True)
+    ]
+    titles = {lesson.name: lesson.title for lesson in shipped_lessons()}
+    head = [f"# {lecture.title}", lecture.about, f"Sheets as PDF: {' · '.join(sheets)}."]
+    if lecture.lessons:
+        links = " · ".join(f"[{titles[name]}](../lessons/{name}.md)" for name in lecture.lessons)
+        head.append(f"Lessons of this lecture: {links}.")
+    return "\n\n".join((*head, *(_step(step, "") for step in lecture.steps)))
+
+
 def lesson_page(lesson: Lesson) -> str:
     """Return a lesson as a page: every step with its picture of the window, its question and its answer."""
     head = f"# {lesson.title}\n\n{lesson.about}\n"
@@ -114,14 +150,19 @@ def lesson_page(lesson: Lesson) -> str:
 
 
 def _step(step: Step, picture: str) -> str:
-    parts = [f"## {step.title}", step.text, f"![The window at the step “{step.title}”]({picture})"]
+    parts = [f"## {step.title}", step.text]
+    if picture:
+        parts.append(f"![The window at the step “{step.title}”]({picture})")
     if step.attempt:
         parts.append(f"**Try.** {step.attempt}")
     if step.question:
         parts.append(f"**Question.** {step.question}")
+    if step.task:
+        offers = step.task.words.options or step.task.words.items
+        parts.append("\n".join(f"- {offers[k]}" for k in shuffled(len(offers), step.task.name)))
     if step.answer:
         parts.append('??? success "Answer"\n\n' + "\n".join(f"    {line}" for line in step.answer.splitlines()))
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(filter(None, parts)) + "\n"
 
 
 def _with_moved_links(name: str) -> str:

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from latex2mathml.converter import convert
@@ -9,8 +10,9 @@ from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
 
+from p2sf_explorer.course.sheets import sheet_languages, write_course
 from p2sf_explorer.handbook.pages import FOLDER, with_formulas
-from p2sf_explorer.site.generated import navigation, pages
+from p2sf_explorer.site.generated import SHEETS, navigation, pages
 from p2sf_explorer.site.links import link_faults
 from p2sf_explorer.site.notebooks import SHOWN, notebook_page
 from p2sf_explorer.site.pictures import MADE, WINDOW, example_pictures, lesson_states, window_pictures
@@ -36,6 +38,7 @@ def on_files(files: Files, config: Any) -> Files:
         files.append(File.generated(config, path, content=text))
     files.append(File.generated(config, "javascripts/iframe-worker.js", content=WORKER.read_text(encoding="utf-8")))
     made |= {f"made/{name}": content for name, content in window_pictures(WINDOW | lesson_states())}
+    made |= course_sheets()
     for page in sorted(FOLDER.glob("*.md")):
         text = page.read_text(encoding="utf-8")
         if MADE.search(text):
@@ -43,6 +46,16 @@ def on_files(files: Files, config: Any) -> Files:
     for path, content in made.items():
         files.append(File.generated(config, path, content=content))
     return files
+
+
+def course_sheets() -> dict[str, bytes]:
+    """Return the sheets of the course as PDF by their paths on the site, in every language."""
+    made: dict[str, bytes] = {}
+    for language in sheet_languages():
+        with TemporaryDirectory() as folder:
+            paths = [path for path in write_course(Path(folder), language) if path.suffix == ".pdf"]
+            made |= {f"{SHEETS}/{language}/{path.name}": path.read_bytes() for path in paths}
+    return made
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:

@@ -6,8 +6,9 @@ import pytest
 
 import p2sf
 from p2sf.cli import COMMANDS
+from p2sf_explorer.course.lectures import FOLDER as COURSE
 from p2sf_explorer.handbook.pages import PAGES, page
-from p2sf_explorer.lessons.lesson import shipped_lessons
+from p2sf_explorer.lessons.lesson import found_lessons, shipped_lessons
 from p2sf_explorer.site.generated import navigation, pages
 from p2sf_explorer.site.links import link_faults
 from p2sf_explorer.site.pictures import lesson_states
@@ -36,6 +37,15 @@ def test_a_lesson_has_every_step_with_its_picture():
         text = found[f"lessons/{lesson.name}.md"]
         assert re.findall(r"^## (.+)$", text, re.MULTILINE) == [step.title for step in lesson.steps]
         assert set(re.findall(r"\.\./made/([\w.]+)", text)) <= set(pictures)
+
+
+def test_a_lecture_has_every_page_its_lessons_and_sheets_in_both_languages():
+    found = pages()
+    for name, lecture in found_lessons((COURSE,))[0].items():
+        text = found[f"course/{name}.md"]
+        assert re.findall(r"^## (.+)$", text, re.MULTILINE) == [step.title for step in lecture.steps]
+        assert text.count(".pdf)") == 4 and all(f"../lessons/{one}.md" in text for one in lecture.lessons)
+        assert f"[{lecture.title}]({name}.md)" in found["course/index.md"]
 
 
 def test_pages_of_the_sources_link_to_pages_of_the_site():

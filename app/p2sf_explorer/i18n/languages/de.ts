@@ -1511,6 +1511,7 @@
 <message><source>predicted error up to {error:.1g}</source><translation>vorhergesagter Fehler bis {error:.1g}</translation></message>
 <message><source>geometric limit, by the landing points of rays</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen</translation></message>
 <message><source>geometric limit, by the landing points of rays: departs from waves by up to {departure:.1g}, not to be trusted beyond that</source><translation>geometrischer Grenzfall, aus den Auftreffpunkten der Strahlen: weicht von Wellen um bis zu {departure:.1g} ab, darüber hinaus nicht verlässlich</translation></message>
+<message><source>How to give the first lecture</source><translation>Die erste Vorlesung halten</translation></message>
 <message><source>Date</source><translation>Datum</translation></message>
 <message><source>Each page is in the window under Course…, and a file beside this sheet opens it.</source><translation>Jede Seite steht im Fenster unter Kurs …, und eine Datei neben diesem Blatt öffnet sie.</translation></message>
 <message><source>For the lecturer</source><translation>Für die Lehrperson</translation></message>
