@@ -94,7 +94,9 @@ class SheetWriter:
 def lecture_sheets(lecture: Lesson, paper: Paper = A4, solved: bool = False) -> list[Sheet]:
     """Return the sheets of a lecture; with ``solved`` solutions, hints and notes stand where students write."""
     known = texts(lecture.language)
-    out = SheetWriter(paper, Style(translate=lambda text: known.get(text, text)))
+    point = known.get("decimal separator", ".")
+    words = Style(translate=lambda text: known.get(text, text), number=lambda text: text.replace(".", point))
+    out = SheetWriter(paper, words)
     _write_head(out, lecture, solved)
     for number, step in enumerate(lecture.steps):
         trial = SheetWriter(paper, out.words)
@@ -187,11 +189,11 @@ def _foreseen(out: SheetWriter, task: Exercise) -> list[tuple[str, str]]:
     """Return wrong answers that are foreseen, as text, with their hints; those of a choice stand beside it."""
     answer = task.answer
     if isinstance(answer, NumericAnswer):
-        told = [written_value(part.number, part.unit) for part, _ in answer.wrong]
+        told = [out.words.number(written_value(part.number, part.unit)) for part, _ in answer.wrong]
     elif isinstance(answer, OrderAnswer):
         told = [" ".join(str(k + 1) for k in order) for order, _ in answer.wrong]
     else:
-        return [(out.said("Else"), hint) for hint in task.words.wrong]
+        return [(out.said("A mistake to expect"), hint) for hint in task.words.wrong]
     return [(out.said("Who answers {answer}", answer=one), hint)
             for one, hint in zip(told, task.words.wrong, strict=True)]  # fmt: skip
 

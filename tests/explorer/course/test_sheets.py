@@ -50,6 +50,7 @@ def test_nothing_runs_over_the_edges(name, language, paper):
 def test_students_have_the_questions_and_who_teaches_the_answers_too(language):
     found = lecture("lecture_1", language)
     plain, solved = (texts_on(lecture_sheets(found, A4, with_answers)) for with_answers in (False, True))
+    local = {"5.35 µm": "5,35 µm" if language == "de" else "5.35 µm"}
     for step in found.steps:
         assert step.title in plain and step.title in solved
         for word in WORDS.findall(step.question):
@@ -61,6 +62,7 @@ def test_students_have_the_questions_and_who_teaches_the_answers_too(language):
             assert not any(hint[:40] in plain for hint in hints)
             assert all(hint[:40] in solved for hint in hints)
     known = texts(language)
+    assert known.get("Who answers {answer}", "Who answers {answer}").format(answer=local["5.35 µm"]) in solved
     assert f"{known.get('Solution', 'Solution')}." in solved.replace(" .", ".")
 
 

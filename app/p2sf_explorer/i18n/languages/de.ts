@@ -1516,7 +1516,7 @@
 <message><source>Each page is in the window under Course…, and a file beside this sheet opens it.</source><translation>Jede Seite steht im Fenster unter Kurs …, und eine Datei neben diesem Blatt öffnet sie.</translation></message>
 <message><source>For the lecturer</source><translation>Für die Lehrperson</translation></message>
 <message><source>Hint {number}</source><translation>Hinweis {number}</translation></message>
-<message><source>Else</source><translation>Sonst</translation></message>
+<message><source>A mistake to expect</source><translation>Ein Fehler, der zu erwarten ist</translation></message>
 <message><source>Solution</source><translation>Lösung</translation></message>
 <message><source>Who answers {answer}</source><translation>Wer {answer} antwortet</translation></message>
 <message><source>{path} cannot be made ({reason}); choose another folder</source><translation>{path} kann nicht angelegt werden ({reason}); wählen Sie einen anderen Ordner</translation></message>
