@@ -60,7 +60,7 @@ def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:
     if name == "defocus":
         causes = focus_causes(coefficients, pupil.parts[name])
         if causes:
-            sentence = "The best focus is about {shift} µm away: {causes} act as defocus, {percent:.0f} % of variance"
+            sentence = "The best focus is about {shift} µm away: defocus by {causes}, {percent:.0f} % of variance"
             shift = Number(significant(best_focus_um(coefficients), 2))
             return Message(sentence, percent=percent, causes=causes, shift=shift)
         return Message("Refocusing would remove {percent:.0f} % of the wavefront variance", percent=percent)

@@ -47,7 +47,7 @@ OF = (
 FURTHER = "#cc79a7", "#a6761d", "#56b4e9", "#7570b3", "#009e73", "#e6ab02", "#e7298a", "#66a61e", "#999999"
 HUES = ("text", "marginal", "chief", "third", *FURTHER)  # the first of what belongs to none
 MOST = 2 * MOST_FIELDS
-LEGEND_BESIDE, SHORT_NAME = 2, 9  # short names on a line of the legend, and letters of the longest short name
+LEGEND_BESIDE = (3, 5), (2, 9)  # so many names on a line of the legend, if none has more letters
 FROM_ZERO = {
     "contrast": 1.04,
     "relative illumination, %": 104.0,
@@ -143,7 +143,8 @@ class OverlaysPanel:
         tokens = [HUES[hue % len(HUES)] for hue in order]
         marks = [curve_sign(token, self._theme) for token in tokens]
         signs = [f"{mark} {name.text(WINDOW)}" for mark, name in zip(marks, names, strict=True)]
-        beside = LEGEND_BESIDE if max((len(name.text(WINDOW)) for name in names), default=0) <= SHORT_NAME else 1
+        longest = max((len(name.text(WINDOW)) for name in names), default=0)
+        beside = next((count for count, letters in LEGEND_BESIDE if longest <= letters), 1)
         lines = [" &nbsp; ".join(signs[k : k + beside]) for k in range(0, len(signs), beside)]
         if hint := HINTS.get(found.axes[1]):
             lines.append(tr(hint))

@@ -78,6 +78,8 @@ class NotedChart(Chart):
             wide = self.theme.scale
             painter.fillRect(QRectF(at - wide / 2, self.area.top(), wide, self.area.height()), self._colour(token))
         for (_, _, words, token, _), room in zip(self.notes, self.note_rooms(), strict=True):
+            if room.width() > self.area.width():
+                continue  # of a small chart the line alone tells
             painter.setPen(self._colour(token))
             write(painter, room, words, -1, self.theme.tick)
 
@@ -89,7 +91,7 @@ class NotedChart(Chart):
             left, middle = (float(v) for v in self.to_pixels(x, y if isfinite(y) else 0.0))
             wide = width_of(words, self.theme.tick)
             top = middle - tall / 2 if isfinite(y) else self.area.top()
-            if side < 0 and left + wide > self.width():
+            if side < 0 and left + wide > self.area.right():
                 side = 1
             room = QRectF(left - (side + 1) / 2 * wide, top, wide, tall)
             while not isfinite(y) and any(room.intersects(other) for other in rooms):

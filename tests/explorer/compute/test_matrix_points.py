@@ -34,6 +34,11 @@ def test_fields_are_those_of_the_file_or_parts_of_its_largest():
     assert parts == pytest.approx([0, 0.5, 0.7, 0.9, 1.0])  # √(k/4), to a tenth
 
 
+@pytest.mark.parametrize("count", range(2, 13))
+def test_any_number_of_fields_are_all_different(count):
+    assert len(set(stated_fields(load("cooke_triplet"), count))) == count
+
+
 def test_three_colours_are_f_d_c_or_the_lines_of_the_spectrum():
     lens = load("achromat_f6")
     f_d_c = usual_wavelengths(lens, (), 3)

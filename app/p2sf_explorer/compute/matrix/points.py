@@ -27,6 +27,7 @@ LISTS = {
     "depth_mm": "depths_mm",
     "sensor_shift_um": "shifts_um",
 }
+FEW = 6  # parts of a field that tenths tell apart
 ON_AXIS_DEG = 1.0  # the largest field shown of a lens whose file states none beside the axis
 MOST_DEG, FEWEST_UM = 1e-4, 1e-6  # within which a field and a shift are the same
 SAME = 1e-6  # of a wavelength or a vergence
@@ -98,7 +99,8 @@ def stated_fields(lens: Lens, count: int) -> tuple[float, ...]:
     if len(stated) == count:
         return stated
     widest = max(stated, key=abs) or ON_AXIS_DEG
-    return tuple(float(round(part, 1) * widest) for part in np.sqrt(np.linspace(0, 1, count)))
+    places = 1 if count <= FEW else 2
+    return tuple(float(round(part, places) * widest) for part in np.sqrt(np.linspace(0, 1, count)))
 
 
 def spectral_lines(state: State) -> tuple[float, ...]:

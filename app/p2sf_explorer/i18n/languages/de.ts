@@ -252,7 +252,7 @@
 <message><source>Steps of the lesson</source><translation>Schritte der Lektion</translation></message>
 <message><source>Telephoto</source><translation>Teleobjektiv</translation></message>
 <message><source>Text</source><translation>Text</translation></message>
-<message><source>The best focus is about {shift} µm away: {causes} act as defocus, {percent:.0f} % of variance</source><translation>Der beste Fokus ist etwa {shift} µm entfernt: {causes} wirken als Defokus, {percent:.0f} % der Varianz</translation></message>
+<message><source>The best focus is about {shift} µm away: defocus by {causes}, {percent:.0f} % of variance</source><translation>Der beste Fokus ist etwa {shift} µm entfernt: Defokus durch {causes}, {percent:.0f} % der Varianz</translation></message>
 <message><source>the mosaic "{mosaic}" is unknown; choose {choices}</source><translation>das Mosaik „{mosaic}“ ist unbekannt; {choices} wählen</translation></message>
 <message><source>the mosaic {mosaic} needs red, green and blue, but the picture has {count} channels; change one of them</source><translation>das Mosaik {mosaic} braucht Rot, Grün und Blau, aber das Bild hat {count} Kanäle; eines von beiden ändern</translation></message>
 <message><source>the mosaic {mosaic} needs red, green and blue, but the scene has {count} channels; change one of them</source><translation>das Mosaik {mosaic} braucht Rot, Grün und Blau, aber die Szene hat {count} Kanäle; eines von beiden ändern</translation></message>

@@ -44,7 +44,7 @@ from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser, select
-from p2sf_explorer.widgets.chart_card import NotedChart
+from p2sf_explorer.widgets.chart_card import NOTE_PX, NotedChart
 from p2sf_explorer.widgets.plan_note import small_button
 from p2sf_explorer.widgets.value_edit import NumberBox
 
@@ -60,6 +60,7 @@ CRITERION_TIP = (
     "exp(2πiW)|² of the phase W at the focus, without piston and tilt."
 )
 LIMIT_TIP = "The limit that a good lens meets in every field; at first, the one that four lenses of five meet."
+AIR_PX = 4
 WORDS_SHARE = 0.3  # of a chart's width, that a line's name takes
 FILM_TIP = "Save a film of the first forty of these builds: layout, PSF, and where each stands in the yield"
 COMPENSATOR_TIP = (
@@ -289,13 +290,15 @@ class TolerancesPanel:
         self.histogram.name_axes(AXES[view.criterion], "builds")
         self.yields.name_axes(AXES[view.criterion], "yield, %")
         most = float(view.counts.max())
-        self.histogram.set_range(ends, (0.0, 1.1 * most))
         self.yields.set_range(ends, (0.0, 104.0))
         noted = [(view.nominal, inf, tr("as designed"), "muted")]
         if opened and self._found:
             value = float(of_worst_field(self._found.builds, view.criterion)[opened - 1])
             noted.append((value, inf, tr("build {number}", number=opened), "text"))
         inside = [note for note in noted if ends[0] <= note[0] <= ends[1]]
+        tall = self.histogram.area.height()
+        above = min(tall / 2, self._theme.px(NOTE_PX) * len(inside) + AIR_PX)  # the bars, for the names of the lines
+        self.histogram.set_range(ends, (0.0, most * tall / (tall - above)))
         marks = ((view.limit, "accent"), *((value, token) for value, _, _, token in inside))
         turn = ends[0] + WORDS_SHARE * (ends[1] - ends[0])  # right of here there is room for words before the line
         notes = ((x, y, f" {words} ", token, -1 if x < turn else 1) for x, y, words, token in inside)
