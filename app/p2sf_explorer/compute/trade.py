@@ -16,7 +16,8 @@ FAMILIES = {
     "traced": "traced",
     "huygens": "huygens",
 }
-MEASURES = {"r2": "one_less_r2", "mtf": "mtf", "r80": "r80", "time": "one_less_r2"}  # the slider's, as rows have them
+# The slider's measures, as rows have them.
+MEASURES = {"r2": "one_less_r2", "mtf": "mtf", "r80": "r80", "hdr": "one_less_r2", "time": "one_less_r2"}
 SMALLEST = 1e-8  # below it errors of rays are those of their own rounding
 
 

@@ -40,7 +40,7 @@ CHOICES = {
     "database_coefficient": ("w40", "w31", "w22", "w20", "w11", "wd"),
     "database_rule": ("table1", "linear"),
     "accuracy_plot": ("here", "bytes", "time"),
-    "exactness_measure": ("r2", "mtf", "r80", "time"),
+    "exactness_measure": ("r2", "mtf", "r80", "hdr", "time"),
     "curves_of": (
         "fields",
         "colours",

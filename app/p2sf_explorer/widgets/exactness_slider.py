@@ -27,7 +27,14 @@ from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.trade_chart import TradeChart, TradeDot
 
 TIP = "From fast to exact: how large an error auto may make, or how long a picture may take. Now: {asked}"
-MEASURES = {"r2": "by R²", "mtf": "by the MTF", "r80": "by the radius R80", "time": "by time"}
+MEASURES = {
+    "r2": "by R²",
+    "mtf": "by the MTF",
+    "r80": "by the radius R80",
+    "hdr": "by faint light",
+    "time": "by time",
+}
+BY_METHOD = "hdr", "time"  # measures that choose a method, since no R² bounds them
 QUICKEST_MS, SLOWEST_MS = 1.0, 1000.0
 SERIES = (1.0, 2.0, 5.0)
 PANEL_PX, CHART_PX = 340, 150
@@ -179,13 +186,15 @@ class ExactnessPanel(QFrame):
             return None
         if self._measure() == "time":
             return within(known, self.milliseconds())
+        if self._measure() == "hdr":
+            return next((cost for cost in self._costs if cost.tails <= mtf_error(self.one_less_r2())), known[-1])
         return next((cost for cost in known if cost.error <= self.one_less_r2()), known[-1])
 
     def commit(self) -> None:
         """Take what the slider asks for."""
-        if self._measure() != "time":
+        if self._measure() not in BY_METHOD:
             self._store.update(method="auto", tolerance=round(1 - self.one_less_r2(), 9))
-        elif choice := self.choice():
+        elif (choice := self.choice()) and (self._costs or self._measure() == "time"):
             self._store.update(method=choice.method)
 
     def _tell(self) -> None:
@@ -194,6 +203,10 @@ class ExactnessPanel(QFrame):
         self._tell_typical(choice)
         if choice is None or not self._costs:
             self.costing.setText(tr("measuring what each method takes here"))
+        elif self._measure() == "hdr" and isfinite(choice.tails):
+            known = {"ms": significant(choice.milliseconds, 2), "percent": significant(100 * choice.tails, 2)}
+            words = "{method} here: {ms} ms, faint light within {percent} % of the most exact method's"
+            self.costing.setText(tr(words, method=choice.method, **known))
         elif isfinite(choice.milliseconds):
             known = {"ms": significant(choice.milliseconds, 2), "error": prediction_text(choice.error)}
             self.costing.setText(tr("{method} here: {ms} ms, {error}", method=choice.method, **known))
@@ -221,7 +234,7 @@ class ExactnessPanel(QFrame):
         measure = self._measure()
         if measure == "time":
             return {"ms": f"{self.milliseconds():g}"}
-        if measure == "mtf":
+        if measure in ("mtf", "hdr"):
             return {"percent": f"{100 * mtf_error(error):.2g}"}
         if measure == "r80":
             found = r80_sensitivity(self._live.psf) if self._live else inf
@@ -253,6 +266,7 @@ ASKED = {
     "r2": "R² ≥ {r2} against Huygens",
     "mtf": "MTF: RMS error ≤ {percent} % of its own RMS",
     "r80": "R80: error ≤ {percent} % of R80, by a bound",
+    "hdr": "mean of every ring within {percent} %, down to 1e-6 of the peak",
     "time": "a picture in ≤ {ms} ms",
 }
 
@@ -261,6 +275,7 @@ TRADED = {
     "r2": "1 − R²",
     "mtf": "largest difference of contrast",
     "r80": "relative error of R80",
+    "hdr": "1 − R²",
     "time": "1 − R²",
 }
 

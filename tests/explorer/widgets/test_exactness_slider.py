@@ -83,6 +83,26 @@ def test_a_time_takes_a_method(window, panel):
     assert window.store.state.optics.method == "auto"
 
 
+def test_faint_light_takes_the_fastest_method_whose_rings_are_right(window, panel):
+    """Nothing bounds them by R²: a method with the better R² may have the worse tails, and is not taken."""
+    found = PredictedCost("seidel", 1.0, 0.2, 0.4), PredictedCost("fitted", 5.0, 1e-3, 0.04)
+    panel._costs = (*found, PredictedCost("traced", 40.0, 5e-5, 0.0))
+    take(panel, "hdr")
+    panel.slider.setValue(0)
+    assert "45 %" in panel.asked.text() and panel.choice().method == "seidel"  # √0.2
+    panel.slider.setValue(STEPS // 3)
+    assert panel.choice().method == "fitted" and "4.0 %" in panel.costing.text()
+    panel.commit()
+    assert window.store.state.optics.method == "fitted"
+    panel.slider.setValue(STEPS)
+    assert panel.choice().method == "traced"
+    panel._costs = ()
+    panel.commit()
+    assert window.store.state.optics.method == "fitted", "nothing is taken that has not been measured"
+    take(panel, "r2")
+    panel.commit()
+
+
 def test_the_complete_trade_of_the_lens_is_shown_and_serves_until_costs_are_known_here(window, panel):
     """Its figures are those of the shipped table; a lens that it does not have has none."""
     trade = shipped_trades()["double_gauss_28"]

@@ -624,6 +624,7 @@
 <message><source>MTF of colours and spectrum</source><translation>MTF der Farben und des Spektrums</translation></message>
 <message><source>MTF over the field</source><translation>MTF über das Feld</translation></message>
 <message><source>MTF through focus</source><translation>MTF durch den Fokus</translation></message>
+<message><source>mean of every ring within {percent} %, down to 1e-6 of the peak</source><translation>Mittel jedes Rings auf {percent} %, bis 1e-6 des Maximums</translation></message>
 <message><source>MTF: RMS error ≤ {percent} % of its own RMS</source><translation>MTF: RMS-Fehler ≤ {percent} % ihres eigenen RMS</translation></message>
 <message><source>MTF: the contrast that remains of a sine pattern, computed by autocorrelation of the pupil, from all light. Grey: the same pupil without aberration. Thin, if something stands in the stop: the clear pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration; dünn daneben, wo etwas in der Blende steht: die freie Pupille ohne Aberration.</translation></message>
 <message><source>Macro lens f/3.8, 60 mm, with floating focus</source><translation>Makroobjektiv f/3,8, 60 mm, mit gleitender Gruppe</translation></message>
@@ -1331,6 +1332,7 @@
 <message><source>by the MTF</source><translation>nach der MTF</translation></message>
 <message><source>by the axis's PSF</source><translation>mit der PSF der Achse</translation></message>
 <message><source>by the radius R80</source><translation>nach dem Radius R80</translation></message>
+<message><source>by faint light</source><translation>nach schwachem Licht</translation></message>
 <message><source>by time</source><translation>nach Zeit</translation></message>
 <message><source>by wavelength</source><translation>nach Wellenlänge</translation></message>
 <message><source>bytes of all PSFs of the lens</source><translation>Bytes aller PSFs des Objektivs</translation></message>
@@ -2490,6 +2492,7 @@
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
 <message><source>{method} here: longer than a frame</source><translation>{method} hier: länger als ein Bild der Bewegung</translation></message>
+<message><source>{method} here: {ms} ms, faint light within {percent} % of the most exact method's</source><translation>{method} hier: {ms} ms, schwaches Licht auf {percent} % wie beim genauesten Verfahren</translation></message>
 <message><source>{method} here: {ms} ms, {error}</source><translation>{method} hier: {ms} ms, {error}</translation></message>
 <message><source>{method} over this whole lens, measured: {what} {half} at 50 % of all points, {most} at 95 %</source><translation>{method} über das ganze Objektiv, gemessen: {what} {half} an der Hälfte aller Punkte, {most} an 95 %</translation></message>
 <message><source>{method} vs Huygens: R² {r} in {wide} µm</source><translation>{method} gegen Huygens: R² {r} in {wide} µm</translation></message>
