@@ -17,7 +17,7 @@ from p2sf_explorer.course.lectures import CHECK, FOLDER
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.lessons.lesson import ENGLISH, Lesson, Step, found_lessons
-from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise, GoalAnswer, NumericAnswer, OrderAnswer, shuffled
+from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise, GoalAnswer, NumericAnswer, OrderAnswer, display_order
 from p2sf_explorer.lessons.typed_numbers import written_value
 from p2sf_explorer.report.figures import draw_lens
 from p2sf_explorer.report.pages import A4, EDGE_MM, HEADING, Lettering, Paper, Sheet, pdf_of, wrap_lines
@@ -163,13 +163,13 @@ def _write_offers(out: SheetWriter, task: Exercise, solved: bool) -> None:
     """Write what there is to choose from, or the items to be put in order, as the window shuffles them."""
     answer = task.answer
     if isinstance(answer, ChoiceAnswer):
-        for k in shuffled(len(answer.options), task.name):
+        for k in display_order(task):
             picked = solved and k == answer.right
             out.paragraph(answer.options[k], BODY, 2 * INDENT_MM, "☒" if picked else "☐")
             if solved and answer.hints[k]:
                 out.paragraph(answer.hints[k], SMALL, 2 * INDENT_MM)
     if isinstance(answer, OrderAnswer):
-        for k in shuffled(len(answer.items), task.name):
+        for k in display_order(task):
             out.paragraph(answer.items[k], BODY, 3 * INDENT_MM, f"{k + 1}." if solved else "__")
 
 

@@ -303,7 +303,7 @@ class Exercise:
         return replace(self, answer=self.answer.with_words(words), hints=words.hints)
 
 
-def shuffled(count: int, seed: str) -> tuple[int, ...]:
+def shuffle(count: int, seed: str) -> tuple[int, ...]:
     """Return 0 … count − 1 in an order that a name gives, the same everywhere, and never as they are counted."""
     order = tuple(sorted(range(count), key=lambda k: crc32(f"{seed} {k}".encode())))
     return order if order != tuple(range(count)) else order[1:] + order[:1]
@@ -311,4 +311,4 @@ def shuffled(count: int, seed: str) -> tuple[int, ...]:
 
 def display_order(task: Exercise) -> tuple[int, ...]:
     """Return the numbers of options or items, from 0, in the order in which windows and sheets show them."""
-    return shuffled(len(task.words.options or task.words.items), task.name)
+    return shuffle(len(task.words.options or task.words.items), task.name)

@@ -4,6 +4,7 @@ import pytest
 from PySide6.QtWidgets import QTableWidgetItem
 
 from p2sf_explorer.compute.setup import default_state
+from p2sf_explorer.course.lectures import find_lectures
 from p2sf_explorer.lessons.lesson import parse_lesson, read_lesson, shipped_lessons
 from p2sf_explorer.lessons.making.lesson_checks import findings
 from p2sf_explorer.lessons.making.lesson_test_window import names_on_screen
@@ -54,6 +55,14 @@ def test_the_lesson_of_these_tests_and_a_shipped_one_are_without_fault():
     names = names_on_screen()
     assert not findings(LESSON, names)
     assert not findings(shipped_lessons()[1], names)
+
+
+@pytest.mark.slow
+def test_nothing_is_wrong_with_any_lesson_or_lecture():
+    names, (lectures, _) = names_on_screen(), find_lectures()
+    assert not [
+        (one.name, *found) for one in (*lectures.values(), *shipped_lessons()) for found in findings(one, names)
+    ]
 
 
 @pytest.mark.parametrize(

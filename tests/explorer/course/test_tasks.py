@@ -6,7 +6,7 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.lessons.changes import apply_changes
 from p2sf_explorer.lessons.lesson import parse_lesson, with_words
-from p2sf_explorer.lessons.task import shuffled
+from p2sf_explorer.lessons.task import shuffle
 from p2sf_explorer.lessons.typed_numbers import read_typed, units_like
 from p2sf_explorer.state.state import change
 
@@ -292,6 +292,6 @@ def test_a_bad_task_is_one_sentence_with_file_and_line(old, new, line):
 def test_what_is_shuffled_is_the_same_everywhere_and_never_in_order():
     for count in range(2, 7):
         for seed in ("a", "b", "l1-airy"):
-            order = shuffled(count, seed)
+            order = shuffle(count, seed)
             assert sorted(order) == list(range(count)) and order != tuple(range(count))
-            assert order == shuffled(count, seed)
+            assert order == shuffle(count, seed)
