@@ -10,7 +10,7 @@ from p2sf_explorer.course.sheets import ENDINGS, sheet_languages
 from p2sf_explorer.handbook.pages import PAGES
 from p2sf_explorer.lessons.lesson import APPENDIX, Lesson, Step, found_lessons, shipped_lessons
 from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
-from p2sf_explorer.lessons.task import shuffled
+from p2sf_explorer.lessons.task import display_order
 from p2sf_explorer.site.notebooks import SHOWN as NOTEBOOKS
 from p2sf_explorer.site.notebooks import notebook_text
 from p2sf_explorer.site.python_beside import with_python
@@ -159,7 +159,7 @@ def _step(step: Step, picture: str) -> str:
         parts.append(f"**Question.** {step.question}")
     if step.task:
         offers = step.task.words.options or step.task.words.items
-        parts.append("\n".join(f"- {offers[k]}" for k in shuffled(len(offers), step.task.name)))
+        parts.append("\n".join(f"- {offers[k]}" for k in display_order(step.task)))
     if step.answer:
         parts.append('??? success "Answer"\n\n' + "\n".join(f"    {line}" for line in step.answer.splitlines()))
     return "\n\n".join(filter(None, parts)) + "\n"
