@@ -1,0 +1,64 @@
+"""A picture with depth by the kernel of every single pixel, in every wavelength: no nodes in field, depth or colour.
+
+Layers of depth are taken from `depth_layers`, one for each depth of the scene, so that it is a reference for kernels
+and not for occlusion, which `tests.support.visibility` is.
+"""
+
+import numpy as np
+
+from p2sf.conventions import vergence
+from p2sf.image.layers import depth_layers
+from p2sf.scene import Plan
+
+TOGETHER = 400  # pixels whose kernels are computed at once
+
+Region = tuple[slice, slice]
+"""Rows and columns of a picture."""
+
+
+def widest_half(planned: Plan, vergences: np.ndarray) -> int:
+    """Return the half width of the widest kernel in the corner, pixels."""
+    x, y = ([end[-1]] for end in planned.scene.sensor.ends_mm())
+    middle = len(planned.colours) // 2
+    return max(int(planned.kernels(middle, float(v)).points(x, y).half_widths()[0]) for v in vergences[[0, -1]])
+
+
+def per_pixel_picture(planned: Plan, values: np.ndarray, depth_mm: np.ndarray, region: Region) -> np.ndarray:
+    """Return a region of the formed picture, (rows, columns, channels), without distortion and illumination.
+
+    The region is farther from the picture's edge than kernels reach.
+    """
+    levels = np.unique(vergence(depth_mm))
+    half = widest_half(planned, levels)
+    light = covered = 0.0
+    passing: np.ndarray | float = 1.0
+    for layer in depth_layers(values, depth_mm, levels, half):
+        planes = np.concatenate(
+            [layer.colours * layer.opacity[..., None], layer.opacity[..., None], layer.hiding[..., None]], axis=-1
+        )
+        blurred = _spread(planned, float(levels[layer.number]), planes, region, half)
+        light = light + passing * blurred[..., :-2]
+        covered = covered + passing * blurred[..., -2:-1]
+        passing = passing * np.clip(1 - blurred[..., -1:], 0, 1)
+    found: np.ndarray = light / covered
+    return found
+
+
+def _spread(planned: Plan, depth: float, planes: np.ndarray, region: Region, half: int) -> np.ndarray:
+    """Return what a layer's pixels send into a region, each by its own kernel; planes behind the colours by green's."""
+    (top, bottom), (left, right) = ((part.start - half, part.stop + half) for part in region)
+    rows, columns = np.nonzero(planes[top:bottom, left:right, -2])
+    rows, columns = rows + top, columns + left
+    canvas = np.zeros((bottom - top + 2 * half, right - left + 2 * half, planes.shape[-1]))
+    sensor, count = planned.scene.sensor, len(planned.colours)
+    for channel in range(count):
+        own = [channel, count, count + 1] if channel == count // 2 else [channel]
+        kernels = planned.kernels(channel, depth)
+        for start in range(0, len(rows), TOGETHER):
+            row, column = rows[start : start + TOGETHER], columns[start : start + TOGETHER]
+            points = kernels.points(sensor.x_mm(column), sensor.y_mm(row))
+            halves = np.minimum(points.half_widths(), half)
+            for r, c, h, kernel in zip(row, column, halves, points.kernels(halves), strict=True):
+                r0, c0 = r - top + half - h, c - left + half - h
+                canvas[r0 : r0 + 2 * h + 1, c0 : c0 + 2 * h + 1, own] += kernel[..., None] * planes[r, c, own]
+    return canvas[2 * half : -2 * half, 2 * half : -2 * half]
