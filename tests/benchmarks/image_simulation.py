@@ -29,7 +29,7 @@ from scipy.ndimage import gaussian_filter
 
 from p2sf import write_lens
 from p2sf.image import Forming, form_image
-from p2sf.image.layers import depth_layers
+from p2sf.image.layers import map_depths
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Recipe
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
@@ -47,7 +47,7 @@ GREEN_UM = 0.54
 WAVES = 1.0  # of defocus at either end of the depths
 BLUR = Forming(geometry=False)
 SLICES = 9  # depths of PSFs on a grid
-FINE, FINEST = (4.0, 1.0), (6.0, 2.0)  # samples per λ/(2 NA) and margins of kernels on grids, and of the reference's
+FINE, FINEST = (4.0, 1.0), (5.0, 1.5)  # samples per λ/(2 NA) and margins of kernels on grids, and of the reference's
 FARTHEST = 1e5  # focal lengths: what programs that need a finite depth take for infinity
 
 
@@ -124,7 +124,7 @@ def by_gaussian(camera: BenchCamera, values: np.ndarray, depth: np.ndarray) -> n
     airy = 0.42 * GREEN_UM * camera.f_number / camera.pixel_um
     widths = np.sqrt((disc / 4) ** 2 + airy**2 + 1 / 12)
     light, covered, passing = np.zeros(values.shape), np.zeros((*SHAPE, 1)), np.ones((*SHAPE, 1))
-    for layer in depth_layers(values, depth, nodes, int(4 * widths.max())):
+    for layer in map_depths(depth, nodes, SHAPE, int(4 * widths.max())).layers(values):
         planes = np.dstack([layer.colours * layer.opacity[..., None], layer.opacity, layer.hiding])
         blurred = gaussian_filter(planes, (*(widths[layer.number],) * 2, 0), mode="nearest")
         light += passing * blurred[..., :3]
@@ -291,10 +291,11 @@ def main() -> None:
     found = all_pictures(asked.keep, peers)
     print_table(found)
     for camera in CAMERAS:
-        size = 2 * widest_half(camera.exact(), camera.scene().vergences(2)) + 1
+        made, error = camera.exact(), error_of_reference(camera)
         print(
-            f"{camera.lens} at f/{camera.f_number:.3g}: pixels of {camera.pixel_um:.2f} µm, "
-            f"{camera.scene().near_mm:.0f} mm to infinity, kernels up to {size}² pixels, error of the reference's {error_of_reference(camera):.2g}"
+            f"{camera.lens} at f/{camera.f_number:.3g}: pixels of {camera.pixel_um:.2f} µm, {made.scene.near_mm:.0f} mm "
+            f"to infinity, kernels up to {2 * widest_half(made, made.scene.vergences(2)) + 1}² pixels, error of the "
+            f"reference's {error:.2g}"
         )
     if asked.figure:
         save_figure(found, asked.figure)

@@ -1,13 +1,13 @@
 """A picture with depth by the kernel of every single pixel, in every wavelength: no nodes in field, depth or colour.
 
-Layers of depth are taken from `depth_layers`, one for each depth of the scene, so that it is a reference for kernels
+Layers of depth are taken from `map_depths`, one for each depth of the scene, so that it is a reference for kernels
 and not for occlusion, which `tests.support.visibility` is.
 """
 
 import numpy as np
 
 from p2sf.conventions import vergence
-from p2sf.image.layers import depth_layers
+from p2sf.image.layers import map_depths
 from p2sf.scene import Plan
 
 TOGETHER = 400  # pixels whose kernels are computed at once
@@ -32,7 +32,7 @@ def per_pixel_picture(planned: Plan, values: np.ndarray, depth_mm: np.ndarray, r
     half = widest_half(planned, levels)
     light = covered = 0.0
     passing: np.ndarray | float = 1.0
-    for layer in depth_layers(values, depth_mm, levels, half):
+    for layer in map_depths(depth_mm, levels, values.shape[:2], half).layers(values):
         planes = np.concatenate(
             [layer.colours * layer.opacity[..., None], layer.opacity[..., None], layer.hiding[..., None]], axis=-1
         )
