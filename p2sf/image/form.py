@@ -4,7 +4,7 @@ See handbook 10.1.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from math import inf
 from threading import Lock
@@ -27,7 +27,7 @@ from p2sf.image.highlights import (
     kernel_between,
 )
 from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels, pad_kernel
-from p2sf.image.layers import CONTINUED, DepthMap, map_depths
+from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, map_depths, stack_layers
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.region import Region, tiles, whole
@@ -41,6 +41,7 @@ from p2sf.threads import for_each, map_threads, one_blas_thread
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
 LIGHT_HEIGHTS = 4, 9  # heights at which illumination is computed, for a preview and for the final picture
+LAYERS_NDIM = 4  # of layers, rows, columns and channels
 SAME_DEPTH = 1e-6  # a relative difference due to float32
 LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
@@ -95,22 +96,33 @@ def form_image(
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given if it is
-    known. Threads (`p2sf.threads`) share tiles of the picture, which bound the memory. Raises RequestError for shapes
-    that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is cancelled.
+    known. Or layers: (layers, rows, columns, channels + 1), colours premultiplied by the alpha behind them, and the
+    depth of each, (layers,). Threads (`p2sf.threads`) share tiles of the picture, which bound the memory. Raises
+    RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is
+    cancelled.
     """
-    picture, watch = check_picture(planned.scene, values), watch or Progress()
-    if how.method != "patches" and has_halos(planned):
+    watch, stack = watch or Progress(), None
+    if np.ndim(values) == LAYERS_NDIM:
+        stack = _check_layers(planned.scene, values, depth_mm)
+        planned = replace(planned, vergences=stack.vergences)
+        picture: np.ndarray = stack.colours[0]
+    else:
+        picture = check_picture(planned.scene, values)
+    if has_halos(planned) and (how.method != "patches" or stack is not None):
         raise RequestError(
-            "a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches",
+            "a scene with {parameter} has halos, which only pictures of one or more depths by {method} patches have; "
+            "leave {parameter} out, or choose these",
             parameter="tail_error",
             method=ParameterName("method"),
         )
+    depths: DepthMap | LayerStack | None = stack
     kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)
     if depth_mm is None:
-        depths, half = None, kernels.over(0, whole(picture.shape)).half
+        half = kernels.over(0, whole(picture.shape)).half
     else:
-        _check_depths(planned.scene, depth_mm)
         half = max(_corner_halves(planned))
+    if depth_mm is not None and stack is None:
+        _check_depths(planned.scene, depth_mm)
         depths = map_depths(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2], half)
     former = _Former(planned, picture, depths, how, half, kernels, watch)
     out, parts, bright = np.empty_like(picture), list(tiles(picture.shape, TILE)), []
@@ -182,7 +194,7 @@ class _Former:
 
     planned: Plan
     picture: np.ndarray
-    depths: DepthMap | None
+    depths: DepthMap | LayerStack | None
     how: Forming
     half: int
     kernels: DepthKernels
@@ -197,7 +209,11 @@ class _Former:
             planes, box = self._surrounded(placed.lit, inside, reach)
             blurred, spread = self._blur(0, planes, box, tuple(range(planes.shape[-1])))
             return blurred[tile.within(spread)], placed.bright(tile)
-        return self._add_layers(tile, reach, placed.layers(self.depths)), placed.bright(tile)
+        if isinstance(self.depths, LayerStack):
+            return self._add_layers(tile, reach, placed.stack(self.depths))[0], placed.bright(tile)
+        light, covered = self._add_layers(tile, reach, placed.layers(self.depths))
+        light /= np.maximum(covered, LEAST_COVERAGE)
+        return light, placed.bright(tile)
 
     def kernel_at(self, number: int, row: float, column: float) -> np.ndarray:
         """Return the kernels of a pixel at a depth node, (channels, size, size)."""
@@ -214,8 +230,10 @@ class _Former:
         full = FullKernels(self.planned).at(row, column, self.planned.vergences[0])
         return dimmest(full, self.kernel_at(0, row, column), float(self.picture.max()))
 
-    def _add_layers(self, tile: Region, reach: Region, layers: Iterator[tuple[int, np.ndarray, Region]]) -> np.ndarray:
-        """Return the light of the layers from near to far, each behind those before it, over what they cover."""
+    def _add_layers(
+        self, tile: Region, reach: Region, layers: Iterator[tuple[int, np.ndarray, Region]]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the light of the layers from near to far, each behind those before it, and what they cover."""
         count = self.picture.shape[-1]
         light, covered = (np.zeros((*tile.shape, n), np.float32) for n in (count, 1))
         passing = np.ones_like(covered)
@@ -231,8 +249,7 @@ class _Former:
             covered[at] += passing[at] * part[..., count : count + 1]
             if planes.shape[-1] > count + 1:
                 passing[at] *= np.clip(1 - part[..., -1:], 0, 1)
-        light /= np.maximum(covered, LEAST_COVERAGE)
-        return light
+        return light, covered
 
     def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:
         """Return pixels of a box with those beyond the picture's edge as far as ``reach``, and the larger box."""
@@ -304,7 +321,8 @@ class _Placing:
         if self._places is not None:
             at = self._places[:, rows - self._inside.top, columns - self._inside.left]
             source = np.clip(np.rint(at).astype(int), 0, np.array(self._former.picture.shape[:2])[:, None] - 1)
-        return BrightLight(rows, columns, np.zeros(len(rows)) if depths is None else depths.place[*source], light)
+        places = depths.place[*source] if isinstance(depths, DepthMap) else np.zeros(len(rows))
+        return BrightLight(rows, columns, places, light)
 
     def layers(self, depths: DepthMap) -> Iterator[tuple[int, np.ndarray, Region]]:
         """Yield each layer's number, its colours and behind them its opacity, and the box that holds it.
@@ -333,6 +351,14 @@ class _Placing:
                 colours = colours.copy()
                 colours[other.within(box)] = self._shaded(continued, other)
             yield layer.number, np.concatenate([colours * opacity[..., :1], opacity], axis=-1), box
+
+    def stack(self, stack: LayerStack) -> Iterator[tuple[int, np.ndarray, Region]]:
+        """Yield each layer's number, its light and behind it its alpha, which covers and hides, and where it lies."""
+        inside = self._inside
+        for number in range(len(stack.alpha) - 1, -1, -1):
+            alpha = self._moved(stack.alpha[number][..., None], self._all, inside, 1)
+            colours = self._moved(stack.colours[number], self._all, inside, self._former.how.spline)
+            yield number, np.concatenate([self._shaded(colours, inside), alpha, alpha], axis=-1), inside
 
     def _box(self, seen: np.ndarray, source: Region) -> Region:
         """Return the pixels on which those of ``source`` land that are ``seen``, (rows, columns), as bool."""
@@ -387,6 +413,20 @@ def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
     if not np.isfinite(values).all():
         raise RequestError("the picture holds values that are not finite; replace them first")
     return values
+
+
+def _check_layers(scene: Scene, values: ArrayLike, depth_mm: np.ndarray | None) -> LayerStack:
+    """Return the layers of a scene; RequestError unless they fit it."""
+    stack = real_array("values", values)
+    depths = np.asarray([] if depth_mm is None else depth_mm, float)
+    if depths.shape != stack.shape[:1] or not depths.size:
+        raise RequestError(
+            "there are {layers} layers and depths of shape ({shape}); give the depth of each layer, mm",
+            layers=len(stack),
+            shape=depths.shape,
+        )
+    _check_depths(scene, depths)
+    return stack_layers([check_picture(scene, layer[..., :-1]) for layer in stack], stack[..., -1], depths)
 
 
 def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:

@@ -74,6 +74,38 @@ class DepthMap:
             place = np.minimum(place, number - 1)
 
 
+@dataclass(frozen=True, eq=False)
+class LayerStack:
+    """Layers from far to near: ``colours``, (layers, rows, columns, channels), premultiplied by ``alpha``, and 1/depth.
+
+    What is behind a layer is known, and its alpha is the share of the light that it keeps from there (Porter and Duff
+    1984, *over*); colours may exceed it, as those of a flame do.
+    """
+
+    colours: np.ndarray
+    alpha: np.ndarray
+    vergences: tuple[float, ...]
+
+
+def stack_layers(colours: list[np.ndarray], alpha: np.ndarray, depth_mm: np.ndarray) -> LayerStack:
+    """Return layers in any order as a stack; of two at one depth the first one given is in front.
+
+    Raises RequestError for alpha beyond 0…1 and depths that are not positive.
+    """
+    if not ((alpha >= 0) & (alpha <= 1)).all():
+        raise RequestError(
+            "alpha reaches from {low:g} to {high:g}; give the share of light that a layer hides, from 0 to 1",
+            low=float(np.min(alpha)),
+            high=float(np.max(alpha)),
+        )
+    if not (depth_mm > 0).all():
+        raise RequestError("a layer has a depth that is not positive; give mm from the first vertex, inf allowed")
+    order = np.argsort(vergence(depth_mm[::-1]), kind="stable")
+    far_to_near = (len(depth_mm) - 1 - order).tolist()
+    nodes = tuple(float(vergence(depth_mm[number])) for number in far_to_near)
+    return LayerStack(np.stack([colours[n] for n in far_to_near]), alpha[far_to_near].astype(np.float32), nodes)
+
+
 def map_depths(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...], half: int) -> DepthMap:
     """Return the places of a picture's depths, (rows, columns) mm, among nodes.
 

@@ -33,10 +33,11 @@ def form_image(
         The result of `plan` for the lens and the scene.
     values : array_like
         The scene in linear light, shape (rows, columns, channels) of the scene's sensor and colours: floats, since
-        integers are sRGB codes in most pictures.
+        integers are sRGB codes in most pictures. Or layers with what is behind each, shape (layers, rows, columns,
+        channels + 1): colours that are already multiplied by the alpha after them, the share of light a layer hides.
     depth_mm : array_like, optional
         Depth of every pixel, mm, shape (rows, columns), between ``near_mm`` and ``far_mm`` of the scene; by default
-        its far end.
+        its far end. Of layers, the depth of each, shape (layers,).
     method : {"patches", "lowrank"}
         With overlapping patches, or with a few kernels for the whole picture.
     surround : {"edge", "black"}

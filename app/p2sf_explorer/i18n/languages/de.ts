@@ -33,6 +33,8 @@
 <message><source>black is near</source><translation>Schwarz ist nah</translation></message>
 <message><source>in mm</source><translation>in mm</translation></message>
 <message><source>in m</source><translation>in m</translation></message>
+<message><source>a layer has a depth that is not positive; give mm from the first vertex, inf allowed</source><translation>eine Schicht hat eine Entfernung, die nicht positiv ist; mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
+<message><source>alpha reaches from {low:g} to {high:g}; give the share of light that a layer hides, from 0 to 1</source><translation>Alpha reicht von {low:g} bis {high:g}; den Anteil des Lichts angeben, den eine Schicht verdeckt, von 0 bis 1</translation></message>
 <message><source>Build a lens in Python</source><translation>Ein Objektiv in Python bauen</translation></message>
 <message><source>Gallery</source><translation>Galerie</translation></message>
 <message><source>Add a step for every step of undo of this lens, up to what is on screen</source><translation>Für jeden Schritt, den Rückgängig kennt, einen Schritt mit diesem Objektiv anfügen, bis zu dem, was zu sehen ist</translation></message>
@@ -147,6 +149,7 @@
 <message><source>the answer has the unit {unit}; write the wrong one in it</source><translation>die Antwort hat die Einheit {unit}; die falsche in ihr schreiben</translation></message>
 <message><source>the task has other options or hints than its original; say each in its place</source><translation>die Aufgabe hat andere Antworten oder Hinweise als ihr Original; jeden an seiner Stelle sagen</translation></message>
 <message><source>the task of this step is "{wanted}"; name the same</source><translation>die Aufgabe dieses Schritts heißt "{wanted}"; dieselbe nennen</translation></message>
+<message><source>there are {layers} layers and depths of shape ({shape}); give the depth of each layer, mm</source><translation>es gibt {layers} Schichten und Entfernungen der Form ({shape}); die Entfernung jeder Schicht in mm angeben</translation></message>
 <message><source>{given} numbers are given, {count} are asked for</source><translation>{given} Zahlen sind angegeben, {count} gefragt</translation></message>
 <message><source>{measure} has the unit {unit}; leave the unit out, and ask for a number in it</source><translation>{measure} hat die Einheit {unit}; die Einheit weglassen und nach einer Zahl in ihr fragen</translation></message>
 <message><source>{path} cannot be read: {why}</source><translation>{path} kann nicht gelesen werden: {why}</translation></message>

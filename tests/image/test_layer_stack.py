@@ -1,0 +1,98 @@
+"""Scenes given as layers: premultiplied alpha, what is behind each being known."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.errors import RequestError
+from p2sf.image import Forming, form_image
+from tests.image.test_layers import BLUR, planned
+
+NODES = (1 / 8000.0, 1 / 4000.0)
+SHAPE = 41, 41
+
+
+def scene_of(focus_mm: float = 8000.0):
+    """Return the Double Gauss from 4 to 8 m with the same kernel everywhere."""
+    made = planned(focus_mm, NODES)
+    return replace(made, scene=replace(made.scene, far_mm=8000.0), counts=(1, 1))
+
+
+def rgba(colour: np.ndarray | float, alpha: np.ndarray | float) -> np.ndarray:
+    """Return a layer, (rows, columns, 2), of one colour and its alpha, premultiplied."""
+    colour, alpha = np.broadcast_to(colour, SHAPE), np.broadcast_to(alpha, SHAPE)
+    return np.stack([colour * alpha, alpha], axis=-1)
+
+
+def texture(seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).random(SHAPE)
+
+
+def test_an_opaque_layer_is_the_picture_of_its_depth_and_hides_what_is_behind():
+    made = scene_of()
+    alone = form_image(replace(made, vergences=NODES[1:]), texture(1)[..., None], None, BLUR)
+    two = np.stack([rgba(texture(2), 1.0), rgba(texture(1), 1.0)])
+    found = form_image(made, two, np.array([8000.0, 4000.0]), BLUR)
+    np.testing.assert_allclose(found, alone, atol=2e-5)  # kernels of float32 have unit sum to 1e-6 a pixel
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.5, 1.0])
+def test_an_even_veil_mixes_the_pictures_of_both_depths(alpha):
+    """Even alpha has no silhouette: the picture is α of the near one and 1 − α of the far one, whatever their blur."""
+    made = scene_of(5000.0)
+    near, far = texture(1), texture(2)
+    pictures = [
+        form_image(replace(made, vergences=(node,)), each[..., None], None, BLUR)
+        for node, each in zip(NODES, (far, near), strict=True)
+    ]
+    stack = np.stack([rgba(near, alpha), rgba(far, 1.0)])
+    found = form_image(made, stack, np.array([4000.0, 8000.0]), BLUR)
+    np.testing.assert_allclose(found, alpha * pictures[1] + (1 - alpha) * pictures[0], atol=2e-5)
+
+
+def test_light_is_linear_and_what_no_layer_covers_is_dark():
+    made = scene_of()
+    alpha = (texture(3) > 0.5).astype(float)
+    one = form_image(made, rgba(texture(1), alpha)[None], np.array([4000.0]), BLUR)
+    twice = rgba(texture(1), alpha)[None].copy()
+    twice[..., 0] *= 2
+    np.testing.assert_allclose(form_image(made, twice, np.array([4000.0]), BLUR), 2 * one, atol=1e-5)
+    empty = form_image(made, np.zeros((2, *SHAPE, 2)), np.array([4000.0, 8000.0]), BLUR)
+    assert not empty.any()
+    covered = form_image(made, rgba(1.0, alpha)[None], np.array([4000.0]), BLUR)
+    # Nothing is divided by what is covered: the light that arrives is that which was sent.
+    assert covered[12:-12, 12:-12].mean() == pytest.approx(alpha[12:-12, 12:-12].mean(), abs=0.02)
+
+
+def test_the_order_in_which_layers_are_given_does_not_matter_but_at_one_depth():
+    made = scene_of()
+    layers = np.stack([rgba(texture(1), 0.3), rgba(texture(2), 1.0)])
+    depths = np.array([4000.0, 8000.0])
+    one, other = (form_image(made, layers[k], depths[k], BLUR) for k in ([0, 1], [1, 0]))
+    assert (one == other).all()
+    front = form_image(made, np.stack([rgba(0.2, 1.0), rgba(0.9, 1.0)]), np.array([4000.0, 4000.0]), BLUR)
+    np.testing.assert_allclose(front, 0.2, atol=1e-4)
+
+
+def test_distortion_moves_a_layer_as_it_moves_a_picture():
+    made = scene_of()
+    alone = form_image(replace(made, vergences=NODES[:1]), texture(1)[..., None], None, Forming())
+    found = form_image(made, rgba(texture(1), 1.0)[None], np.array([8000.0]), Forming())
+    np.testing.assert_allclose(found, alone, atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("layers", "depths", "words"),
+    [
+        (np.zeros((2, *SHAPE, 2)), np.array([4000.0]), "there are 2 layers"),
+        (np.zeros((1, *SHAPE, 2)), None, "there are 1 layers"),
+        (np.full((1, *SHAPE, 2), 1.5), np.array([4000.0]), "alpha reaches from 1.5 to 1.5"),
+        (np.zeros((1, *SHAPE, 4)), np.array([4000.0]), "1 channels"),
+        (np.zeros((1, *SHAPE, 2)), np.array([100.0]), "reaches from 100 mm"),
+        (np.zeros((1, *SHAPE, 2)), np.array([-4000.0]), "not positive"),
+    ],
+)
+def test_layers_that_do_not_fit_are_one_sentence(layers, depths, words):
+    with pytest.raises(RequestError, match=words):
+        form_image(scene_of(), layers, depths, BLUR)
