@@ -108,12 +108,16 @@ def form_image(
         picture: np.ndarray = stack.colours[0]
     else:
         picture = check_picture(planned.scene, values)
-    if has_halos(planned) and (how.method != "patches" or stack is not None):
+    if how.method != "patches" and has_halos(planned):
         raise RequestError(
-            "a scene with {parameter} has halos, which only pictures of one or more depths by {method} patches have; "
-            "leave {parameter} out, or choose these",
+            "a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches",
             parameter="tail_error",
             method=ParameterName("method"),
+        )
+    if stack is not None and has_halos(planned):
+        raise RequestError(
+            "halos are those of one picture, not of layers; leave {parameter} out, or give one picture and its depths",
+            parameter="tail_error",
         )
     depths: DepthMap | LayerStack | None = stack
     kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)

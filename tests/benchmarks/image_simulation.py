@@ -2,20 +2,21 @@
 
 ``python -m tests.benchmarks.image_simulation --keep FOLDER [--optiland PYTHON] [--deeplens PYTHON] [--figure FILE]``
 
-Twelve pictures of 160 × 240 pixels, four scenes with depth (`tests.support.depth_scenes`) through three shipped lenses,
+Twelve pictures of 120 × 180 pixels, four scenes with depth (`tests.support.depth_scenes`) through three shipped lenses,
 in three wavelengths; distortion and illumination are left out. The lens is in focus in the middle of 1/depth, and
 either end is a wave out of focus. A pixel is some samples λ/(4 NA) wide, so that optiland's PSFs fit. Errors are those
-of a part of 24 × 32 pixels on the way to the corner, relative to the picture in which every pixel has its own kernel
-(`tests.support.per_pixel`); times are CPU seconds of a fresh process, kernels and picture, on one thread; memory is
-what the process takes beyond its start. PYTHON is the interpreter of an environment that has the program; without it
-the program is left out. What is in FOLDER already is not computed again.
+of green in a part of 20 × 28 pixels on the way to the corner, relative to the picture in which every pixel has its own
+kernel (`tests.support.per_pixel`); times are CPU seconds of a fresh process, kernels and picture, on one thread; memory
+is what the process takes beyond its start. PYTHON is the interpreter of an environment that has the program; without it
+the program is left out. What is in FOLDER already is not computed again, so that several processes may share the lenses
+(`--lens`); without any program the table is made of what FOLDER holds (`--table`).
 """
 
 import argparse
 import resource
 import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
@@ -41,10 +42,10 @@ from p2sf.threads import using_threads
 from tests.support.depth_scenes import SCENES
 from tests.support.per_pixel import per_pixel_picture, widest_half
 
-SHAPE = 160, 240
-REGION = slice(24, 48), slice(28, 60)
+SHAPE = 120, 180
+REGION = slice(20, 40), slice(24, 52)
 COLOURS = tuple(Channel(name, (nm,), (1.0,)) for name, nm in (("red", 620.0), ("green", 540.0), ("blue", 465.0)))
-GREEN_UM = 0.54
+GREEN, GREEN_UM = 1, 0.54
 WAVES = 1.0  # of defocus at either end of the depths
 BLUR = Forming(geometry=False)
 SLICES = 9  # depths of PSFs on a grid
@@ -70,16 +71,16 @@ class BenchCamera:
         """Return the vergence in focus, 1/mm: W = D²·Δv/8 is the path that defocus adds at the pupil's rim."""
         return 8 * WAVES * GREEN_UM / 1000 / (self.focal_mm / self.f_number) ** 2
 
-    def scene(self, rtol: float = 0.05) -> Scene:
-        sensor = Sensor(*SHAPE, self.pixel_um)
+    def scene(self, rtol: float = 0.05, shape: tuple[int, int] = SHAPE) -> Scene:
+        sensor = Sensor(*shape, self.pixel_um)
         return Scene(sensor, COLOURS, 1 / (2 * self.middle), inf, rtol, focus_mm=1 / self.middle)
 
-    def plan(self, rtol: float) -> Plan:
-        return plan(find_lens(self.lens), self.scene(rtol))
+    def plan(self, rtol: float, shape: tuple[int, int] = SHAPE) -> Plan:
+        return plan(find_lens(self.lens), self.scene(rtol, shape))
 
-    def exact(self) -> Plan:
+    def exact(self, shape: tuple[int, int] = SHAPE) -> Plan:
         """Return kernels in every wavelength, as finely sampled as any plan's; its nodes are not used."""
-        made = self.plan(0.005)
+        made = self.plan(0.005, shape)
         colours = tuple(reduce_spectrum(channel, len(channel.wavelengths_nm)) for channel in COLOURS)
         return replace(made, colours=colours, recipe=Recipe("fitted", made.recipe.numbers, *FINE))
 
@@ -91,9 +92,11 @@ CAMERAS = (
 )
 
 
-def picture_of(camera: BenchCamera, scene: str) -> tuple[np.ndarray, np.ndarray]:
+def picture_of(
+    camera: BenchCamera, scene: str, shape: tuple[int, int] = SHAPE, seed: int = 1
+) -> tuple[np.ndarray, np.ndarray]:
     """Return colours and depths, mm, of a scene."""
-    values, place = SCENES[scene](SHAPE, 1)
+    values, place = SCENES[scene](shape, seed)
     return values, 1 / (place * 2 * camera.middle)
 
 
@@ -165,6 +168,8 @@ OURS = {
     **{f"plan, ε = {rtol}": partial(by_plan, rtol) for rtol in (0.1, 0.02, 0.005)},
 }
 
+PEERS = "optiland", "deeplens"
+
 
 def timed_picture(program: str, python: str | None, camera: BenchCamera, scene: str) -> tuple[np.ndarray, float, float]:
     """Return REGION of a program's picture, CPU seconds, and MiB beyond the start of the process."""
@@ -179,13 +184,13 @@ def timed_picture(program: str, python: str | None, camera: BenchCamera, scene: 
 
 
 def reference(camera: BenchCamera, scene: str) -> np.ndarray:
-    """Return REGION of the picture by every pixel's own kernel."""
+    """Return REGION of the green picture by every pixel's own kernel."""
     values, depth = picture_of(camera, scene)
-    return per_pixel_picture(for_reference(camera), values, depth, REGION)
+    return per_pixel_picture(for_reference(camera), values[..., GREEN], depth, REGION, GREEN)
 
 
-def for_reference(camera: BenchCamera) -> Plan:
-    made = camera.exact()
+def for_reference(camera: BenchCamera, shape: tuple[int, int] = SHAPE) -> Plan:
+    made = camera.exact(shape)
     return replace(made, recipe=replace(made.recipe, fineness=FINEST[0], margin=FINEST[1]))
 
 
@@ -210,81 +215,79 @@ def in_fresh_process(work: Callable, *arguments: object) -> object:
         return pool.apply(work, arguments)
 
 
-def kept(folder: Path, name: str, work: Callable[[], dict[str, object]]) -> dict[str, np.ndarray]:
-    """Return stored arrays, or those of the work, which are stored."""
-    path = folder / (name.replace(" ", "_").replace("/", "_") + ".npz")
+def keep(path: Path, work: Callable[[], dict[str, object]]) -> None:
+    """Store the arrays of the work, unless they are there."""
     if not path.exists():
         np.savez(path, **work())
-        print(name, "done", flush=True)
-    with np.load(path) as found:
-        return dict(found)
+        print(path.stem, flush=True)
 
 
-def all_pictures(folder: Path, peers: dict[str, str]) -> dict[tuple[str, str, str], dict[str, np.ndarray]]:
-    """Return by lens, scene and program: the picture's region, seconds, mib; program "reference" among them."""
+def make_pictures(folder: Path, programs: dict[str, str | None], cameras: Sequence[BenchCamera]) -> None:
+    """Store every program's picture of every scene, seconds and MiB; the interpreters of other programs are given."""
     folder.mkdir(parents=True, exist_ok=True)
+    for (program, python), scene, camera in product(programs.items(), SCENES, cameras):
+
+        def work(args: tuple = (program, python, camera, scene)) -> dict[str, object]:
+            picture, seconds, mib = in_fresh_process(timed_picture, *args)
+            return {"picture": picture, "seconds": seconds, "mib": mib}
+
+        keep(path_of(folder, camera, scene, program), work)
+
+
+def path_of(folder: Path, camera: BenchCamera, scene: str, program: str) -> Path:
+    return folder / f"{camera.lens} {scene} {program}.npz".replace(" ", "_")
+
+
+def stored_pictures(folder: Path) -> dict[tuple[str, str, str], dict[str, np.ndarray]]:
+    """Return what the folder holds by program, lens and scene: the picture's region, seconds, mib."""
     found = {}
-    for program, python in ({"reference": None} | dict.fromkeys(OURS) | peers).items():
-        for camera, scene in product(CAMERAS, SCENES):
-
-            def work(args: tuple = (program, python, camera, scene)) -> dict[str, object]:
-                picture, seconds, mib = in_fresh_process(timed_picture, *args)
-                return {"picture": picture, "seconds": seconds, "mib": mib}
-
-            found[camera.lens, scene, program] = kept(folder, f"{camera.lens} {scene} {program}", work)
+    for program, camera, scene in product(("reference", *OURS, *PEERS), CAMERAS, SCENES):
+        path = path_of(folder, camera, scene, program)
+        if path.exists():
+            with np.load(path) as each:
+                found[program, camera.lens, scene] = dict(each)
     return found
 
 
-def relative_errors(found: dict, program: str) -> list[float]:
-    """Return the error of each picture over its reference, both as root sums of squares."""
-    return [
-        float(
-            np.linalg.norm(found[lens, scene, program]["picture"] - each["picture"]) / np.linalg.norm(each["picture"])
-        )
-        for (lens, scene, name), each in found.items()
-        if name == "reference"
-    ]
+def relative_error(found: dict, program: str, lens: str, scene: str) -> float:
+    """Return the error of green in a picture over its reference, both as root sums of squares."""
+    truth, green = found["reference", lens, scene]["picture"], found[program, lens, scene]["picture"][..., GREEN]
+    return float(np.linalg.norm(green - truth) / np.linalg.norm(truth))
 
 
 def print_table(found: dict) -> None:
-    print("| program | error, median | worst | CPU, median | most | memory, most |\n|---|---|---|---|---|---|")
-    for program in dict.fromkeys(name for *_, name in found if name != "reference"):
-        errors = relative_errors(found, program)
-        mine = [each for (*_, name), each in found.items() if name == program]
-        seconds, mib = [float(each["seconds"]) for each in mine], max(float(each["mib"]) for each in mine)
+    print("| program | pictures | error, median | worst | CPU, median | most | memory, most |\n" + "|---" * 7 + "|")
+    for program in dict.fromkeys(name for name, *_ in found if name != "reference"):
+        mine = {tuple(where): each for (name, *where), each in found.items() if name == program}
+        errors = [relative_error(found, program, *where) for where in mine if ("reference", *where) in found]
+        seconds, mib = (
+            [float(each["seconds"]) for each in mine.values()],
+            max(float(each["mib"]) for each in mine.values()),
+        )
         print(
-            f"| {program} | {100 * median(errors):.2g} % | {100 * max(errors):.2g} % | {median(seconds):.2g} s | "
-            f"{max(seconds):.2g} s | {mib:.0f} MiB |"
+            f"| {program} | {len(errors)} | {100 * median(errors):.2g} % | {100 * max(errors):.2g} % | "
+            f"{median(seconds):.2g} s | {max(seconds):.2g} s | {mib:.0f} MiB |"
         )
 
 
-def save_figure(found: dict, path: Path, lens: str = "achromat_f6", scene: str = "leaves") -> None:
-    """Save one picture by every program, and below each five times its error."""
+def save_figure(found: dict, path: Path, lens: str = "achromat_f6", scene: str = "posts") -> None:
+    """Save one picture by every program, and below each its error, five times as large, about grey."""
     import matplotlib.pyplot as plt
 
-    names = [name for *where, name in found if tuple(where) == (lens, scene)]
-    truth = found[lens, scene, "reference"]["picture"]
-    figure, axes = plt.subplots(2, len(names), figsize=(1.7 * len(names), 2.9), layout="constrained")
-    for (above, below), name in zip(axes.T, names, strict=True):
-        picture = found[lens, scene, name]["picture"]
-        above.imshow(np.clip(picture, 0, 1) ** (1 / 2.2), interpolation="nearest")
-        below.imshow(np.clip(0.5 + 5 * (picture - truth), 0, 1), interpolation="nearest")
+    pictures = {name: each["picture"] for (name, *where), each in found.items() if tuple(where) == (lens, scene)}
+    truth = pictures.pop("reference")
+    shown = {"reference": truth, **{name: picture[..., GREEN] for name, picture in pictures.items()}}
+    figure, axes = plt.subplots(2, len(shown), figsize=(1.5 * len(shown), 2.4), layout="constrained")
+    for (above, below), (name, picture) in zip(axes.T, shown.items(), strict=True):
+        above.imshow(np.clip(picture, 0, 1) ** (1 / 2.2), cmap="gray", vmin=0, vmax=1, interpolation="nearest")
+        below.imshow(5 * (picture - truth), cmap="gray", vmin=-0.5, vmax=0.5, interpolation="nearest")
         above.set_title(name, fontsize=7)
         for axis in (above, below):
             axis.set_axis_off()
     figure.savefig(path, dpi=110)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--keep", type=Path, required=True)
-    parser.add_argument("--optiland")
-    parser.add_argument("--deeplens")
-    parser.add_argument("--figure", type=Path)
-    asked = parser.parse_args()
-    peers = {name: getattr(asked, name) for name in ("optiland", "deeplens") if getattr(asked, name)}
-    found = all_pictures(asked.keep, peers)
-    print_table(found)
+def print_cameras() -> None:
     for camera in CAMERAS:
         made, error = camera.exact(), error_of_reference(camera)
         print(
@@ -292,6 +295,24 @@ def main() -> None:
             f"to infinity, kernels up to {2 * widest_half(made, made.scene.vergences(2)) + 1}² pixels, error of the "
             f"reference's {error:.2g}"
         )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--keep", type=Path, required=True)
+    parser.add_argument("--lens", choices=[camera.lens for camera in CAMERAS], action="append")
+    parser.add_argument("--table", action="store_true")
+    parser.add_argument("--figure", type=Path)
+    for peer in PEERS:
+        parser.add_argument(f"--{peer}")
+    asked = parser.parse_args()
+    peers = {name: getattr(asked, name) for name in PEERS if getattr(asked, name)}
+    cameras = [camera for camera in CAMERAS if camera.lens in (asked.lens or camera.lens)]
+    if not asked.table:
+        make_pictures(asked.keep, dict.fromkeys(("reference", *OURS)) | peers, cameras)
+    found = stored_pictures(asked.keep)
+    print_table(found)
+    print_cameras()
     if asked.figure:
         save_figure(found, asked.figure)
 

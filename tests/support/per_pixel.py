@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.image.layers import map_depths
+from p2sf.pixel_kernels import Kernels
 from p2sf.scene import Plan
 
 TOGETHER = 400  # pixels whose kernels are computed at once
@@ -23,42 +24,40 @@ def widest_half(planned: Plan, vergences: np.ndarray) -> int:
     return max(int(planned.kernels(middle, float(v)).points(x, y).half_widths()[0]) for v in vergences[[0, -1]])
 
 
-def per_pixel_picture(planned: Plan, values: np.ndarray, depth_mm: np.ndarray, region: Region) -> np.ndarray:
-    """Return a region of the formed picture, (rows, columns, channels), without distortion and illumination.
+def per_pixel_picture(
+    planned: Plan, values: np.ndarray, depth_mm: np.ndarray, region: Region, channel: int
+) -> np.ndarray:
+    """Return a region of one channel of the formed picture, (rows, columns), without distortion and illumination.
 
-    The region is farther from the picture's edge than kernels reach.
+    ``values``: that channel, (rows, columns). The region is farther from the picture's edge than kernels reach.
     """
     levels = np.unique(vergence(depth_mm))
     half = widest_half(planned, levels)
     light = covered = 0.0
     passing: np.ndarray | float = 1.0
-    for layer in map_depths(depth_mm, levels, values.shape[:2], half).layers(values):
-        planes = np.concatenate(
-            [layer.colours * layer.opacity[..., None], layer.opacity[..., None], layer.hiding[..., None]], axis=-1
+    for layer in map_depths(depth_mm, levels, values.shape, half).layers(values[..., None]):
+        planes = np.stack([layer.colours[..., 0] * layer.opacity, layer.opacity, layer.hiding], axis=-1)
+        own, over, hides = np.moveaxis(
+            _spread(planned.kernels(channel, float(levels[layer.number])), planned, planes, region, half), -1, 0
         )
-        blurred = _spread(planned, float(levels[layer.number]), planes, region, half)
-        light = light + passing * blurred[..., :-2]
-        covered = covered + passing * blurred[..., -2:-1]
-        passing = passing * np.clip(1 - blurred[..., -1:], 0, 1)
+        light, covered = light + passing * own, covered + passing * over
+        passing = passing * np.clip(1 - hides, 0, 1)
     found: np.ndarray = light / covered
     return found
 
 
-def _spread(planned: Plan, depth: float, planes: np.ndarray, region: Region, half: int) -> np.ndarray:
-    """Return what a layer's pixels send into a region, each by its own kernel; planes behind the colours by green's."""
+def _spread(kernels: Kernels, planned: Plan, planes: np.ndarray, region: Region, half: int) -> np.ndarray:
+    """Return what a layer's pixels send into a region, (rows, columns, planes), each by its own kernel."""
     (top, bottom), (left, right) = ((part.start - half, part.stop + half) for part in region)
-    rows, columns = np.nonzero(planes[top:bottom, left:right, -2])
+    rows, columns = np.nonzero(planes[top:bottom, left:right, 1])
     rows, columns = rows + top, columns + left
     canvas = np.zeros((bottom - top + 2 * half, right - left + 2 * half, planes.shape[-1]))
-    sensor, count = planned.scene.sensor, len(planned.colours)
-    for channel in range(count):
-        own = [channel, count, count + 1] if channel == count // 2 else [channel]
-        kernels = planned.kernels(channel, depth)
-        for start in range(0, len(rows), TOGETHER):
-            row, column = rows[start : start + TOGETHER], columns[start : start + TOGETHER]
-            points = kernels.points(sensor.x_mm(column), sensor.y_mm(row))
-            halves = np.minimum(points.half_widths(), half)
-            for r, c, h, kernel in zip(row, column, halves, points.kernels(halves), strict=True):
-                r0, c0 = r - top + half - h, c - left + half - h
-                canvas[r0 : r0 + 2 * h + 1, c0 : c0 + 2 * h + 1, own] += kernel[..., None] * planes[r, c, own]
+    sensor = planned.scene.sensor
+    for start in range(0, len(rows), TOGETHER):
+        row, column = rows[start : start + TOGETHER], columns[start : start + TOGETHER]
+        points = kernels.points(sensor.x_mm(column), sensor.y_mm(row))
+        halves = np.minimum(points.half_widths(), half)
+        for r, c, h, kernel in zip(row, column, halves, points.kernels(halves), strict=True):
+            r0, c0 = r - top + half - h, c - left + half - h
+            canvas[r0 : r0 + 2 * h + 1, c0 : c0 + 2 * h + 1] += kernel[..., None] * planes[r, c]
     return canvas[2 * half : -2 * half, 2 * half : -2 * half]

@@ -11,25 +11,43 @@ EVERY = np.s_[::8, ::12]  # of the cells of the pupil
 def seen_through_pupil(planned: Plan, near: np.ndarray, picture: np.ndarray) -> np.ndarray:
     """Return the light on every pixel, (rows, columns), without field: ``near`` where the nearer depth is.
 
-    Behind it the farther one goes on as the nearest pixel of the row, as no depth map can know.
+    Behind it the farther one goes on as the nearest pixel of the row or column, as no depth map can know.
     """
+    return seen_through_layers(planned, near.astype(float), picture, _continued(picture, near))
+
+
+def _continued(picture: np.ndarray, near: np.ndarray) -> np.ndarray:
+    """Return the picture with every pixel of the nearer depth replaced, found by trying every pixel in line with it."""
     far = picture.copy()
-    for row, hidden in zip(far, near, strict=True):
-        open_ = np.flatnonzero(~hidden)
-        row[:] = row[open_[np.abs(open_ - np.arange(row.size)[:, None]).argmin(1)]]
-    total, shares, pixel_um = np.zeros(picture.shape), 0.0, planned.scene.sensor.pixel_um
+    for row, column in zip(*np.nonzero(near), strict=True):
+        beside, above = np.flatnonzero(~near[row]), np.flatnonzero(~near[:, column])
+        tried = [(abs(int(k) - column), row, int(k)) for k in beside] + [
+            (abs(int(k) - row), int(k), column) for k in above
+        ]
+        if tried:
+            _, *place = min(tried, key=lambda each: each[0])
+            far[row, column] = picture[tuple(place)]
+    return far
+
+
+def seen_through_layers(planned: Plan, alpha: np.ndarray, front: np.ndarray, behind: np.ndarray) -> np.ndarray:
+    """Return the light on every pixel, (rows, columns), without field, of a layer ``front`` and what is behind it.
+
+    A ray that meets the front where its ``alpha`` is α has α of its light and 1 − α of the light behind.
+    """
+    total, shares, pixel_um = np.zeros(front.shape), 0.0, planned.scene.sensor.pixel_um
     wave = planned.colours[0].wavelengths_um[0]
     spreads = []
     for vergence in planned.vergences:
         seen = planned.sensor_map(vergence)
         spreads.append(ray_spread(seen.lens, seen.source(0.0, 0.0, wave)))
-    behind, before = spreads
-    for side in before.sides:
-        places = [(side * spread.x_um[EVERY] / pixel_um, spread.y_um[EVERY] / pixel_um) for spread in (before, behind)]
+    far, near = spreads
+    for side in near.sides:
+        places = [(side * spread.x_um[EVERY] / pixel_um, spread.y_um[EVERY] / pixel_um) for spread in (near, far)]
         (x, y), (far_x, far_y) = places
-        for light, *moves in zip(*(part.flat for part in (before.light[EVERY], x, y, far_x, far_y)), strict=True):
-            meets = _shifted(near, *moves[:2])
-            total += light * np.where(meets, _shifted(picture, *moves[:2]), _shifted(far, *moves[2:]))
+        for light, *moves in zip(*(part.flat for part in (near.light[EVERY], x, y, far_x, far_y)), strict=True):
+            meets = _shifted(alpha, *moves[:2])
+            total += light * (meets * _shifted(front, *moves[:2]) + (1 - meets) * _shifted(behind, *moves[2:]))
             shares += light
     return total / shares
 

@@ -8,6 +8,7 @@
 <message><source>Choose another photo</source><translation>Ein anderes Foto wählen</translation></message>
 <message><source>Drop a photo here</source><translation>Ein Foto hierher ziehen</translation></message>
 <message><source>Farthest depth</source><translation>Größte Entfernung</translation></message>
+<message><source>halos are those of one picture, not of layers; leave {parameter} out, or give one picture and its depths</source><translation>Lichthöfe gehören zu einem Bild, nicht zu Schichten; {parameter} weglassen oder ein Bild und seine Entfernungen angeben</translation></message>
 <message><source>How far away the parts of the picture are: one distance, nearer towards the bottom, three steps to the right …</source><translation>Wie weit die Teile des Bildes entfernt sind: eine Entfernung, nach unten hin näher, drei Stufen nach rechts …</translation></message>
 <message><source>Maps of depths (*.png *.tif *.tiff)</source><translation>Karten der Entfernungen (*.png *.tif *.tiff)</translation></message>
 <message><source>Nearest depth</source><translation>Kleinste Entfernung</translation></message>
