@@ -1,6 +1,6 @@
 """A lesson in the hall: keys of a presenter's remote, the question large, a black screen, notes in their own window."""
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, QRect, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
 
@@ -48,12 +48,15 @@ class Hall(QObject):
         made.setEnabled(False)
         return made
 
-    def present(self, on: bool, notes: bool) -> None:
-        """Begin or end presenting; ``notes`` are shown where there is a second screen."""
+    def present(self, on: bool, room: QRect | None) -> None:
+        """Begin or end presenting; ``room`` is where notes may stand on a second screen, None where there is none."""
         self.presenting = on
         self._follow(self._store.state)
-        if on and notes and self._lesson():
-            self.notes.begin()
+        if on and room and self._lesson():
+            self.notes.move(room.topLeft())
+            self.notes.resize(self.notes.size().boundedTo(room.size()))
+            if not self.notes.isVisible():
+                self.turn_notes()
         elif not on:
             self.notes.end()
             self.card.put_away()

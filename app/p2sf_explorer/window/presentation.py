@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QByteArray, QObject, QPointF, Qt
+from PySide6.QtCore import QByteArray, QObject, QPointF, QRect, Qt
 from PySide6.QtGui import (
     QBrush,
     QCursor,
@@ -51,9 +51,12 @@ class Presentation(QObject):
         self._escape.activated.connect(self.stop)
 
     @property
-    def beside(self) -> bool:
-        """Return whether the controls stand on a screen of their own."""
-        return self._desk is not None
+    def beside(self) -> QRect | None:
+        """Return where there is room beside the controls on a screen of their own, None where they have none."""
+        if self._desk is None:
+            return None
+        desk, screen = self._desk.frameGeometry(), self._desk.screen().availableGeometry()
+        return QRect(desk.right() + 1, desk.top(), max(1, screen.right() - desk.right()), desk.height())
 
     def commands(self) -> tuple[Command, ...]:
         """Return the command that begins and ends presenting."""

@@ -1,7 +1,7 @@
 """In the hall: a remote's keys lead from picture to question, answer and next step; black screen, countdown, notes."""
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRect, Qt
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.lessons.hall_card import SECONDS, options_of
@@ -107,4 +107,12 @@ def test_notes_follow_the_steps_in_a_window_of_their_own(window, qtbot, hall):
     window.teaching._go(NAME, STEP["radius"])
     assert "For who teaches." in hall.notes.text.text() and LESSON.steps[1].title in hall.notes.text.text()
     hall.turn_notes()
+    assert not hall.notes.isVisible()
+
+
+def test_notes_stand_beside_the_controls_where_there_is_a_second_screen(window, hall):
+    hall.present(True, QRect(300, 40, 400, 500))
+    assert hall.notes.isVisible() and hall.notes.pos() == QRect(300, 40, 1, 1).topLeft()
+    assert hall.notes.width() <= 400 and LESSON.steps[STEP["choice"]].question in hall.notes.text.text()
+    hall.present(False, None)
     assert not hall.notes.isVisible()
