@@ -16,6 +16,8 @@ MOST_VANES, WIDEST_VANE = 12, 0.5
 FEWEST_BLADES, MOST_BLADES = 3, 32
 NARROWEST_APODISATION, MOST_POWER = 0.1, 20
 LONGEST_PATH_UM = 1e6  # a metre: steeper than any real phase plate, and far below the overflow of slopes
+INFINITE = "{parameter} is {value:g}{unit}; give a positive number, inf allowed"
+FINITE = "{parameter} is {value:g}{unit}; give a positive finite number"
 FARTHER = "{parameter} is {value:g}{unit}, but rays from beyond {most:g} mm are in effect parallel; give inf"
 
 
@@ -40,19 +42,8 @@ def check_positive(name: str, value: float | None, infinite: bool = False) -> No
     """Raise RequestError unless a parameter is positive and, where ``infinite`` is not allowed, finite; None passes."""
     if value is None or (value > 0 and (infinite or value < inf)):
         return
-    if infinite:
-        raise RequestError(
-            "{parameter} is {value:g}{unit}; give a positive number, inf allowed",
-            parameter=name,
-            value=value,
-            unit=unit_behind(name),
-        )
-    raise RequestError(
-        "{parameter} is {value:g}{unit}; give a positive finite number",
-        parameter=name,
-        value=value,
-        unit=unit_behind(name),
-    )
+    told = INFINITE if infinite else FINITE
+    raise RequestError(told, parameter=name, value=value, unit=unit_behind(name))
 
 
 def check_distance(name: str, value: float | None) -> None:

@@ -2,16 +2,19 @@
 
 For every kind of `tests.support.lenses.every_surface`, with chains of breaks and mirrors, the largest distance between
 rays of the system and of what .toml, .zmx and .seq hold, mm, their path included; and the surface that a format refuses
-by name. ``--rays N`` checks the first N systems of every kind against a tracer in forty digits too. Exit code 1 above
-1e-9 mm, and where rays are lost in one of the two only.
+by name. ``--rays N`` checks the first N systems of every kind against a tracer in forty digits too, and ``--folder``
+takes the lens files of a folder besides, each as it is read. Exit code 1 above 1e-9 mm, and where rays are lost in one
+of the two only.
 """
 
 import argparse
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from math import inf
+from pathlib import Path
 
 import numpy as np
 
@@ -21,7 +24,7 @@ from p2sf.lens import Source
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.glass_lookup import GlassSources
-from p2sf.lensfile.importing import import_text
+from p2sf.lensfile.importing import import_lens, import_text
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
@@ -32,6 +35,7 @@ from tests.support.lenses.every_surface import KINDS, rays, system_of
 from tests.support.rays import freeform_rays
 
 WRITERS: dict[str, Callable[[Lens], str]] = {".toml": lens_to_toml, ".zmx": lens_to_zmx, ".seq": lens_to_seq}
+READ = ".zmx", ".seq", ".roa", ".len", ".zar"
 CLOSE_MM = 1e-9
 FINITE_MM = {"relay": 95.0}  # depths of lenses that no ray from infinity passes off the axis
 NO_DIGITS = ("odd asphere", "extended asphere", "Qcon", "Qbfs", "ideal lens")  # of which that tracer knows no sag
@@ -86,6 +90,16 @@ def digits_apart_mm(lens: Lens, origins: np.ndarray, ways: np.ndarray) -> float:
     return far
 
 
+def read_folder(folder: Path | None) -> dict[str, Lens]:
+    """Return the lenses of a folder that can be read, by their paths in it."""
+    found = {}
+    for path in sorted(folder.rglob("*")) if folder else ():
+        if path.suffix.lower() in READ:
+            with suppress(LensFileError):
+                found[str(path.relative_to(folder))] = import_lens(path, True).lens
+    return found
+
+
 def row(name: str, worst: dict[str, float], refused: dict[str, str]) -> str:
     figures = (f"{ending} {far:.1e}" for ending, far in worst.items())
     return f"{name:22} {'  '.join(figures)}" + "".join(f"\n    {ending}: {why}" for ending, why in refused.items())
@@ -106,6 +120,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--systems", type=int, default=100)
     parser.add_argument("--rays", type=int, default=4)
+    parser.add_argument("--folder", type=Path)
     options = parser.parse_args(arguments)
     farthest = 0.0
     for kind in KINDS:
@@ -118,11 +133,13 @@ def main(arguments: list[str] | None = None) -> int:
                 worst["40 digits"] = max(worst.get("40 digits", 0.0), digits_apart_mm(lens, origins[:3], ways[:3]))
         print(row(kind, worst, refused), flush=True)
         farthest = max(farthest, *worst.values())
-    for name in shipped_lenses():
+    lenses = {name: find_lens(name) for name in shipped_lenses()} | read_folder(options.folder)
+    for name, lens in lenses.items():
         worst, refused = {}, {}
-        compare(replace(find_lens(name), positions=None), pupils_apart_mm, worst, refused)
+        compare(replace(lens, positions=None), pupils_apart_mm, worst, refused)
         print(row(name, worst, refused), flush=True)
         farthest = max(farthest, *worst.values())
+    print(f"{len(lenses)} lenses")
     print(f"largest distance {farthest:.1e} mm")
     return int(farthest > CLOSE_MM)
 
