@@ -40,7 +40,7 @@ from p2sf.threads import map_threads, one_blas_thread
 
 FITS = 5, 3, 3  # along a side of the field, depths, and colours, from which the pupils of all others follow
 SCAN = 65  # depths at which the blur's width is found
-SHARP_PX = 8.0  # a blur of a larger radius leaves nothing of the finest octave
+SHARP_PX = 4.0  # a blur of a larger radius leaves nothing of the finest octave
 LIGHT_HEIGHTS = 4
 MOST_SAMPLES = 8  # of λ/2NA across a pixel: it hides what diffraction adds to more
 MARGIN, LEAST_ERROR = 1.6, 2e-3  # of what is expected; edges of depth, rounding
@@ -74,7 +74,8 @@ class KeptPicture:
 
     ``scene`` has the sensor, grown to whole coarse pixels; ``shape`` is the picture's own. ``powers``: the mean square
     of each octave by level of depth, (LEVELS,); ``contrast``: the standard deviation of the picture; ``gradient``: the
-    RMS step from pixel to pixel. ``moved_px``: how far the lens's distortion is from that of the picture.
+    RMS step from pixel to pixel. ``shade``: the relative illumination of coarse pixels. ``moved_px``: how far the
+    distortion of the lens is from that of the picture.
     """
 
     scene: Scene
@@ -84,6 +85,7 @@ class KeptPicture:
     powers: list[np.ndarray]
     contrast: float
     gradient: float
+    shade: np.ndarray
     moved_px: float = 0.0
 
     def in_scene(self, scene: Scene, moved_px: float) -> "KeptPicture":
@@ -104,16 +106,18 @@ class KeptPicture:
     @property
     def coarse(self) -> Sensor:
         """Return the sensor of coarse pixels."""
-        sensor, times = self.scene.sensor, self.times
-        return replace(
-            sensor, rows=sensor.rows // times, columns=sensor.columns // times, pixel_um=sensor.pixel_um * times
-        )
+        return coarser(self.scene.sensor, self.times)
+
+
+def coarser(sensor: Sensor, times: int) -> Sensor:
+    """Return a sensor of pixels ``times`` as wide."""
+    return replace(sensor, rows=sensor.rows // times, columns=sensor.columns // times, pixel_um=sensor.pixel_um * times)
 
 
 def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: SensorMap, effort: Effort) -> KeptPicture:
     """Return what is kept of a picture, (rows, columns, channels), and of its depths, (rows, columns) mm.
 
-    It is distorted as ``seen`` has it, the lens as it was set then. Without depths, all of it lies at the far end.
+    It is distorted and lit as ``seen`` has it, the lens as it was set then. Without depths all of it is at the far end.
     """
     far, near = (float(v) for v in scene.vergences(2))
     shape = values.shape[:2]
@@ -126,9 +130,10 @@ def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: Se
     placed, levels = np.pad(placed, [(0, 0), *more], mode="edge"), np.pad(levels, more, mode="edge")
     grown = replace(scene, sensor=_grown(scene.sensor, more[0][1], more[1][1]))
     cut = cut_into_slabs(placed, levels, effort.halvings)
+    shade = illumination(seen, coarser(grown.sensor, 2**effort.halvings), LIGHT_HEIGHTS)
     by_slab = [np.sum([octave_powers(slab, number) for slab in cut], axis=0) for number in range(effort.halvings)]
     powers = [4.0**number * power / levels.size for number, power in enumerate(by_slab)]
-    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()), _gradient(placed))
+    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()), _gradient(placed), shade)
 
 
 def _gradient(planes: np.ndarray) -> float:
@@ -282,7 +287,9 @@ def focused_picture(kept: KeptPicture, camera: Lens) -> FocusedPicture:
     gains = [over_levels(gain, nodes.depths) for gain, _ in responses]
     part = components(nodes, effort.tolerance, effort.rank)
     error = expected_error(kept, part, [over_levels(spread, nodes.depths) for _, spread in responses])
-    shade = illumination(made.study.sensor_map(made.study.ends[0]), kept.coarse, LIGHT_HEIGHTS)
+    shade = kept.shade
+    if kept.scene.clip:  # otherwise it hardly depends on focus and f-number
+        shade = illumination(made.study.sensor_map(made.study.ends[0]), kept.coarse, LIGHT_HEIGHTS)
     out: np.ndarray | None = None
     for slab in kept.slabs:
         (down, across), planes = _blurred(slab, part, gains, shade)
@@ -321,19 +328,15 @@ def _blurred(
     planes = blur(planes, level, part, (box[0].start, box[1].start))
     if sloping:  # where the blur changes from place to place, points do not lose light to others
         planes = planes[:channels] / planes[channels:]
-    own = shade[slab.box]
+    light = shade[slab.box]
     for number in range(len(gains) - 1, -1, -1):
         finer = 2 ** (len(gains) - 1 - number)
-        planes = enlarge(planes)
         nodes = tuple((n + 0.5) * finer - 0.5 for n in (part.row_nodes, part.column_nodes))
         corner = slab.box[0].start * finer, slab.box[1].start * finer
         gain = over_picture(gains[number], nodes, slab.levels[number], corner)
-        lit = gain * own
-        own = enlarge(own)
-        octave = slab.octaves[number]
-        where = tuple(slice(2 * finer * i.start, 2 * finer * i.stop) for i in inside)
-        for k, plane in enumerate(planes):
-            _add_times(plane[where], octave[min(k, channels)], (lit if k < channels else gain)[k % channels])
+        gain = np.concatenate([gain * light, gain])
+        planes, light = _with_octave(planes, inside, slab.octaves[number], gain), enlarge(light)
+        inside = [slice(2 * side.start, 2 * side.stop) for side in inside]
     down, across = (slice(side.start * times, side.stop * times) for side in box)
     return (down, across), planes
 
@@ -348,18 +351,26 @@ def _spread(
     starts = [max(0, side.start - border) for side in slab.box]
     stops = [min(count, side.stop + border) for side, count in zip(slab.box, shape, strict=True)]
     inside = [slice(side.start - start, side.stop - start) for side, start in zip(slab.box, starts, strict=True)]
-    planes = np.zeros((channels * len(slab.planes[::channels]), stops[0] - starts[0], stops[1] - starts[1]), np.float32)
-    planes[:, *inside] = (
-        slab.planes if len(slab.planes) == channels else slab.planes[[*range(channels), *([-1] * channels)]]
-    )
+    chosen = np.minimum(np.arange(channels * (1 + (len(slab.planes) > channels))), channels)
+    planes = np.zeros((len(chosen), stops[0] - starts[0], stops[1] - starts[1]), np.float32)
+    planes[:, *inside] = slab.planes[chosen]
     return (slice(starts[0], stops[0]), slice(starts[1], stops[1])), planes, inside
 
 
-def _add_times(plane: np.ndarray, octave: np.ndarray, gain: np.ndarray) -> None:
-    """Add an octave times a gain that each four pixels share."""
-    for row in (0, 1):
-        for column in (0, 1):
-            plane[row::2, column::2] += octave[row::2, column::2] * gain
+def _with_octave(planes: np.ndarray, inside: list[slice], octave: np.ndarray, gain: np.ndarray) -> np.ndarray:
+    """Return planes of twice as many pixels, with an octave times its gain, which four pixels share, where it lies."""
+    top, bottom, left, right = (2 * end for side in inside for end in (side.start, side.stop))
+    out = np.empty((len(planes), *(2 * n for n in planes.shape[1:])), np.float32)
+
+    def fill(k: int) -> None:
+        out[k] = enlarge(planes[k])
+        own, fine = out[k, top:bottom, left:right], octave[min(k, len(octave) - 1)]
+        for row in (0, 1):
+            for column in (0, 1):
+                own[row::2, column::2] += fine[row::2, column::2] * gain[k]
+
+    map_threads(fill, range(len(planes)))
+    return out
 
 
 def _fine_responses(made: Setting, pitch_um: float, kept: KeptPicture) -> tuple[np.ndarray, np.ndarray]:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication
 from p2sf.conventions import slope_from_degrees
 from p2sf.database.parts import KINDS
 from p2sf.errors import Cancelled
+from p2sf.messages import Message
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.setup import paraxial_setup, shipped_names
@@ -227,3 +228,15 @@ def test_maps_beside_the_stage_can_be_read(window, panel):
     QApplication.processEvents()
     assert all(part.isVisible() for part in (panel.map, panel.error, panel.atlas, panel.note, panel.rule))
     window.store.replace(state)
+
+
+def test_a_lens_without_maps_says_why_and_offers_one_with_maps(window, panel, qtbot):
+    panel.worker.failed.emit(panel._asked, Message("no ray of this lens arrives"))
+    assert panel.empty.isVisible() and not panel.body.isVisible()
+    assert "no ray of this lens arrives" in panel.empty.words.text().lower()
+    panel._show_sample()
+    assert window.store.state.optics.lens == "cooke_triplet"
+    qtbot.waitUntil(lambda: panel.body.isVisible() and not panel._stale())
+    window.store.undo()
+    panel.worker.failed.emit(replace(panel._asked, field_deg=0.123), Message("of an earlier question"))
+    assert not panel.empty.isVisible()

@@ -3,6 +3,11 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
+<message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
+<message><source>Undo brings this lens back</source><translation>Rückgängig holt dieses Objektiv zurück</translation></message>
+<message><source>{why}. Drop a lens file on the window, or take one with maps.</source><translation>{why}. Eine Objektivdatei auf das Fenster ziehen oder ein Objektiv mit Karten nehmen.</translation></message>
+<message><source>no maps</source><translation>keine Karten</translation></message>
 <message><source>A landscape that reaches from 1 m to 10 m: move the focus through it</source><translation>Eine Landschaft, die von 1 m bis 10 m reicht: die Schärfe hindurchziehen</translation></message>
 <message><source>Choose a map of depths</source><translation>Eine Karte der Entfernungen wählen</translation></message>
 <message><source>Choose another photo</source><translation>Ein anderes Foto wählen</translation></message>

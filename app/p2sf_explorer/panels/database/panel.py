@@ -13,21 +13,25 @@ from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import ColourBar
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.compute.views.database import LOSSY, NODES, Atlas, DatabaseRequest, DatabaseResult, answer
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import tr
+from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.panels.database.depth_field_chart import PER_METRE, AtlasView, DepthFieldMap, Ends
 from p2sf_explorer.state.terms import WORDS
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.chart_card import TurningRow
+from p2sf_explorer.widgets.empty_state import EmptyState
+from p2sf_explorer.widgets.plan_note import small_button
 
 TIP = (
     "Database: every coefficient over depth and field at this wavelength, as polynomials that are exact to "
     "round-off. Drag on a map or the atlas, or use the arrow keys and Enter, to choose the source."
 )
 VALUE_MAP, ERROR_MAP = "CET-D1A", "viridis"
+SAMPLE = "cooke_triplet"
 RULES = {"table1": "table 1 of the paper", "linear": "linear"}
 # Pixels at scale 1: what a map needs to be read, from where the note has room below and its height, the least size.
 PART_WIDE, PART_HIGH, NOTED, NOTE_HIGH, LEAST = 230, 130, 260, 55, (120, 90)
@@ -69,7 +73,25 @@ class DatabasePanel:
         headings = tuple(with_heading(head, part) for head, part in zip(self.heads, parts, strict=True))
         self.body = DatabaseBody(headings, self.note)
         self.body.counted.connect(lambda count: self.rule.setVisible(count > 1))
-        self.widget.set_body(self.body)
+        sample = small_button("Show the Cooke triplet", "Undo brings this lens back", self._show_sample)
+        self.empty = EmptyState(tr("No maps of this lens"), "", (sample,))
+        self.empty.hide()
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.setContentsMargins(0, 0, 0, 0)
+        for part in (self.body, self.empty):
+            column.addWidget(part, 1)
+        self.widget.set_body(whole)
+
+    def _show_sample(self) -> None:
+        self._store.replace(with_lens(self._store.state, SAMPLE))
+
+    def _show_empty(self, why: str) -> None:
+        """Say why there are no maps and what to do, in their place; show them for ""."""
+        words = tr("{why}. Drop a lens file on the window, or take one with maps.", why=why.rstrip("."))
+        self.empty.words.setText(unbroken(words))
+        self.empty.setVisible(bool(why))
+        self.body.setHidden(bool(why))
 
     def show(self, live: Live) -> None:
         """Mark the present point, and ask the worker when more than the point has changed."""
@@ -94,12 +116,15 @@ class DatabasePanel:
 
     def _on_answer(self, key: DatabaseRequest, found: DatabaseResult) -> None:
         self._answer = found
+        self._show_empty("")
         self._paint()
         if not self._stale():
             self._show_wavelength(NM_PER_UM * key.wavelength_um)
 
     def _on_failure(self, key: DatabaseRequest, why: Message) -> None:
-        self.note.setText(said(why))
+        if key == self._asked:
+            self._show_empty(said(why))
+            self.widget.set_readout(tr("no maps"))
 
     def _paint(self) -> None:
         if not self._answer:
