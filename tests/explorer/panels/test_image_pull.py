@@ -13,6 +13,7 @@ from p2sf_explorer.compute.views import depths, image
 from p2sf_explorer.compute.views.depths import DepthChoice, depth_map
 from p2sf_explorer.compute.views.image import Keeper, local_psf, moving, pixels, question, scene_of
 from p2sf_explorer.state.state import change, new_state
+from tests.benchmarks import focus_pull
 
 STEPS = new_state(
     lens="cooke_triplet", method="seidel", photo_pixel_um=16.0, photo_source="text", field_deg=0.0, photo_depths="steps"
@@ -113,3 +114,12 @@ def test_a_photo_takes_its_own_depths_with_it(window, image_panel, monkeypatch, 
         window.store.update(photo_depths=kept)
         image_panel.take_photo(str(tmp_path / "one.png"))
         assert window.store.state.photo.depths == wanted
+
+
+@pytest.mark.slow
+def test_the_badge_says_no_less_than_the_error_of_the_benchmark(tmp_path):
+    """The short form of ``python -m tests.benchmarks.focus_pull``."""
+    scenes = focus_pull.SCENES | {"star before a landscape": focus_pull.star_before_a_landscape(tmp_path, (208, 312))}
+    for scene in scenes.items():
+        found = focus_pull.row("cooke_triplet", scene, (230, 330), 0.05, False)
+        assert found.shape == (208, 312) and 0 < found.true <= found.stated

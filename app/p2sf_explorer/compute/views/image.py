@@ -72,8 +72,12 @@ def psf_counts(plan: Plan) -> tuple[Message, Message]:
     """Return how many PSFs make the picture, and the product that it is."""
     rows, columns = plan.counts
     waves = sum(len(colour.wavelengths_um) for colour in plan.colours)
-    places = prod(computed_counts(plan.counts, plan.mirrored))
+    places, depths = prod(computed_counts(plan.counts, plan.mirrored)), len(plan.vergences)
     product = {"rows": rows, "columns": columns, "waves": waves}
+    if depths > 1:
+        return Message("{count} PSFs", count=places * waves * depths), Message(
+            "{rows} × {columns} places × {waves} wavelengths × {depths} depths", **product, depths=depths
+        )
     return Message("{count} PSFs", count=places * waves), (
         Message("{rows} × {columns} places × {waves} wavelengths, mirror images at no cost", **product)
         if places < rows * columns

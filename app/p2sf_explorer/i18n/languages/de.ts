@@ -3,6 +3,7 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>{rows} × {columns} places × {waves} wavelengths × {depths} depths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen × {depths} Entfernungen</translation></message>
 <message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
 <message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
 <message><source>Undo brings this lens back</source><translation>Rückgängig holt dieses Objektiv zurück</translation></message>
