@@ -78,7 +78,7 @@ class SheetWriter:
             else:
                 self.paragraph(block)
 
-    def said(self, template: str, **values: object) -> str:
+    def translate(self, template: str, **values: object) -> str:
         """Return a text in the language of the sheets."""
         return Message(template, **values).text(self.words)
 
@@ -116,7 +116,7 @@ def lecture_sheets(lecture: Lesson, paper: Paper = A4, solved: bool = False) -> 
 
 
 def _title(out: SheetWriter, lecture: Lesson, solved: bool) -> str:
-    return out.said("{title}: solutions and notes", title=lecture.title) if solved else lecture.title
+    return out.translate("{title}: solutions and notes", title=lecture.title) if solved else lecture.title
 
 
 def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
@@ -127,8 +127,8 @@ def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
     out.paragraph(lecture.about, replace(BODY, grey=True))
     if not solved:
         page.y += 4
-        page.put(EDGE_MM, page.y, out.said("Name"))
-        page.put(EDGE_MM + 0.7 * page.inner_mm, page.y, out.said("Date"))
+        page.put(EDGE_MM, page.y, out.translate("Name"))
+        page.put(EDGE_MM + 0.7 * page.inner_mm, page.y, out.translate("Date"))
         page.rule(page.y + 4.5, EDGE_MM + 14, 0.66 * page.inner_mm - 14)
         page.rule(page.y + 4.5, EDGE_MM + 0.7 * page.inner_mm + 14)
         page.y += 9
@@ -139,7 +139,9 @@ def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
     page.y += DRAWING_MM + 1
     page.write(paraxial_setup(state).lens.title, SMALL)
     if lecture.name != CHECK:
-        page.write(out.said("Each page is in the window under Course…, and a file beside this sheet opens it."), SMALL)
+        page.write(
+            out.translate("Each page is in the window under Course…, and a file beside this sheet opens it."), SMALL
+        )
     page.y += 2
 
 
@@ -148,7 +150,7 @@ def _write_step(out: SheetWriter, step: Step, solved: bool) -> None:
     out.page.y += 1
     out.markdown(step.text)
     if step.attempt:
-        out.paragraph(f"**{out.said('Try')}.** {step.attempt}")
+        out.paragraph(f"**{out.translate('Try')}.** {step.attempt}")
     if step.question:
         out.paragraph(step.question, QUESTION)
     if step.task:
@@ -175,17 +177,17 @@ def _write_offers(out: SheetWriter, task: Exercise, solved: bool) -> None:
 
 def _write_solution(out: SheetWriter, step: Step) -> None:
     if step.answer:
-        out.paragraph(f"**{out.said('Solution')}.** {step.answer}")
+        out.paragraph(f"**{out.translate('Solution')}.** {step.answer}")
     if step.task:
         for number, hint in enumerate(step.task.hints, 1):
-            out.paragraph(f"{out.said('Hint {number}', number=number)}: {hint}", SMALL, INDENT_MM)
-        for wrong, hint in _foreseen(out, step.task):
+            out.paragraph(f"{out.translate('Hint {number}', number=number)}: {hint}", SMALL, INDENT_MM)
+        for wrong, hint in _mistakes(out, step.task):
             out.paragraph(f"{wrong}: {hint}", SMALL, INDENT_MM)
     if step.note:
-        out.paragraph(f"**{out.said('For the lecturer')}.** {step.note}", replace(BODY, italic=True))
+        out.paragraph(f"**{out.translate('For the lecturer')}.** {step.note}", replace(BODY, italic=True))
 
 
-def _foreseen(out: SheetWriter, task: Exercise) -> list[tuple[str, str]]:
+def _mistakes(out: SheetWriter, task: Exercise) -> list[tuple[str, str]]:
     """Return wrong answers that are foreseen, as text, with their hints; those of a choice stand beside it."""
     answer = task.answer
     if isinstance(answer, NumericAnswer):
@@ -193,8 +195,8 @@ def _foreseen(out: SheetWriter, task: Exercise) -> list[tuple[str, str]]:
     elif isinstance(answer, OrderAnswer):
         told = [" ".join(str(k + 1) for k in order) for order, _ in answer.wrong]
     else:
-        return [(out.said("A mistake to expect"), hint) for hint in task.words.wrong]
-    return [(out.said("Who answers {answer}", answer=one), hint)
+        return [(out.translate("A mistake to expect"), hint) for hint in task.words.wrong]
+    return [(out.translate("Who answers {answer}", answer=one), hint)
             for one, hint in zip(told, task.words.wrong, strict=True)]  # fmt: skip
 
 
