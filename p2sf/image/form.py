@@ -34,6 +34,7 @@ from p2sf.image.region import Region, tiles, whole
 from p2sf.messages import Alternatives, ParameterName
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
+from p2sf.scene.planning.cost import BYTES, MOST_KERNELS, TILE
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
 from p2sf.threads import for_each, map_threads, one_blas_thread
@@ -45,10 +46,9 @@ LAYERS_NDIM = 4  # of layers, rows, columns and channels
 SAME_DEPTH = 1e-6  # a relative difference due to float32
 LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
-TILE = 1024  # pixels a side of what is formed at a time: larger ones share more, and take more memory
 TILE_STEPS = 64  # of progress
 BETWEEN = 0.2  # of the scene's tolerance: the allowed error of kernels between computed nodes
-KEPT_BYTES = 2**28  # of kernels of depth nodes; those least recently used are computed again when they are needed
+KEPT_BYTES = BYTES * MOST_KERNELS  # of depth nodes; those least recently used are computed again when needed
 
 
 @dataclass(frozen=True)

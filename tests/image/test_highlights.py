@@ -6,12 +6,13 @@ import pytest
 from p2sf.errors import RequestError
 from p2sf.image import Forming, form_image
 from p2sf.image.highlights import BrightLight, add_halo, groups_of
-from p2sf.lens.lens import with_mask
+from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.pixels import rim_gain
 from p2sf.pupil.mask import PupilMask
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene
 from p2sf.scene.planning.reference import reference_kernel
+from tests.benchmarks import faint_tails, forming
 from tests.support.tiers import in_tiers
 
 GREEN, RED = Channel("green", (540.0,), (1.0,)), Channel("red", (590.0, 620.0, 650.0), (1.0, 2.0, 1.0))
@@ -48,6 +49,19 @@ def test_the_halo_of_a_bright_point_is_that_of_every_ray(mask, channel):
     assert rings(exact)[-1] < (2e-6 if half == 60 else 3e-5) * exact.max()
     far = np.hypot(*np.mgrid[-half : half + 1, -half : half + 1]) > 6
     assert np.abs(part - exact)[far].max() < 3e-5 * exact.max()
+
+
+@pytest.mark.slow
+def test_samples_finer_than_fringes_have_the_tails_of_every_ray_out_to_200_airy_radii():
+    """A tenth is asked, and here 4 % are kept."""
+    lens = with_mask(with_f_number(find_lens("fast_gauss_f14"), 1.4), PupilMask(vanes=4))
+    np.testing.assert_allclose(faint_tails.tails(lens, (50, 200)), 1, atol=0.04)
+
+
+@pytest.mark.slow
+def test_the_benchmark_of_forming_runs_on_few_pixels():
+    found = forming.measure(forming.Case(megapixels=0.02))
+    assert found["form"] > 0 and found["gib"] >= found["inputs"] > 0
 
 
 def test_points_add_up_each_with_its_own_depth_and_halo():
