@@ -98,7 +98,7 @@ def course(
     print_table(str(results), ("task", "tried", "right", "wrong at first"), rows)
     if gain := concept_gain(table):
         shares = f"{100 * gain.before:.0f} % right before, {100 * gain.after:.0f} % after"
-        print(f"concept check of {gain.count}: {shares}, gain {gain.normalized:.2f}")
+        print(f"concept check of {gain.count}: {shares}, gain {gain.share_gained:.2f}")
 
 
 def _write_sheets(output: Path | None, language: str, paper: str) -> None:

@@ -39,7 +39,7 @@ class Gain:
     after: float
 
     @property
-    def normalized(self) -> float:
+    def share_gained(self) -> float:
         """Return the share of what was not right before that is right after (Hake 1998, Am. J. Phys. 66, 64)."""
         return (self.after - self.before) / (1 - self.before) if self.before < 1 else 0.0
 

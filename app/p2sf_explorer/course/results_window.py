@@ -123,7 +123,7 @@ def count_words(table: ResultTable) -> str:
         count=gain.count,
         before=f"{100 * gain.before:.0f} %",
         after=f"{100 * gain.after:.0f} %",
-        gain=f"{gain.normalized:.2f}".replace("-", "−"),
+        gain=f"{gain.share_gained:.2f}".replace("-", "−"),
     )
     return f"{words} · {both}"
 

@@ -17,7 +17,7 @@ from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
 from p2sf_explorer.lessons.lesson_list import LessonList, content
-from p2sf_explorer.lessons.lesson_panel import Around, LessonPanel
+from p2sf_explorer.lessons.lesson_panel import LessonPanel, StepFrame
 from p2sf_explorer.lessons.making.lesson_maker import LessonMaker
 from p2sf_explorer.lessons.making.lesson_test_window import LessonTestWindow
 from p2sf_explorer.lessons.task_desk import TaskDesk
@@ -278,8 +278,8 @@ class LessonController(QObject):
         may_ask = view is None or (not view.silent and (view.remaining is None or view.closed))
         lessons = self.lessons()
         blocks = ((name, lessons[name].title) for name in lesson.lessons if name in lessons) if number == 0 else ()
-        around = Around(told and may_ask, may_ask, self._end(lesson.name), tuple(blocks))
-        self.panel.show_step(lesson, number, around)
+        frame = StepFrame(told and may_ask, may_ask, self._end(lesson.name), tuple(blocks))
+        self.panel.show_step(lesson, number, frame)
         self.desk.show(lesson, number)
 
     def _list(self, shelf: dict[str, Lesson]) -> None:

@@ -19,8 +19,8 @@ LINE_PX = 15.0  # height of a line of text at scale 1
 
 
 @dataclass(frozen=True)
-class Around:
-    """What is around a step: whether its answer is ``told``, or may be asked for, and where *Next* at the end leads.
+class StepFrame:
+    """What goes with a step: whether its answer is ``told``, or may be asked for, and where *Next* at the end leads.
 
     ``blocks`` are names and titles of the lessons that a lecture plays.
     """
@@ -66,7 +66,7 @@ class LessonPanel(QFrame):
         self.back, self.next = QPushButton(tr("Back")), QPushButton(tr("Next"))
         self.back.setToolTip(tr("The step before (Alt+Left)"))
         self.next.setToolTip(tr("The next step (Alt+Right)"))
-        self._shown: tuple[Lesson, int, Around] | None = None
+        self._shown: tuple[Lesson, int, StepFrame] | None = None
         self._to_answer = False
         self._lay_out()
         self._connect()
@@ -133,19 +133,19 @@ class LessonPanel(QFrame):
         self.area.verticalScrollBar().rangeChanged.connect(self._on_range)
         self.task.judged.connect(lambda: QTimer.singleShot(0, lambda: self.area.ensureWidgetVisible(self.task.check)))
 
-    def show_step(self, lesson: Lesson, number: int, around: Around) -> None:
+    def show_step(self, lesson: Lesson, number: int, frame: StepFrame) -> None:
         """Show a step of a lesson, with its answer when it was told."""
-        if (lesson, number, around) == self._shown:
+        if (lesson, number, frame) == self._shown:
             return
-        new, told = self._shown is None or (lesson, number) != self._shown[:2], around.told
-        self._shown = lesson, number, around
+        new, told = self._shown is None or (lesson, number) != self._shown[:2], frame.told
+        self._shown = lesson, number, frame
         step, last = lesson.steps[number], len(lesson.steps) - 1
         select(self.choice, lesson.name)
         self.choice.setToolTip(lesson.title)  # the longest one is wider than the page
-        links = (f'<a href="{escape(name)}">{escape(title)}</a>' for name, title in around.blocks)
+        links = (f'<a href="{escape(name)}">{escape(title)}</a>' for name, title in frame.blocks)
         texts = (
             (self.about, lesson.about if number == 0 else ""),
-            (self.blocks, tr("Lessons of this lecture: {links}", links=" · ".join(links)) if around.blocks else ""),
+            (self.blocks, tr("Lessons of this lecture: {links}", links=" · ".join(links)) if frame.blocks else ""),
             (self.title, step.title),
             (self.text, rich(local(step.text))),
             (self.attempt, rich(local(f"**{tr('Try')}** {step.attempt}") if step.attempt else "")),
@@ -156,11 +156,11 @@ class LessonPanel(QFrame):
             label.setText(unbroken(text))
             label.setVisible(bool(text))
         self.reveal.setText(tr("Show the solution") if step.task else tr("Show the answer"))
-        self.reveal.setVisible(bool(step.question) and not told and around.may_ask)
+        self.reveal.setVisible(bool(step.question) and not told and frame.may_ask)
         self.count.setText(tr("step {k} of {n}", k=number + 1, n=last + 1))
         self.progress.show_step(number, last + 1)
         self.back.setEnabled(number > 0)
-        self.next.setText(tr("Next") if number < last else around.end)
+        self.next.setText(tr("Next") if number < last else frame.end)
         self._to_answer = told and not new
         if new:
             self.area.verticalScrollBar().setValue(0)

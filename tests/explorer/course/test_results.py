@@ -62,7 +62,7 @@ def test_the_gain_is_hakes_of_those_who_took_both_checks(tmp_path):
     absent = CourseResult(name="only before").with_record("check_before", "c0", TaskRecord().with_answer("1", True))
     write_result(tmp_path / "absent.json", absent)
     gain = concept_gain(read_folder(tmp_path))
-    assert (gain.count, gain.before, gain.after, gain.normalized) == (2, 0.5, 0.875, 0.75)
+    assert (gain.count, gain.before, gain.after, gain.share_gained) == (2, 0.5, 0.875, 0.75)
     (tmp_path / "0.json").unlink()
     (tmp_path / "1.json").unlink()
     assert concept_gain(read_folder(tmp_path)) is None

@@ -12,7 +12,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons import controller as teaching
 from p2sf_explorer.lessons.controller import UNTRANSLATED, LessonController
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
-from p2sf_explorer.lessons.lesson_panel import Around, LessonPanel
+from p2sf_explorer.lessons.lesson_panel import LessonPanel, StepFrame
 from p2sf_explorer.window.controls import WIDTH
 
 NAMES = [path.name for path in lesson_files()]
@@ -128,7 +128,7 @@ def test_every_title_fits_into_the_list_beside_a_window_of_1280(window, language
     lessons = found_lessons((FOLDER,), language)[0]
     panel = LessonPanel(tuple(lessons.values()), window)
     panel.resize(WIDTH, 420)
-    panel.show_step(lessons["05_coma"], 0, Around(False))
+    panel.show_step(lessons["05_coma"], 0, StepFrame(False))
     panel.show()
     QApplication.processEvents()
     option = QStyleOptionComboBox()
