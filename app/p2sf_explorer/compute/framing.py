@@ -10,7 +10,8 @@ from p2sf.conventions import centred_axis
 SHARE = 0.9  # of the light of the picture, within the circle
 LEAST_AIRY = 1.5  # Airy radii that the circle has at least: 3 across
 FILLED = 0.78  # of half a frame, the circle's radius at most
-STEP = 1.15  # between the sizes of frames: while a slider moves they change in calm steps, and not with each picture
+KEPT = 0.55, 0.85  # of half a frame, the circle's radius while a slider moves and the frame, and with it the axes, stay
+STEP = 1.15  # between the sizes of frames
 PARTS = 10  # of half a frame, to which its middle is rounded, for the same reason
 BLOCKS = 128  # a side of what the circle is counted on
 
@@ -85,8 +86,11 @@ def light_circle(values: np.ndarray, pixel_um: float, airy_um: float) -> Circle:
     return light_rings(values, pixel_um).circle(airy_um)
 
 
-def frame_of(circle: Circle) -> ShownSquare:
-    """Return the frame that the circle fills to 0.68 to 0.78."""
+def frame_of(circle: Circle, kept: ShownSquare | None = None) -> ShownSquare:
+    """Return the frame that the circle fills to 0.68 to 0.78; the one ``kept`` while the circle is well within it."""
+    if kept and KEPT[0] <= circle.radius_um / kept.half_um <= KEPT[1]:
+        if max(abs(circle.x_um - kept.x_um), abs(circle.y_um - kept.y_um)) <= kept.half_um / PARTS:
+            return kept
     half = STEP ** ceil(log(circle.radius_um / FILLED) / log(STEP))
     x, y = (round(PARTS * at / half) * half / PARTS for at in (circle.x_um, circle.y_um))
     return ShownSquare(x, y, half)

@@ -13,7 +13,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.brightness import SCALES, UNITS
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.finer import SettledSum, ShownArea, answer, covers, fade, finer, smooth
-from p2sf_explorer.compute.framing import frame_of, light_circle
+from p2sf_explorer.compute.framing import ShownSquare, frame_of, light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
 from p2sf_explorer.i18n.messages import said
@@ -65,6 +65,7 @@ class PsfPanel:
         self.widget.add_footer(self.badge)
         self.map.chart.smooth = True
         self._airy = 0.0
+        self._frame: ShownSquare | None = None
         self._times: dict[str, str] = {}
         self._live: Live | None = None
         self._finer = SumCache()
@@ -141,7 +142,7 @@ class PsfPanel:
     def _frame_light(self, live: Live) -> None:
         """Show the light large, with the Airy circle and the arrow."""
         light = light_circle(live.psf.values, live.psf.pixel_um, live.airy_radius_um)
-        frame = frame_of(light)
+        self._frame = frame = frame_of(light, self._frame if live.quality == "preview" else None)
         self.map.chart.kept_clear = light.x_um, light.y_um, light.radius_um * WITHIN
         side = int(np.sign(live.setup.coefficients.image_height))
         self.map.chart.set_view((frame.x_um, frame.y_um), frame.half_um)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from p2sf_explorer.compute.framing import FILLED, SHARE, Circle, crop, frame_of, light_circle
+from p2sf_explorer.compute.framing import FILLED, KEPT, SHARE, Circle, crop, frame_of, light_circle
 
 COUNT, PITCH = 128, 0.5
 
@@ -43,6 +43,18 @@ def test_the_frame_holds_the_circle_and_is_filled_by_it(radius):
 def test_a_small_change_seldom_moves_the_frame():
     frames = {frame_of(Circle(0.01 * k, 0.0, 10.0 + 0.02 * k)) for k in range(100)}
     assert len(frames) <= 5
+
+
+def test_while_a_slider_moves_the_frame_stays_as_long_as_the_circle_is_well_within_it():
+    kept, frames = None, []
+    for radius in np.geomspace(10.0, 40.0, 200):
+        kept = frame_of(Circle(0.0, 0.0, radius), kept)
+        frames.append(kept)
+        assert KEPT[0] <= radius / kept.half_um <= KEPT[1]
+    assert len(set(frames)) <= 1 + np.ceil(np.log(4.0) / np.log(KEPT[1] / FILLED))
+    back = frame_of(Circle(0.0, 0.0, 30.0), kept)
+    assert back is kept, "and a smaller one is no reason to move it"
+    assert frame_of(Circle(kept.half_um, 0.0, 30.0), kept) != kept
 
 
 def test_pictures_beside_each_other_are_cut_alike_to_the_widest():

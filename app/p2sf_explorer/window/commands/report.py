@@ -17,6 +17,7 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 
 PATIENCE_MS = 400  # before the progress is shown
+COMPUTED = 0.4  # of the time is over when all is computed and pages are to be drawn
 
 
 class ReportWriter(QObject):
@@ -40,7 +41,8 @@ class ReportWriter(QObject):
         shown.setValue(0)
 
         def work(cancelled: Event, progress: Callable[[float], None]) -> object:
-            write_report(report_of(state, progress, cancelled.is_set), path, WINDOW)
+            report = report_of(state, lambda share: progress(COMPUTED * share), cancelled.is_set)
+            write_report(report, path, WINDOW)
             return path
 
         self.worker.submit(path, work)
