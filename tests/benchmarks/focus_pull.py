@@ -140,7 +140,7 @@ def main() -> None:
         folder = Path(name)
         scenes = dict(SCENES) | {"star before a landscape": star_before_a_landscape(folder)}
         print(
-            "window  lens             scene                    pixels       CPU ms  clock ms  1/s  stated   true  load"
+            "window  lens             scene", " " * 18, "pixels       CPU ms  clock ms  stated    true  at rest  load"
         )
         for window in given.windows:
             for lens in LENSES:
