@@ -105,8 +105,8 @@ class Hall(QObject):
         return self._teaching.shelf(name).get(name) if name else None
 
     def _follow(self, state: State) -> None:
-        """Follow the step of a state; another step puts the question away."""
-        lesson = self._lesson()
+        """Follow the step of a state while it is presented or noted; another step puts the question away."""
+        lesson = self._lesson() if self.presenting or self.notes.isVisible() else None
         for shortcut in self.shortcuts:
             shortcut.setEnabled(self.presenting and lesson is not None)
         number = min(state.lesson.step, len(lesson.steps) - 1) if lesson else 0
