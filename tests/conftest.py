@@ -1,6 +1,7 @@
 """What many tests ask of the command line: that it succeeds, answers in JSON, refuses in a sentence."""
 
 import json
+import os
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,8 @@ from p2sf.cli import main
 from p2sf.glass.media import catalogue_glass
 from p2sf.glass.pages import GlassPage, page
 from p2sf_explorer.compute import setup
+
+os.environ["P2SF_CACHE"] = ""  # tests neither read nor fill the user's cache
 
 # A busy machine takes longer than hypothesis allows, and every run tries the same examples: 25 of each law with every
 # commit, 100 with a release (`--hypothesis-profile release`).

@@ -172,7 +172,7 @@ def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> P
         raise GeometryError("the image lies at infinity, so the sensor sees no blur of finite size; move the object")
     nodes, sign = HALF.nodes(NODES), np.sign(scale)[:, None]
     basis = frequency_basis(ORDERS[0] if rims.shape[1] else 4, HALF)
-    kinds = _kinds_over(basis.wave_order, sign * short * nodes.xi, sign * nodes.eta)
+    kinds = basis_kinds(basis.wave_order, sign * short * nodes.xi, sign * nodes.eta)
     phase = wavefront(six, nodes.xi, nodes.eta)
     eta, across = (np.broadcast_to(v, phase.shape) for v in (nodes.eta, nodes.xi))
     found = _solve(basis.phase.of(kinds), np.concatenate([np.stack([phase, eta], axis=1), rims], axis=1))
@@ -204,7 +204,7 @@ def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> 
     columns = np.stack([phase, eta, *([amplitude] if level.weighted else [])], axis=1)
     if rims.shape[1]:
         columns = np.concatenate([columns, rims], axis=1)
-    basis, kinds = frequency_basis(order, level.basis.domain), _kinds_over(order, u, v)
+    basis, kinds = frequency_basis(order, level.basis.domain), basis_kinds(order, u, v)
     rows = basis.phase.of(kinds)
     found = _solve(rows * share, columns * share)
     xi = _solve(basis.fx.of(kinds) * share, share * at.nodes.xi)[:, 0]
@@ -235,7 +235,7 @@ def _centre_frequencies(frequency: np.ndarray, clear: np.ndarray, terms: Terms) 
     return centred
 
 
-def _kinds_over(order: int, u: np.ndarray, v: np.ndarray) -> Kinds:
+def basis_kinds(order: int, u: np.ndarray, v: np.ndarray) -> Kinds:
     """Return even and odd terms at points (n, points), each (n, terms, points)."""
     even, odd = (rows.reshape(-1, *u.shape).swapaxes(0, 1) for rows in basis_by_powers(order, u.ravel(), v.ravel()))
     return even, odd

@@ -142,13 +142,14 @@ def stray_of(mask: PupilMask) -> float:
     return STRAY * mask.round
 
 
-def with_reach(pupils: PupilStack) -> PupilStack:
+def with_reach(pupils: PupilStack, counts: tuple[int, int] = REACH_NODES) -> PupilStack:
     """Return the pupils with the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
 
     Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
-    they come back there, and would let light through that does not exist.
+    they come back there, and would let light through that does not exist; fewer nodes, whose ``counts`` are given, do
+    not tell that.
     """
-    at = at_nodes(pupils.basis, REACH_NODES)
+    at = at_nodes(pupils.basis, counts)
     of_xi, of_eta = at.map_slopes  # the phase has the terms of η
     (phase_u, phase_v), (eta_u, eta_v), (xi_u, xi_v) = (
         (form @ across, form @ along)
@@ -161,7 +162,7 @@ def with_reach(pupils: PupilStack) -> PupilStack:
         light *= (pupils.weight @ at.values.fy) ** 2
     share = np.pi * light.sum(1) / pupils.radius**2 / pupils.energy
     worst = float(share[np.abs(share - 1).argmax()])
-    if abs(worst - 1) > FOLDED:
+    if abs(worst - 1) > FOLDED and counts == REACH_NODES:
         raise GeometryError(
             "the pupil is too distorted for polynomials over its spatial frequencies, which give {share:.3g} times "
             "its light; stop the lens down or reduce the field",

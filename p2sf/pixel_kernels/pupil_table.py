@@ -7,8 +7,6 @@ rotated (`pupil_stack.turned`), so that there one column of places is enough.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -54,7 +52,7 @@ class PupilTable:
     def covers(self, x_mm: ArrayLike, y_mm: ArrayLike, vergence: float) -> bool:
         """Return whether places and a depth lie between the nodes."""
         axes = zip(self.axes, (x_mm, y_mm, vergence), strict=False)
-        return all(_within(value, nodes) for nodes, values in axes for value in np.ravel(values).tolist())
+        return all(not _outside(nodes, np.asarray(values)).any() for nodes, values in axes)
 
     def at(
         self, x_mm: ArrayLike, y_mm: ArrayLike, vergences: ArrayLike, waves_um: ArrayLike
@@ -63,11 +61,18 @@ class PupilTable:
 
         Each axis takes a number or an array.
 
-        Raises GeometryError outside the nodes.
+        Raises GeometryError outside the nodes, and for pupils too distorted.
         """
+        found, shifts = self.between(x_mm, y_mm, vergences, waves_um)
+        return with_reach(found), shifts
+
+    def between(
+        self, x_mm: ArrayLike, y_mm: ArrayLike, vergences: ArrayLike, waves_um: ArrayLike
+    ) -> tuple[PupilStack, np.ndarray]:
+        """Return the pupils of `at`, whose reach is not known."""
         places = np.broadcast_arrays(*map(np.atleast_1d, (x_mm, y_mm, vergences, waves_um)))
         axes = zip(self.axes, places, strict=True)
-        weights = [np.stack([_weights(nodes, place) for place in column.tolist()]) for nodes, column in axes]
+        weights = [_weights(nodes, column) for nodes, column in axes]
         rows = np.einsum("kx,ky,kv,kw->kxyvw", *weights).reshape(len(weights[0]), -1) @ self.rows
         forms: dict[str, Any] = {}
         like = self.like
@@ -77,8 +82,8 @@ class PupilTable:
         radius, energy, *shifts = rows.T
         residual = np.full(len(radius), like.residual_waves.max())
         waves = np.sign(like.wavelength_um[0]) * places[3]
-        made = replace(like, **forms, radius=radius, energy=energy, residual_waves=residual, wavelength_um=waves)
-        return with_reach(made), np.stack(shifts, axis=1)
+        sizes = {"energy": energy, "reach_um": np.nan * radius, "residual_waves": residual, "wavelength_um": waves}
+        return replace(like, **forms, radius=radius, **sizes), np.stack(shifts, axis=1)
 
 
 Axes = tuple[Sequence[float], Sequence[float], Sequence[float], Sequence[float]]  # x, y, vergences, wavelengths
@@ -97,36 +102,45 @@ def pupil_table(nodes: Axes, pupils: PupilStack, shifts_mm: np.ndarray) -> Pupil
     return PupilTable(x, y, vergences, waves, rows, pupils)
 
 
-def _weights(nodes: Sequence[float], place: float) -> np.ndarray:
-    if not _within(place, nodes):
+def _weights(nodes: Sequence[float], places: np.ndarray) -> np.ndarray:
+    """Return `lagrange` at places, (places, nodes); GeometryError outside the nodes."""
+    outside = _outside(nodes, places)
+    if outside.any():
         raise GeometryError(
             "{place:.6g} lies outside the pupils fitted from {low:.6g} to {high:.6g}; plan the scene again",
-            place=place,
+            place=float(places[outside][0]),
             low=nodes[0],
             high=nodes[-1],
         )
-    return lagrange(tuple(nodes), place)
+    return lagrange(nodes, places)
 
 
-@lru_cache(maxsize=1024)
-def lagrange(nodes: tuple[float, ...], place: float) -> np.ndarray:
-    """Return the weights of Lagrange interpolation at a position; they sum to 1.
+def lagrange(nodes: Sequence[float], places: ArrayLike) -> np.ndarray:
+    """Return the weights of Lagrange interpolation at places, (…, nodes); they sum to 1.
 
-    A position that differs from a node by rounding only is that node: polynomials of high degree would amplify it.
+    A place that differs from a node by rounding only is that node: polynomials of high degree would amplify it.
     """
-    away = np.abs(np.array(nodes) - place)
-    if away.min() <= SAME * max(abs(nodes[0]), abs(nodes[-1])):
-        weights: np.ndarray = np.eye(len(nodes))[away.argmin()]
-        return weights
-    return np.array([prod((place - other) / (node - other) for other in nodes if other != node) for node in nodes])
+    at, (low, high) = np.array(nodes, float), (nodes[0], nodes[-1])
+    apart = np.asarray(places, float)[..., None] - at
+    same = np.abs(apart) <= SAME * max(abs(low), abs(high))
+    spans = at[:, None] - at + np.eye(len(at))
+    others = np.where(np.eye(len(at), dtype=bool), 1.0, apart[..., None, :])
+    weights: np.ndarray = np.where(same.any(-1, keepdims=True), same, (others / spans).prod(-1))
+    return weights
 
 
 def chebyshev(least: float, most: float, count: int) -> np.ndarray:
     """Return ``count`` Chebyshev nodes of the second kind, both ends included, increasing; for one node the middle."""
     middle, half = (least + most) / 2, (most - least) / 2
-    return np.array([middle]) if count == 1 else middle - half * np.cos(np.pi * np.arange(count) / (count - 1))
+    if count == 1:
+        return np.array([middle])
+    nodes: np.ndarray = middle - half * np.cos(np.pi * np.arange(count) / (count - 1))
+    nodes[[0, -1]] = least, most
+    return nodes
 
 
-def _within(value: float, nodes: Sequence[float]) -> bool:
+def _outside(nodes: Sequence[float], places: np.ndarray) -> np.ndarray:
+    """Return which places do not lie between the nodes."""
     slack = SAME * max(abs(nodes[0]), abs(nodes[-1]))
-    return nodes[0] - slack <= value <= nodes[-1] + slack
+    outside: np.ndarray = (places < nodes[0] - slack) | (places > nodes[-1] + slack)
+    return outside

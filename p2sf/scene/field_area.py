@@ -34,10 +34,10 @@ class FieldArea:
         """Return the point farthest from the axis."""
         return self.corners[0]
 
-    def point_of(self, x_mm: float, y_mm: float) -> Point:
-        """Return the point of the area whose pupil, rotated, is that of a point on the sensor."""
+    def points_of(self, x_mm: np.ndarray, y_mm: np.ndarray) -> tuple[list[float], list[float]]:
+        """Return x and y of the points of the area whose pupils, rotated, are those of points on the sensor."""
         x, y, _ = self.fields.orient(x_mm, y_mm)
-        return round(float(x), DIGITS), round(float(y), DIGITS)
+        return x.round(DIGITS).tolist(), y.round(DIGITS).tolist()
 
     def outwards(self, part: float) -> Point:
         """Return the point at a fraction of the way from the nearest to the farthest."""

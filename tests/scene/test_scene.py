@@ -12,7 +12,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.planning.bounds import check_blur
-from p2sf.scene.planning.plan import TOGETHER, _colour_errors
+from p2sf.scene.planning.plan import _colour_errors
 from p2sf.scene.planning.reference import reference_kernel
 from p2sf.scene.planning.sharing import TARGET_ERROR, share_pupils
 from p2sf.scene.planning.study import Place, Study, distance, first_allowed
@@ -90,12 +90,13 @@ def test_every_decision_has_a_reason_and_an_error(planned):
     assert planned.naive.kernel_seconds > planned.cost.kernel_seconds
 
 
-def test_a_plans_error_is_the_root_of_the_squares_of_each_kinds_largest(planned):
+def test_a_plans_error_is_the_root_of_squares_with_field_and_depth_added(planned):
     largest = {}
     for decision in planned.decisions:
         largest[decision.kind] = max(largest.get(decision.kind, 0.0), decision.error)
-    assert planned.predicted_error == pytest.approx(TOGETHER * hypot(*largest.values()), rel=1e-12)  # round-off
-    assert largest["pupils"] > 0
+    assert largest["pupils"] > 0 and largest["field"] > 0 and largest["depth"] > 0
+    defocus = largest.pop("field") + largest.pop("depth")
+    assert planned.predicted_error == pytest.approx(hypot(defocus, *largest.values()), rel=1e-12)  # round-off
 
 
 def test_pupils_between_the_fitted_ones_cost_no_more_than_the_plan_says():
@@ -137,8 +138,9 @@ def test_planning_interpolates_pupils_as_well_as_it_says():
     assert 0 < max(found) <= shared.table_error
 
 
-@pytest.mark.parametrize("together", [1, 4])
-def test_the_first_allowed_choice_holds_at_every_place_in_any_order(together):
+@pytest.mark.parametrize("start", [0, 2])
+def test_the_first_allowed_choice_holds_at_every_place_in_any_order(start):
+    """Errors that fall as 1/size, not as its square: the law only guides the search."""
     asked = []
     places = [1.0, 2.0, 8.0, 3.0]
 
@@ -146,23 +148,29 @@ def test_the_first_allowed_choice_holds_at_every_place_in_any_order(together):
         asked.append(tries)
         return [places[k] / (number + 1) for number, k in tries]
 
-    assert first_allowed(5, measure, 4, 2.0, together) == (3, 2.0)
-    # At its first place a choice is tried alone; once one failed at the third, that is where the next ones are tried.
-    assert all(k == 2 for number, k in asked[-2]) and asked[-1] == [(3, k) for k in range(4)]
-    assert first_allowed(2, measure, 4, 2.0, together) == (1, 4.0)  # none holds: the last, with its own largest error
+    assert first_allowed(range(1, 6), measure, 4, 2.0, start) == (3, 2.0)
+    tried = [pair for tries in asked for pair in tries]
+    assert len(set(tried)) == len(tried)  # nothing is measured twice
+    assert first_allowed(range(1, 3), measure, 4, 2.0) == (1, 4.0)  # none holds: the last, with its own largest error
 
 
-def test_far_fewer_choices_are_tried_than_there_are():
-    """Three of four and one of three are told by two rounds of four tries, whatever the number."""
-    for first in range(16):
+def test_by_the_law_of_errors_few_choices_are_tried():
+    sizes = range(1, 200)
+    for first in range(1, 200, 7):
         asked = []
 
         def measure(tries, first=first, asked=asked):
             asked.extend(tries)
-            return [1.0 if number < first else 0.0 for number, _ in tries]
+            return [(first / sizes[number]) ** 2 for number, _ in tries]
 
-        assert first_allowed(16, measure, 1, 0.5)[0] == first
-        assert len(asked) <= 9
+        assert first_allowed(sizes, measure, 1, 1.0, 3) == (first - 1, 1.0)
+        assert len(asked) <= 3
+
+
+def test_the_first_of_choices_is_found_whatever_their_errors():
+    for first in range(16):
+        measure = lambda tries, first=first: [1.0 if number < first else 0.0 for number, _ in tries]  # noqa: E731
+        assert first_allowed(range(1, 17), measure, 1, 0.5, 3)[0] == first
 
 
 @pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])

@@ -5,34 +5,50 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.pixel_kernels import Colour
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.field_area import Point
-from p2sf.scene.planning.study import Place, Study, distance, weighted_sum
+from p2sf.scene.planning.study import Study, distance, weighted_sum
 
-NODE_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49)
-DEPTH_COUNTS = (1, 2, 3, 4, 5, 7, 9, 13, 17, 25, 33, 49, 65, 97, 129, 193)
-TRIED = (0.5, 0.5), (0.5, 0.2), (0.2, 0.5)  # down and right in a cell
-CELLS = 3  # nearest to the axis, between, and farthest from it; without symmetry also those in the corners
+NODE_COUNTS = (*range(1, 10), 11, 13, 15, 17, 21, 25, 29, 33, 41, 49, 57, 65, 81, 97)
+DEPTH_COUNTS = (*NODE_COUNTS, 113, 129, 161, 193)
+FIRST_TRIED = 3  # of these counts
+NEAR, FAR = 0, 1  # cells: nearest to the axis and farthest from it; then, without symmetry, those in the corners
 EVERY = 8  # up to this many intervals of depth are all tried
+
+
+def spans(counts: Sequence[int]) -> list[float]:
+    """Return into how many parts nodes cut the field or the depths: errors fall with its square.
+
+    A single node stands in the middle, and nothing is interpolated there.
+    """
+    return [max(count - 1, 0.5) for count in counts]
+
+
+Spot = tuple[float, float, float]
+"""A point of the sensor, x and y, mm, and a vergence."""
 
 
 @dataclass(frozen=True)
 class Between:
-    """A kernel, and those from which it is interpolated with these weights."""
+    """The kernel of a channel at a spot, and the spots from which it is interpolated with these weights."""
 
-    true: Place
-    nodes: tuple[Place, ...]
+    colour: Colour
+    true: Spot
+    nodes: tuple[Spot, ...]
     weights: tuple[float, ...]
 
 
 def worst_errors(study: Study, groups: Sequence[Sequence[Between]]) -> list[float]:
     """Return the worst error of interpolation in each group; all kernels are computed together."""
-    places = [place for group in groups for one in group for place in (one.true, *one.nodes)]
-    kernels = dict(zip(places, study.kernels(places), strict=True))
-    return [
-        max(distance(weighted_sum([kernels[n] for n in one.nodes], one.weights), kernels[one.true]) for one in group)
-        for group in groups
-    ]
+    spots = [(one.colour, spot) for group in groups for one in group for spot in (one.true, *one.nodes)]
+    kernels = dict(zip(spots, study.channel_kernels(spots), strict=True))
+
+    def error(one: Between) -> float:
+        between = weighted_sum([kernels[one.colour, spot] for spot in one.nodes], one.weights)
+        return distance(between, kernels[one.colour, one.true])
+
+    return [max(map(error, group)) for group in groups]
 
 
 def field_counts(study: Study, number: int) -> tuple[int, int]:
@@ -45,87 +61,88 @@ def field_counts(study: Study, number: int) -> tuple[int, int]:
     return rows, columns
 
 
-FieldPlace = tuple[float, float, int]  # wavelength, vergence, cell
+FieldPlace = tuple[Colour, float, int]  # channel, vergence, cell
 
 
-def field_places(study: Study) -> list[FieldPlace]:
-    """Return the points where field nodes are tried, the likeliest to fail first: sharp, blue and far out."""
-    blue, *others = study.waves_um
-    axis, _, corner = study.sharpest(blue)
-    far, between, near = CELLS - 1, CELLS // 2, 0
-    places = [(blue, corner, far), (blue, corner, between), (blue, corner, near), (blue, axis, near), (blue, axis, far)]
-    if not study.sensor_map(corner).about_axis:
-        places += [(blue, corner, CELLS + quarter) for quarter in range(4)]
-    places += [(blue, v, far) for v in study.scan] + [(wave, study.sharpest(wave)[-1], far) for wave in others]
+def field_places(study: Study, colours: Sequence[Colour]) -> list[FieldPlace]:
+    """Return where field nodes are tried: at all depths in the bluest channel, at the sharpest and midway in others."""
+    blue, *others = sorted(colours, key=lambda colour: min(colour.wavelengths_um))
+    axis, _, corner = study.sharpest(blue.wavelengths_um[0])
+    far, middle, near = study.scan[0], study.scan[len(study.scan) // 2], study.scan[-1]
+    places = [(blue, v, FAR) for v in (corner, *study.scan)] + [(blue, v, NEAR) for v in (axis, far, middle, near)]
+    if not study.sensor_map(study.ends[0]).about_axis:
+        places += [(blue, corner, FAR + 1 + quarter) for quarter in range(4)]
+    for colour in others:
+        axis, _, corner = study.sharpest(colour.wavelengths_um[0])
+        places += [(colour, corner, FAR), (colour, middle, FAR), (colour, axis, NEAR), (colour, middle, NEAR)]
     return list(dict.fromkeys(places))
 
 
 def between_field_nodes(study: Study, number: int, place: FieldPlace) -> list[Between]:
     """Return the interpolation at a point by an entry of NODE_COUNTS."""
-    counts, sensor, (wave, vergence, cell) = field_counts(study, number), study.scene.sensor, place
+    counts, sensor, (colour, vergence, cell) = field_counts(study, number), study.scene.sensor, place
     rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
     if len(rows) == 1:
-        return _about_one(study, wave, vergence)
+        return _about_one(study, colour, vergence)
     away = np.hypot(sensor.x_mm((columns[:-1] + columns[1:]) / 2), sensor.y_mm((rows[:-1] + rows[1:]) / 2)[:, None])
-    order = away.argsort(axis=None, kind="stable")[[0, away.size // 2, -1]].tolist()
+    order = away.argsort(axis=None, kind="stable")[[0, -1]].tolist()
     last = away.size - 1
     order += [0, away.shape[1] - 1, last - away.shape[1] + 1, last]
     a, b = np.unravel_index(order[cell], away.shape)
-    return _in_cell(study, rows[a : a + 2], columns[b : b + 2], wave, vergence)
+    return _in_cell(study, rows[a : a + 2], columns[b : b + 2], colour, vergence)
 
 
-def _pixel(study: Study, row: float, column: float, wave: float, vergence: float) -> Place:
+def _pixel(study: Study, row: float, column: float, vergence: float) -> Spot:
     sensor = study.scene.sensor
-    return Place(float(sensor.x_mm(column)), float(sensor.y_mm(row)), vergence, wave)
+    return float(sensor.x_mm(column)), float(sensor.y_mm(row)), vergence
 
 
-def _about_one(study: Study, wave: float, vergence: float) -> list[Between]:
+def _about_one(study: Study, colour: Colour, vergence: float) -> list[Between]:
     """Return the corners of the sensor, approximated by a single node in the middle."""
     last_row, last_column = study.scene.sensor.rows - 1.0, study.scene.sensor.columns - 1.0
-    middle = _pixel(study, last_row / 2, last_column / 2, wave, vergence)
-    corners = [_pixel(study, row, column, wave, vergence) for row in (0.0, last_row) for column in (0.0, last_column)]
-    return [Between(corner, (middle,), (1.0,)) for corner in corners]
+    middle = _pixel(study, last_row / 2, last_column / 2, vergence)
+    corners = [_pixel(study, row, column, vergence) for row in (0.0, last_row) for column in (0.0, last_column)]
+    return [Between(colour, corner, (middle,), (1.0,)) for corner in corners]
 
 
-def _in_cell(study: Study, rows: np.ndarray, columns: np.ndarray, wave: float, vergence: float) -> list[Between]:
-    """Return TRIED points of a cell, interpolated from its corners."""
-    corners = tuple(_pixel(study, row, column, wave, vergence) for row in rows for column in columns)
-    found = []
-    for down, right in TRIED:
-        row, column = rows[0] + down * (rows[1] - rows[0]), columns[0] + right * (columns[1] - columns[0])
-        weights = tuple(y * x for y in (1 - down, down) for x in (1 - right, right))
-        found.append(Between(_pixel(study, row, column, wave, vergence), corners, weights))
-    return found
+def _in_cell(study: Study, rows: np.ndarray, columns: np.ndarray, colour: Colour, vergence: float) -> list[Between]:
+    """Return the middle of a cell, interpolated from its corners: nowhere else is the error larger by a twentieth."""
+    corners = tuple(_pixel(study, row, column, vergence) for row in rows for column in columns)
+    middle = _pixel(study, float(rows.mean()), float(columns.mean()), vergence)
+    return [Between(colour, middle, corners, (0.25,) * 4)]
 
 
-DepthPlace = tuple[float, Point, float]  # wavelength, point of the area, vergence
+DepthPlace = tuple[Colour, Point, float]  # channel, point of the area, vergence
 
 
-def depth_places(study: Study) -> list[DepthPlace]:
+def depth_places(study: Study, colours: Sequence[Colour]) -> list[DepthPlace]:
     """Return the points where depth nodes are tried: first the sharpest corner in blue, then the axis and both ends."""
-    blue, *others = study.waves_um
-    axis, middle, corner = study.sharpest(blue)
+    blue, *others = sorted(colours, key=lambda colour: min(colour.wavelengths_um))
+    axis, middle, corner = study.sharpest(blue.wavelengths_um[0])
     far, *others_far, near = study.area.corners
     places = [(blue, far, v) for v in (corner, middle, *study.scan)]
     places += [(blue, near, v) for v in (axis, *study.scan)]
     places += [(blue, point, v) for point in others_far for v in study.scan]
-    places += [(wave, far, study.sharpest(wave)[-1]) for wave in others]
+    for colour in others:
+        axis, _, corner = study.sharpest(colour.wavelengths_um[0])
+        places += [(colour, far, corner), (colour, near, axis)]
     return list(dict.fromkeys(places))
 
 
 def between_depth_nodes(study: Study, number: int, place: DepthPlace) -> list[Between]:
     """Return the interpolation midway by an entry of DEPTH_COUNTS: near a point's vergence, or everywhere if few."""
-    wave, point, vergence = place
+    (colour, point, vergence), spot = place, study.spot
     nodes = study.scene.vergences(DEPTH_COUNTS[number])
     if len(nodes) == 1:
-        return [Between(study.place(point, vergence, wave), (study.place(point, float(nodes[0]), wave),), (1.0,))]
+        return [Between(colour, spot(point, vergence), (spot(point, float(nodes[0])),), (1.0,))]
     last = len(nodes) - 2
     about = np.clip(np.searchsorted(nodes, vergence) + np.array([-2, -1, 0]), 0, last)
     chosen = sorted(set(about.tolist()) | set(range(last + 1) if last < EVERY else ()))
     return [
         Between(
-            study.place(point, float(nodes[n : n + 2].mean()), wave),
-            tuple(study.place(point, float(v), wave) for v in nodes[n : n + 2]),
+            colour,
+            spot(point, float(nodes[n : n + 2].mean())),
+            tuple(spot(point, float(v)) for v in nodes[n : n + 2]),
             (0.5, 0.5),
         )
         for n in chosen

@@ -1,7 +1,7 @@
 """The plan: the cheapest model of a lens within a scene's tolerance, each decision with its reason (handbook 10.2)."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from math import hypot, inf
 from os import PathLike
@@ -13,21 +13,25 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import reason_against_coefficients
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
+from p2sf.pixel_kernels.pupil_stack import with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.psf.methods import by_six
 from p2sf.scene.field_area import Point
 from p2sf.scene.files import read_scene
+from p2sf.scene.planning.adaptive_table import from_phase
 from p2sf.scene.planning.bounds import check_blur, check_colours
 from p2sf.scene.planning.cost import Cost, predicted_cost
 from p2sf.scene.planning.field_points import scene_maps
 from p2sf.scene.planning.nodes import (
     DEPTH_COUNTS,
+    FIRST_TRIED,
     NODE_COUNTS,
     between_depth_nodes,
     between_field_nodes,
     depth_places,
     field_counts,
     field_places,
+    spans,
     worst_errors,
 )
 from p2sf.scene.planning.pricing import mirrored, naive_work, plan_work
@@ -36,23 +40,23 @@ from p2sf.scene.planning.study import (
     FINE_SAMPLING,
     SAMPLINGS,
     Place,
+    Sampling,
     Study,
     Tries,
     distance,
     first_allowed,
-    from_phase,
     weighted_sum,
 )
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import one_blas_thread
 
-# The share of the tolerance that each kind of decision may use. The errors are nearly independent, so squares add.
-SHARES = {"method": 0.46, "sampling": 0.23, "field": 0.46, "depth": 0.5, "colour": 0.32, "pupils": 0.14}
+# The share of the tolerance that each kind of decision may use, see `predicted_error`.
+SHARES = {"method": 0.4, "sampling": 0.2, "field": 0.38, "depth": 0.42, "colour": 0.3, "pupils": 0.14}
+FIELD_ALONE = 0.46  # the share of the field in a scene of one depth
 FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and its largest error in a kernel, as measured
 SHARPER = 1.1  # factor by which kernels between those examined may be sharper
 SAFETY = 1.3  # for points between those where an error was measured
-TOGETHER = 1.2  # times the root sum, where field and depth both defocus: 99 % of 480 scenes kept to this
 
 
 @dataclass(frozen=True)
@@ -71,10 +75,10 @@ class Plan:
     """Everything that determines the kernels of a scene.
 
     ``recipe``: how each kernel is computed; ``colours``: one per channel; ``counts``: kernel nodes along rows and
-    columns; ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: the root of the sum of squared
-    errors of the decisions, times TOGETHER. ``naive``: the cost of the full grid (`pricing.naive_work`). ``norm``: the
-    largest root sum of squares of the kernels, by which `allowed_error` follows from the tolerance. ``table``: the
-    pupils from which all others are interpolated; None if each is fitted.
+    columns; ``vergences`` of the depth nodes (1/mm), increasing. ``predicted_error``: that of all decisions together.
+    ``naive``: the cost of the full grid (`pricing.naive_work`). ``norm``: the largest root sum of squares of the
+    kernels, by which `allowed_error` follows from the tolerance. ``table``: the pupils from which all others are
+    interpolated; None if each is fitted.
     """
 
     lens: Lens
@@ -172,17 +176,17 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     share_pupils(study)
     norm = _norm(study)
     budget = scene.relative_error(norm)
-    sampling, sampled = _sampling(study, budget)
-    recipe, method = _method(study, budget, SAMPLINGS[sampling])
-    counts, field = _field(study, budget)
-    vergences, depth = _depths(study, budget)
+    recipe, method = _method(study, budget)
+    (fineness, margin), sampled = _sampling(study, budget, recipe.method)
+    recipe = replace(recipe, fineness=fineness, margin=margin)
     colours, colour = _colours(study, budget)
+    counts, field = _field(study, budget, colours)
+    vergences, depth = _depths(study, budget, colours)
     table = study.table
     if table and by_six(recipe.method):
         table = seidel_table(study, table)
     decisions = (method, sampled, field, depth, *colour, _pupils(study))
-    errors = (max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES)
-    error = TOGETHER * hypot(*errors)
+    error = predicted_error(decisions)
     cost = predicted_cost(plan_work(study, recipe, colours, counts, len(vergences)))
     naive = predicted_cost(naive_work(study, recipe, counts, len(vergences)))
     return Plan(
@@ -202,6 +206,16 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     )
 
 
+def predicted_error(decisions: Sequence[Decision]) -> float:
+    """Return the error of all decisions together.
+
+    The largest of each kind are nearly independent, so that their squares add; but for those of field and depth, which
+    both defocus, and add up where both are largest.
+    """
+    largest = {kind: max((d.error for d in decisions if d.kind == kind), default=0.0) for kind in SHARES}
+    return hypot(largest.pop("field") + largest.pop("depth"), *largest.values())
+
+
 def _norm(study: Study) -> float:
     """Return the largest root sum of squares of the kernels, at most 1, if the tolerance depends on it."""
     if study.scene.measure not in ("mtf", "psnr"):
@@ -211,25 +225,23 @@ def _norm(study: Study) -> float:
 
 
 def _first(
-    count: int, measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, together: int = 4
+    sizes: Sequence[float], measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, start: int = 0
 ) -> tuple[int, float]:
     """Return `first_allowed` with SAFETY."""
-    number, error = first_allowed(count, measure, places, allowed / SAFETY, together)
+    number, error = first_allowed(sizes, measure, places, allowed / SAFETY, start)
     return number, SAFETY * error
 
 
-def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple[Recipe, Decision]:
+def _method(study: Study, budget: float) -> tuple[Recipe, Decision]:
     """Return the cheapest description of a pupil: six Seidel coefficients, else the fewest fitted numbers."""
-    allowed, places = SHARES["method"] * budget, study.places(study.waves_um[0])
-    error = SAFETY * _seidel_error(study, places[:1])
-    if error <= allowed:
-        error = SAFETY * _seidel_error(study, places)
+    allowed, error = SHARES["method"] * budget, 0.0
+    for wave in dict.fromkeys((study.waves_um[0], study.waves_um[-1])):
+        if error <= allowed:
+            error = max(error, SAFETY * _seidel_error(study, study.places(wave)))
     what = Message("method")
     if error <= allowed:
         why = Message("the six Seidel coefficients keep the pixels' error here")
-        return Recipe("seidel", None, *sampling), Decision(
-            what, Message("{method}", method="seidel"), why, error, "method"
-        )
+        return Recipe("seidel"), Decision(what, Message("{method}", method="seidel"), why, error, "method")
     sizes = [level for level in study.levels if level.numbers < study.level.numbers]
     held = (level for level in sizes if SAFETY * from_phase(study.residual(level)) <= allowed)
     level = next(held, study.level)
@@ -238,7 +250,7 @@ def _method(study: Study, budget: float, sampling: tuple[float, float]) -> tuple
         "{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not", numbers=level.numbers
     )
     choice = Message("{method}", method="fitted")
-    return Recipe("fitted", level.numbers, *sampling), Decision(what, choice, why, error, "method")
+    return Recipe("fitted", level.numbers), Decision(what, choice, why, error, "method")
 
 
 def _seidel_error(study: Study, places: Sequence[Place]) -> float:
@@ -248,7 +260,7 @@ def _seidel_error(study: Study, places: Sequence[Place]) -> float:
     """
     if reason_against_coefficients(study.lens):
         return inf
-    pupils = [study.pupil_at(place) for place in places]
+    pupils = study.pupils_at(places)
     made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)
     return max(map(distance, made, study.kernels(places, FINE_SAMPLING)))
 
@@ -256,12 +268,13 @@ def _seidel_error(study: Study, places: Sequence[Place]) -> float:
 def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Decision]]:
     """Return the wavelengths of every channel, and the decisions."""
     colours, decisions = [], []
-    axis, _, corner = study.sharpest(study.reference_um)
-    places = [(study.area.far, v) for v in dict.fromkeys((corner, *study.ends))] + [(study.area.near, axis)]
     for channel in study.scene.channels:
+        axis, _, corner = study.sharpest(float(channel.wavelengths_um @ channel.shares))
+        places = [(study.area.far, v) for v in dict.fromkeys((corner, *study.scan))]
+        places += [(study.area.near, v) for v in dict.fromkeys((axis, study.scan[-1]))]
         every = len(channel.wavelengths_nm)
         number, error = _first(
-            every, partial(_colour_errors, study, channel, places), len(places), SHARES["colour"] * budget
+            range(1, every + 1), partial(_colour_errors, study, channel, places), len(places), SHARES["colour"] * budget
         )
         colours.append(reduce_spectrum(channel, number + 1))
         choice = Message("{waves:.0f} nm", waves=tuple(1000 * w for w in colours[-1].wavelengths_um))
@@ -286,26 +299,33 @@ def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point,
     return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
 
 
-def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
-    """Return the coarsest entry of SAMPLINGS within its share of the tolerance, and the decision."""
-    red, blue = (study.places(wave) for wave in (study.waves_um[-1], study.waves_um[0]))
-    places = list(dict.fromkeys((red[-1], red[0], *blue)))
+def _sampling(study: Study, budget: float, method: str) -> tuple[Sampling, Decision]:
+    """Return the coarsest entry of SAMPLINGS within its share of the tolerance, and the decision.
+
+    By the pupils and in the windows of the picture, on which errors of sampling depend.
+    """
+    places = list(dict.fromkeys(place for wave in study.waves_um[::-1] for place in study.places(wave)))
+    pupils = study.pupils_at(places)
+    found, shifts = study.lights(pupils)
+    light = study.by_seidel(pupils) if by_six(method) else with_reach(found)
+    kernels: dict[tuple[int, int], np.ndarray] = {}
 
     def errors(tries: Tries) -> list[float]:
         finest = [FINE_ENOUGH if number < FINE_ENOUGH else len(SAMPLINGS) - 1 for number, _ in tries]
-        asked = [(number, k) for number, k in (*tries, *zip(finest, (k for _, k in tries), strict=True))]
-        kernels: dict[tuple[int, Place], np.ndarray] = {}
+        asked = {*tries, *zip(finest, (k for _, k in tries), strict=True)} - kernels.keys()
         for number in {number for number, _ in asked}:
-            here = [places[k] for n, k in asked if n == number]
-            made = study.kernels(here, SAMPLINGS[number])
-            kernels.update(zip(((number, place) for place in here), made, strict=True))
+            here = np.array(sorted(k for n, k in asked if n == number))
+            some = [places[k] for k in here.tolist()]
+            made = study.rendered(some, light.some(here), shifts[here], SAMPLINGS[number], widen=False)
+            kernels.update(zip(((number, k) for k in here.tolist()), made, strict=True))
         left = {FINE_ENOUGH: FINE_ENOUGH_ERROR}  # by the finer kernels themselves
         return [
-            hypot(distance(kernels[number, places[k]], kernels[finer, places[k]]), left.get(finer, 0.0))
+            hypot(distance(kernels[number, k], kernels[finer, k]), left.get(finer, 0.0))
             for (number, k), finer in zip(tries, finest, strict=True)
         ]
 
-    number, worst = _first(len(SAMPLINGS), errors, len(places), SHARES["sampling"] * budget, together=1)
+    steps = [4.0**number for number in range(len(SAMPLINGS))]  # errors fall by more than ten from each to the next
+    number, worst = _first(steps, errors, len(places), SHARES["sampling"] * budget)
     fineness, margin = SAMPLINGS[number]
     why = Message(
         "pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}",
@@ -313,24 +333,25 @@ def _sampling(study: Study, budget: float) -> tuple[int, Decision]:
         margin=margin,
     )
     choice = Message("λ/2NA/{fineness:g}", fineness=fineness)
-    return number, Decision(Message("sampling"), choice, why, worst, "sampling")
+    return SAMPLINGS[number], Decision(Message("sampling"), choice, why, worst, "sampling")
 
 
-def _field(study: Study, budget: float) -> tuple[tuple[int, int], Decision]:
-    places = field_places(study)
+def _field(study: Study, budget: float, colours: Sequence[Colour]) -> tuple[tuple[int, int], Decision]:
+    places = field_places(study, colours)
 
     def errors(tries: Tries) -> list[float]:
         return worst_errors(study, [between_field_nodes(study, n, places[k]) for n, k in tries])
 
-    number, error = _first(len(NODE_COUNTS), errors, len(places), SHARES["field"] * budget)
+    share = SHARES["field"] if len(study.ends) > 1 else FIELD_ALONE
+    number, error = _first(spans(NODE_COUNTS), errors, len(places), share * budget, FIRST_TRIED)
     counts = field_counts(study, number)
     why = Message("kernels in the middle of a cell are then the mean of its corners")
     choice = Message("{rows} × {columns} nodes", rows=counts[0], columns=counts[1])
     return counts, Decision(Message("field"), choice, why, error, "field")
 
 
-def _depths(study: Study, budget: float) -> tuple[tuple[float, ...], Decision]:
-    scene, places = study.scene, depth_places(study)
+def _depths(study: Study, budget: float, colours: Sequence[Colour]) -> tuple[tuple[float, ...], Decision]:
+    scene, places = study.scene, depth_places(study, colours)
     if scene.near_mm == scene.far_mm:
         vergence = float(scene.vergences(1)[0])
         why = Message("the scene has one depth")
@@ -339,7 +360,7 @@ def _depths(study: Study, budget: float) -> tuple[tuple[float, ...], Decision]:
     def errors(tries: Tries) -> list[float]:
         return worst_errors(study, [between_depth_nodes(study, n, places[k]) for n, k in tries])
 
-    number, error = _first(len(DEPTH_COUNTS), errors, len(places), SHARES["depth"] * budget)
+    number, error = _first(spans(DEPTH_COUNTS), errors, len(places), SHARES["depth"] * budget, FIRST_TRIED)
     nodes = scene.vergences(DEPTH_COUNTS[number])
     why = Message("defocus grows with 1/distance, so nodes stand at equal steps of it")
     choice = Message("{count} nodes", count=len(nodes)) if len(nodes) > 1 else Message("1 node")

@@ -9,7 +9,7 @@ from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels import Colour, Recipe
 from p2sf.scene.planning.bounds import transforms
 from p2sf.scene.planning.cost import ALONE_SECONDS, TOGETHER_SECONDS, Work, pupil_seconds
-from p2sf.scene.planning.study import PupilAt, Study
+from p2sf.scene.planning.study import Study
 from p2sf.scene.scene import Scene
 
 NAIVE_FINENESS, NAIVE_MARGIN = 2.0, 0.5  # every fringe of the light (λ/4NA), and half a window against aliasing
@@ -59,6 +59,4 @@ def naive_recipe(recipe: Recipe) -> Recipe:
 
 def _widths(study: Study, recipe: Recipe) -> tuple[np.ndarray, np.ndarray]:
     """Return half widths (pixels) and transform sides (samples) in the corner, at the ends and the sharpest depths."""
-    depths = dict.fromkeys((*study.ends, *study.sharpest(study.reference_um)))
-    pupils = study.lights([PupilAt(*study.area.far, v, study.reference_um) for v in depths])
-    return transforms(*pupils, study.scene.sensor.pixel_um, (recipe.fineness, recipe.margin))
+    return transforms(*study.of_corner, study.scene.sensor.pixel_um, (recipe.fineness, recipe.margin))

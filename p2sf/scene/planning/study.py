@@ -6,6 +6,8 @@ No error measured here depends on the tolerance, so that a looser tolerance can 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
+from math import ceil, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -13,26 +15,32 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pixel_kernels import Recipe, SensorMap
+from p2sf.pixel_kernels import Colour, SensorMap
 from p2sf.pixel_kernels.channel import PointLights
-from p2sf.pixel_kernels.frequency_grid import ORDERS, fitted_forms, pupils_of, seidel_pupils
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stack_pupils
+from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of, seidel_pupils
+from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
+from p2sf.pixel_kernels.pupil_stack import PupilStack, with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.fit import Level, PencilForms, levels_for
 from p2sf.scene.field_area import FieldArea, Point, field_area
+from p2sf.scene.planning.adaptive_table import Fit, KnownPupils, PupilAt, kernel_errors
 from p2sf.scene.planning.field_points import scene_maps
+from p2sf.scene.planning.lens_pupils import lens_pupils
 from p2sf.scene.scene import Scene
 
 # Fineness and margin of `Recipe`, cheapest first.
 SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)
 # The first for errors that change a kernel as a whole, the second for those that only affect its fringes.
-COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[4]
+COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[3]
 CONVERGED_WAVES = 3e-4
+AGREES = 0.07  # of the tolerance: the largest error of a kernel by pupils that were kept
+COARSE_REACH = 8, 16  # nodes at which the windows of kernels are found, which are then widened
 SCAN, DEPTHS = 65, 5  # depths among which the sharpest are sought, and at which nodes are also tried
 SEEN_AT = 0.0, 0.6, 1.0  # fractions of the way to the farthest point at which the sharpest depths are sought
 
 FOCUSED = 4  # depths between which the phase is interpolated in that search
+MAPPED = 5  # depths that are mapped at once: among them those of the first pupils to be fitted
 CHIEF_RAYS = 65  # between which fields are interpolated linearly by height, to some 1e-6
 
 Sampling = tuple[float, float]
@@ -40,15 +48,6 @@ Sampling = tuple[float, float]
 
 class Place(NamedTuple):
     """A point of the sensor, mm, one depth and one wavelength."""
-
-    x_mm: float
-    y_mm: float
-    vergence: float
-    wave_um: float
-
-
-class PupilAt(NamedTuple):
-    """A point of a `FieldArea`, mm, one depth and one wavelength."""
 
     x_mm: float
     y_mm: float
@@ -77,8 +76,9 @@ class Study:
         self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
         self.scan = tuple(dict.fromkeys(map(float, self.scene.vergences(DEPTHS))))  # both, and depths between them
+        self.kept_error = 0.0
         self._maps: dict[float, SensorMap] = {}
-        self._fits: dict[PupilAt, tuple[PixelPupil, np.ndarray]] = {}
+        self._fits = KnownPupils()
         self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
         self._kernels: dict[tuple[Place, Sampling], np.ndarray] = {}
 
@@ -95,13 +95,18 @@ class Study:
     def map_depths(self, vergences: Iterable[float]) -> None:
         """Compute the maps of several depths together."""
         missing = [v for v in dict.fromkeys(vergences) if v not in self._maps]
+        if missing and len(self.ends) > 1 and not self._maps:
+            missing = list(dict.fromkeys((*missing, *chebyshev(self.ends[0], self.ends[-1], MAPPED).tolist())))
         if missing:
             maps = scene_maps(self.lens, self.scene, missing, self.reference_um, CHIEF_RAYS)
             self._maps.update(zip(missing, maps, strict=True))
 
     def sharpest(self, wave: float) -> list[float]:
-        """Return the vergences of the smallest blur at the fractions SEEN_AT of the field: axis, between, corner."""
-        return self._sharpest[wave]
+        """Return the vergences of the smallest blur at the fractions SEEN_AT of the field: axis, between, corner.
+
+        In the wavelength nearest to ``wave`` of those of the study.
+        """
+        return self._sharpest[min(self._sharpest, key=lambda known: abs(known - wave))]
 
     @cached_property
     def _sharpest(self) -> dict[float, list[float]]:
@@ -109,13 +114,13 @@ class Study:
         scan = self.scene.vergences(SCAN)
         nodes = tuple(chebyshev(float(scan[0]), float(scan[-1]), FOCUSED if len(self.ends) > 1 else 1).tolist())
         points = [self.area.outwards(part) for part in SEEN_AT]
-        pupils = [PupilAt(*point, v, wave) for wave in self.waves_um for point in points for v in nodes]
-        phase = fitted_forms(self.lens, self._sources(pupils), self.level)[0].phase
-        degree, _ = self.level.basis.phase.indices
-        between = np.array([lagrange(nodes, v) for v in scan.tolist()])
-        phases = between @ phase[:, degree > 1].reshape(len(self.waves_um), len(points), len(nodes), -1)
+        waves = sorted({*self.waves_um, *(float(c.wavelengths_um @ c.shares) for c in self.scene.channels)})
+        found, _ = self.lights([PupilAt(*point, v, wave) for wave in waves for point in points for v in nodes])
+        degree, _ = found.basis.phase.indices
+        between = lagrange(nodes, scan)
+        phases = between @ found.phase[:, degree > 1].reshape(len(waves), len(points), len(nodes), -1)
         least = np.square(phases).sum(-1).argmin(-1)
-        return {wave: scan[at].tolist() for wave, at in zip(self.waves_um, least, strict=True)}
+        return {wave: scan[at].tolist() for wave, at in zip(waves, least, strict=True)}
 
     def places(self, wave: float) -> list[Place]:
         """Return points for choices on single pupils: the corner, sharp and at both ends of depth, and the centre.
@@ -128,11 +133,17 @@ class Study:
 
     def place(self, point: Point, vergence: float, wave_um: float) -> Place:
         """Return a point of the sensor with the pupil of a point of the area."""
-        return Place(*self.area.fields.oblique(*point), vergence, wave_um)
+        return Place(*self.spot(point, vergence), wave_um)
 
-    def pupil_at(self, place: Place) -> PupilAt:
-        """Return the pupil of a point of the sensor."""
-        return PupilAt(*self.area.point_of(place.x_mm, place.y_mm), place.vergence, place.wave_um)
+    def spot(self, point: Point, vergence: float) -> tuple[float, float, float]:
+        """Return a point of the sensor with the pupils of a point of the area, and a vergence."""
+        return (*self.area.fields.oblique(*point), vergence)
+
+    def pupils_at(self, places: Sequence[Place]) -> list[PupilAt]:
+        """Return the pupils of points of the sensor."""
+        x, y, vergences, waves = np.array(places).T
+        points = self.area.points_of(x, y)
+        return [PupilAt(*at) for at in zip(*points, vergences.tolist(), waves.tolist(), strict=True)]
 
     @cached_property
     def level(self) -> Level:
@@ -159,7 +170,8 @@ class Study:
     @property
     def corners(self) -> list[PupilAt]:
         """Return the pupils at both ends of field and depth at the shortest wavelength, which is the most sensitive."""
-        return [PupilAt(*self.area.point_of(*p), v, self.waves_um[0]) for p in self.area.corners for v in self.ends]
+        points = zip(*self.area.points_of(*np.array(self.area.corners).T), strict=True)
+        return [PupilAt(*point, v, self.waves_um[0]) for point in points for v in self.ends]
 
     def _sources(self, pupils: Sequence[PupilAt]) -> list[Source]:
         """Return the object points of pupils."""
@@ -168,18 +180,42 @@ class Study:
 
     def fitted(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
         """Return pupils from their own rays, and their displacements from their points, (pupils, 2) mm; cached."""
-        missing = [at for at in dict.fromkeys(pupils) if at not in self._fits]
+        missing = self._fits.missing(pupils)
         if missing:
             self.check()
-            sources = self._sources(missing)
-            known = missing == self.corners
-            fits, landed = self._corner_fits(self.level) if known else fitted_forms(self.lens, sources, self.level)
-            order = max((pupil.basis.wave_order for pupil, _ in self._fits.values()), default=ORDERS[0])
-            made = pupils_of(self.lens, sources, fits, self.level, self.scene.clip, order)
-            for k, at in enumerate(missing):
-                self._fits[at] = made.one(k), landed[k] - at[:2]
-        found = [self._fits[at] for at in pupils]
-        return stack_pupils([pupil for pupil, _ in found]), np.array([shift for _, shift in found])
+            made, landed = (self._from_lens or self._from_rays)(missing)
+            self._fits.add(missing, made, landed - np.array(missing)[:, :2])
+        return self._fits.of(pupils)
+
+    def _from_rays(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils from their own rays, and where their chief rays land, (pupils, 2) mm."""
+        known, sources = pupils == self.corners, self._sources(pupils)
+        fits, landed = self._corner_fits(self.level) if known else fitted_forms(self.lens, sources, self.level)
+        return pupils_of(self.lens, sources, fits, self.level, self.scene.clip, self._fits.order), landed
+
+    @cached_property
+    def _from_lens(self) -> Fit | None:
+        """Return how pupils follow from those kept of the lens, if these agree with rays at the corners."""
+        if self.scene.clip or self.area.x_mm[0] < self.area.x_mm[1]:
+            return None
+        slopes = [source.field_slope for source in self._sources(self.corners)]
+        kept = lens_pupils(
+            self.lens, max(slopes, key=abs), (self.ends[0], self.ends[-1]), (self.waves_um[0], self.waves_um[-1])
+        )
+        if kept is None:
+            return None
+
+        def fit(pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
+            sources = self._sources(pupils)
+            slopes, waves = np.array([(source.field_slope, source.wavelength_um) for source in sources]).T
+            return kept.at(slopes, np.array([at.vergence for at in pupils]), waves)
+
+        (true, landed), (found, there) = self._from_rays(self.corners), fit(self.corners)
+        error = float(kernel_errors(found, true, UM_PER_MM * (there - landed)).max())
+        if error > AGREES * self.scene.relative_tolerance:
+            return None
+        self.kept_error = error
+        return fit
 
     def by_seidel(self, pupils: Sequence[PupilAt]) -> PupilStack:
         """Return pupils by their Seidel coefficients."""
@@ -189,58 +225,111 @@ class Study:
         """Return pupils as `fitted` does: from the table, or, if there is none yet, from their own rays."""
         if self.table is None:
             return self.fitted(pupils)
-        return self.table.at(*zip(*pupils, strict=True))
+        numbers = {at: number for number, at in enumerate(dict.fromkeys(pupils))}
+        found, shifts = self.table.between(*zip(*numbers, strict=True))
+        every = np.array([numbers[at] for at in pupils])
+        return with_reach(found, COARSE_REACH).some(every), shifts[every]
+
+    @cached_property
+    def of_corner(self) -> tuple[PupilStack, np.ndarray]:
+        """Return the pupils of the corner at the ends of depth and where it is sharpest, as `lights` does."""
+        depths = dict.fromkeys((*self.ends, *self.sharpest(self.reference_um)))
+        return self.lights([PupilAt(*self.area.far, v, self.reference_um) for v in depths])
 
     def kernels(self, places: Sequence[Place], sampling: Sampling = COARSE_SAMPLING) -> list[np.ndarray]:
         """Return the kernels of places, each computed once."""
         missing = [place for place in dict.fromkeys(places) if (place, sampling) not in self._kernels]
         if missing:
-            self.check()
-            made = self.rendered(missing, *self.lights([self.pupil_at(place) for place in missing]), sampling)
+            made = self.rendered(missing, *self.lights(self.pupils_at(missing)), sampling)
             self._kernels.update(zip(((place, sampling) for place in missing), made, strict=True))
         return [self._kernels[place, sampling] for place in places]
 
-    def rendered(
-        self, places: Sequence[Place], pupils: PupilStack, shifts_mm: np.ndarray, sampling: Sampling = COARSE_SAMPLING
+    def channel_kernels(
+        self, spots: Sequence[tuple[Colour, tuple[float, float, float]]], sampling: Sampling = COARSE_SAMPLING
     ) -> list[np.ndarray]:
-        """Return the kernels of pupils, one for each place."""
+        """Return the kernels of channels at points of the sensor and vergences, all wavelengths together."""
+        places = [Place(*spot, wave) for colour, spot in spots for wave in colour.wavelengths_um]
+        kernels = iter(self.kernels(places, sampling))
+        return [weighted_sum(list(islice(kernels, len(c.weights))), c.weights) for c, _ in spots]
+
+    def rendered(
+        self,
+        places: Sequence[Place],
+        pupils: PupilStack,
+        shifts_mm: np.ndarray,
+        sampling: Sampling = COARSE_SAMPLING,
+        widen: bool = True,
+    ) -> list[np.ndarray]:
+        """Return the kernels of pupils, one for each place.
+
+        ``widen``: in windows of few sizes, so that many come together; else in those of the picture, on which errors of
+        sampling depend.
+        """
+        self.check()
         _, _, angles = self.area.fields.orient(*np.array(places)[:, :2].T)
-        lights = PointLights(pupils, 0 * angles, shifts_mm * UM_PER_MM).turned(angles)
-        pixel = self.scene.sensor.pixel_um
-        return lights.kernels(lights.half_widths(pixel), pixel, Recipe("fitted", None, *sampling))
+        shifts = PointLights(pupils, 0 * angles, shifts_mm * UM_PER_MM).turned(angles).shifts_um
+        (fineness, margin), pixel = sampling, self.scene.sensor.pixel_um
+        halves, samples = half_widths(pupils, pixel, np.hypot(*shifts.T)), samples_each(pupils, pixel, fineness)
+        if widen:
+            halves, samples = _few_sizes(halves), np.full_like(samples, samples.max())
+        kernels: list[np.ndarray] = [np.empty(0)] * len(places)
+        for half, across in np.unique(np.stack([halves, samples]), axis=1).T.tolist():
+            chosen, around = np.flatnonzero((halves == half) & (samples == across)), ceil(margin * half)
+            window = PixelWindow(half + around, pixel, across)
+            made = pixel_kernels(pupils.some(chosen), angles[chosen], window, shifts[chosen])
+            for k, kernel in zip(chosen.tolist(), made, strict=True):
+                kernels[k] = kernel[around : around + 2 * half + 1, around : around + 2 * half + 1]
+        return kernels
+
+
+def _few_sizes(halves: np.ndarray) -> np.ndarray:
+    """Return half widths, each rounded up to one of few, by a half at most."""
+    steps = np.unique(np.rint(2.0 ** np.arange(0, 13, 0.5)).astype(int))
+    rounded: np.ndarray = steps[np.searchsorted(steps, halves)]
+    return rounded
 
 
 Tries = Sequence[tuple[int, int]]
+NEGLIGIBLE = 0.3  # of the largest error of a first choice: places with less are not tried again
 
 
 def first_allowed(
-    count: int, measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, together: int = 4
+    sizes: Sequence[float], measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, start: int = 0
 ) -> tuple[int, float]:
-    """Return the first of ``count`` choices whose error is allowed at all places, else the last; and its error.
+    """Return the first of several choices whose error is allowed at all places, else the last; and its error.
 
-    ``measure`` gives the errors of (choice, index of a point), which decrease from choice to choice. Most choices fail
-    where an earlier one did, so that the first that holds there is sought first, from point 0 on, and then tried at all
-    points. ``together``: the number of choices tried at once, spread over the remaining ones.
+    ``measure`` gives the errors of (choice, index of a point), which decrease from choice to choice, about as the
+    square of 1/``sizes``. By that law the next choice is found from the error of the last one; only measured errors
+    decide. The first choice, ``start``, is tried at all places, the next ones where the error was largest, and what
+    holds there is tried at all places.
     """
-    low, hardest = 0, 0
+    errors: dict[tuple[int, int], float] = {}
+
+    def worst(choice: int, where: Iterable[int]) -> float:
+        tries = [(choice, k) for k in where]
+        missing = [one for one in tries if one not in errors]
+        errors.update(zip(missing, measure(missing) if missing else (), strict=True))
+        return max(errors[one] for one in tries)
+
+    last, low, choice = len(sizes) - 1, 0, start
+    hardest = likely = list(range(places))
     while True:
-        high = count - 1
-        while low < high:
-            tried = sorted({low + (high - low) * part // together for part in range(together)})
-            errors = measure([(choice, hardest) for choice in tried])
-            held = [error <= allowed for error in errors]
-            first = held.index(True) if any(held) else len(tried)
-            low, high = (tried[first - 1] + 1 if first else low), (tried[first] if any(held) else high)
-        errors = measure([(low, place) for place in range(places)])
-        worst = float(max(errors))
-        if worst <= allowed or low == count - 1:
-            return low, worst
-        low, hardest = low + 1, int(np.argmax(errors))
-
-
-def from_phase(residual_waves: float) -> float:
-    """Return the relative L2 error of a PSF whose phase has an RMS error of σ waves: twice the field's own, 2πσ."""
-    return 4 * np.pi * residual_waves
+        error = worst(choice, hardest)
+        if len(hardest) > 1:
+            hardest = [max(hardest, key=lambda k: errors[choice, k])]
+            likely = [k for k in likely if errors[choice, k] >= NEGLIGIBLE * error]
+        enough = sizes[choice] * sqrt(error / allowed)
+        by_law = max(low, next((k for k, size in enumerate(sizes) if size >= enough), last))
+        if error > allowed and choice < last:
+            low = choice + 1
+            choice = max(by_law, low)
+        elif by_law < choice:
+            choice = by_law
+        else:
+            error = worst(choice, likely)
+            if error <= allowed or choice == last:
+                return choice, error
+            hardest = [max(likely, key=lambda k: errors[choice, k])]
 
 
 def distance(kernel: np.ndarray, reference: np.ndarray) -> float:
