@@ -23,7 +23,7 @@ SIMPLE = Scene(Sensor(40, 60, 60.0))
     [
         ({"near_mm": 0.0}, "give positive depths, the near one first"),
         ({"near_mm": 5.0, "far_mm": 4.0}, "from 5 mm to 4 mm"),
-        ({"measure": "ssim"}, 'measured as "ssim"; choose relative, r2, mtf or psnr'),
+        ({"measure": "ssim"}, 'measured as "ssim"; choose relative, r2, mtf, psnr or hdr'),
         ({"min_psnr_db": -3.0}, "min_psnr_db is -3; give the least peak signal-to-noise"),
         ({"min_psnr_db": 60.0}, "tighter than"),
         ({"rtol": 1.0}, "rtol is 1; give a number between 0 and 1"),
