@@ -31,8 +31,9 @@ from p2sf.pixel_kernels.landing_light import landing_kernels
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pixels import samples_each
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
+from p2sf.scene.planning.adaptive_table import PupilAt
 from p2sf.scene.planning.pricing import computed_counts, mirrored
-from p2sf.scene.planning.study import PupilAt, Study, pad_kernel
+from p2sf.scene.planning.study import Study, pad_kernel
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduce_spectrum
