@@ -11,7 +11,7 @@ from math import inf, isfinite
 from typing import NamedTuple
 
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, surface_power
+from p2sf.lens.lens import Lens, check_aligned, surface_power
 from p2sf.lensfile import conjugates
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.raw import ParaxialSolve, RawLens
@@ -38,11 +38,11 @@ class SolvedRay(NamedTuple):
 def with_solves(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     """Return the lens with the curvatures and thicknesses that solves give, where the file states none.
 
-    The value that the writing program stored stays, with a note where the solve gives another; so does that of a
-    misaligned lens. Raises GeometryError for a solve without a stored value that its surfaces do not determine.
+    The value that the writing program stored stays, with a note where the solve gives another. Raises GeometryError
+    for a solve without a stored value that its surfaces do not determine, as in a misaligned lens.
     """
     for number, stated in enumerate(raw.surfaces, 1):
-        for what in ("curvature", "thickness") if not lens.misaligned else ():
+        for what in ("curvature", "thickness"):
             if what in stated.solves:
                 lens = _with_solve(lens, raw, number, stated.solves[what], notes)
     return lens
@@ -52,6 +52,7 @@ def _with_solve(lens: Lens, raw: RawLens, number: int, solve: ParaxialSolve, not
     surface, stated, bends = lens.surfaces[number - 1], raw.surfaces[number - 1], solve.of == "curvature"
     old = surface.curvature if bends else surface.thickness
     try:
+        check_aligned(lens, Message("a solve"))
         found = _curvature(lens, raw, number, solve) if bends else _thickness(lens, raw, number, solve)
     except GeometryError as failure:
         if not old:

@@ -73,11 +73,11 @@ class PupilEnds(NamedTuple):
 
 @dataclass(frozen=True)
 class VignettingFactors:
-    """The factors of a file, one set per field; ``skew``: whether some make a pupil that is not even in x."""
+    """The factors of a file, one set per field; ``along_x``: whether some make a pupil that is not even in x."""
 
     ends: tuple[PupilEnds, ...]
     line: int | None = None
-    skew: bool = False
+    along_x: bool = False
 
     @property
     def largest(self) -> float:

@@ -69,7 +69,7 @@ def with_vignetting(
 def _check(lens: Lens, factors: VignettingFactors, slopes: Sequence[tuple[float, float]]) -> None:
     """Raise GeometryError where rims about the axis cannot do what the factors say."""
     check_aligned(lens, Message("a rim for vignetting factors"))
-    if factors.skew or any(across for across, _ in slopes):
+    if factors.along_x or any(across for across, _ in slopes):
         raise GeometryError("some are of fields along x, or turn or shift the pupil along x")
     if not slopes:
         raise GeometryError("the file states no fields")

@@ -236,7 +236,7 @@ def match_target(found_mm: np.ndarray, target: Target, expected: np.ndarray, kno
 
 
 @dataclass(frozen=True, eq=False)
-class _Placing:
+class _TargetPlacement:
     """One way to lay a target on a picture: z = a·w(1 + k|w|²/R²) + b, of −w̄ if mirrored; ``which`` point each is.
 
     ``unseen``: points of the target that should lie between others of the picture, and do not.
@@ -319,7 +319,7 @@ def _counts(every: np.ndarray, z: np.ndarray, tree: "KDTree", step: float) -> np
     return count
 
 
-def _refine(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, mirrored: bool) -> _Placing:
+def _refine(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, mirrored: bool) -> _TargetPlacement:
     """Return a placing fitted to all points that lie ``near`` one of the target, in turns with which these are."""
     places = _mirror(w, mirrored)
     square, k, before = np.abs(places) ** 2 / (np.abs(places) ** 2).max(), 0.0, None
@@ -343,7 +343,7 @@ def _refine(z: np.ndarray, w: np.ndarray, near: float, a: complex, b: complex, m
     low, high = _plane(z).min(0) - near * abs(a), _plane(z).max(0) + near * abs(a)
     inside = (_plane(every) > low).all(1) & (_plane(every) < high).all(1)
     inside[there] = False
-    return _Placing(complex(a), complex(b), mirrored, k, which, rms, int(inside.sum()))
+    return _TargetPlacement(complex(a), complex(b), mirrored, k, which, rms, int(inside.sum()))
 
 
 def _assign(z: np.ndarray, places: np.ndarray, near: float) -> np.ndarray:

@@ -43,7 +43,7 @@ LOST = "no ray but the chief ray reaches the sensor; stop the lens down or reduc
 
 
 @dataclass(frozen=True)
-class Region:
+class ClearRegion:
     """The part of the pupil whose rays reach the sensor and pass ``within`` every hole of these surfaces.
 
     ``lens``, whose holes do not block rays here, and ``mask``: as the source sees them.
@@ -134,7 +134,7 @@ def hole_curves(lens: Lens, source: Source, clip: bool, points: int) -> tuple[St
     """Return the images in the pupil of the holes and shadows that end rays; some ``points`` to half a turn each."""
     curves = []
     for number in holes_of(lens) if clip else ():
-        region = Region(seen_from(lens, source.azimuth_deg), source, clip, CLEAR, (number,))
+        region = ClearRegion(seen_from(lens, source.azimuth_deg), source, clip, CLEAR, (number,))
         shape = outline_of(region)
         if shape is not None:
             theta = region.domain.edge_directions(shape.corners, points)
@@ -157,7 +157,7 @@ def check_without_holes(lens: Lens, clip: bool) -> None:
 
 def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool, mask: PupilMask) -> ClearNodes:
     """Return nodes over the part left open by mask, rims, holes and lost rays; GeometryError if nothing is open."""
-    region = Region(seen_from(lens, source.azimuth_deg), source, clip, mask)
+    region = ClearRegion(seen_from(lens, source.azimuth_deg), source, clip, mask)
     holes = holes_of(lens) if clip else ()
     shadows = (*((OBSCURATION,) if mask.obscured else ()), *holes)
     outline = outline_of(region)
@@ -180,7 +180,7 @@ def piece_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool,
 
 
 @lru_cache(maxsize=64)
-def outline_of(region: Region) -> Outline | None:
+def outline_of(region: ClearRegion) -> Outline | None:
     """Return the centre and the corners of a region; None if it is empty."""
     found = _centre(region)
     if found is None:
@@ -209,12 +209,12 @@ def changes_of(
     return middle
 
 
-def _along(region: Region, centre: tuple[float, float], theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _along(region: ClearRegion, centre: tuple[float, float], theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     one = np.ones_like(theta)
     return region.edge(centre[0] * one, centre[1] * one, np.sin(theta), np.cos(theta))
 
 
-def _centre(region: Region) -> tuple[float, float] | None:
+def _centre(region: ClearRegion) -> tuple[float, float] | None:
     """Return a point well inside a region: the image of the axis of a hole, else the mean of its points."""
     xi, eta = hexapolar(SEARCH_RINGS)
     tried = [_middle_of(region, number) for number in region.within]
@@ -233,7 +233,7 @@ def _centre(region: Region) -> tuple[float, float] | None:
     return middle
 
 
-def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+def _inside(region: ClearRegion, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     """Return which points of the disc lie in the region, taking iris and obscuration into account."""
     held = region.holds(xi, eta)[0]
     for edge in region.mask.edges:
@@ -243,7 +243,7 @@ def _inside(region: Region, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
     return held
 
 
-def _middle_of(region: Region, number: int) -> tuple[float, float] | None:
+def _middle_of(region: ClearRegion, number: int) -> tuple[float, float] | None:
     """Return the centre of the obscuration, or the pupil point on ξ = 0 whose ray meets the axis on a surface.
 
     None if there is no such point in the pupil.
@@ -270,7 +270,7 @@ def _middle_of(region: Region, number: int) -> tuple[float, float] | None:
     return 0.0, float(high)
 
 
-def _nodes(region: Region, outline: Outline, counts: tuple[int, int], sign: int) -> Piece:
+def _nodes(region: ClearRegion, outline: Outline, counts: tuple[int, int], sign: int) -> Piece:
     """Return Gauss–Legendre nodes in ρ² up to the edge of a region, in directions between its corners."""
     angles, steps = [], []
     for low, high in pairwise(outline.corners):
@@ -286,7 +286,7 @@ def _nodes(region: Region, outline: Outline, counts: tuple[int, int], sign: int)
     return (outline.xi + rho * np.sin(theta)).ravel(), (outline.eta + rho * np.cos(theta)).ravel(), area.ravel()
 
 
-def _vane(region: Region, shadows: tuple[int, ...], angle: float, radial: int) -> list[Piece]:
+def _vane(region: ClearRegion, shadows: tuple[int, ...], angle: float, radial: int) -> list[Piece]:
     """Return nodes of negative area over a vane outside holes and obscuration, up to the edge of the clear part."""
     half, count, disc = region.mask.vane_width, region.mask.vanes, region.mask.disc
     sine, cosine = sin(angle), cos(angle)
@@ -320,7 +320,7 @@ def _vane(region: Region, shadows: tuple[int, ...], angle: float, radial: int) -
 
 
 def _check_open(
-    region: Region,
+    region: ClearRegion,
     shadows: tuple[int, ...],
     foot: tuple[np.ndarray, np.ndarray],
     directions: tuple[np.ndarray, np.ndarray],
