@@ -2305,6 +2305,7 @@
 <message><source>a rim for vignetting factors</source><translation>ein Rand für Vignettierungsfaktoren</translation></message>
 <message><source>its {what} by the solve {solve} is {found:.7g} ({unit}); that of the file, {old:.7g}, is kept</source><translation>ihre {what} nach dem Solve {solve} ist {found:.7g} ({unit}); die der Datei, {old:.7g}, bleibt</translation></message>
 <message><source>its {what} by the solve {solve} is {found:.9g} ({unit})</source><translation>ihre {what} nach dem Solve {solve} ist {found:.9g} ({unit})</translation></message>
+<message><source>a solve</source><translation>ein Solve</translation></message>
 <message><source>surface {surface}: its {what} follows from the solve {solve}, {reason}; state the number instead</source><translation>Fläche {surface}: ihre {what} folgt aus dem Solve {solve}, {reason}; geben Sie statt dessen die Zahl an</translation></message>
 <message><source>whose ray meets the surface on the axis, or where nothing refracts</source><translation>deren Strahl die Fläche auf der Achse trifft oder wo nichts bricht</translation></message>
 <message><source>before which no surface stands</source><translation>vor der keine Fläche steht</translation></message>
