@@ -78,7 +78,7 @@ class SheetWriter:
             else:
                 self.paragraph(block)
 
-    def translate(self, template: str, **values: object) -> str:
+    def sentence(self, template: str, **values: object) -> str:
         """Return a text in the language of the sheets."""
         return Message(template, **values).text(self.words)
 
@@ -116,7 +116,7 @@ def lecture_sheets(lecture: Lesson, paper: Paper = A4, solved: bool = False) -> 
 
 
 def _title(out: SheetWriter, lecture: Lesson, solved: bool) -> str:
-    return out.translate("{title}: solutions and notes", title=lecture.title) if solved else lecture.title
+    return out.sentence("{title}: solutions and notes", title=lecture.title) if solved else lecture.title
 
 
 def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
@@ -127,8 +127,8 @@ def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
     out.paragraph(lecture.about, replace(BODY, grey=True))
     if not solved:
         page.y += 4
-        page.put(EDGE_MM, page.y, out.translate("Name"))
-        page.put(EDGE_MM + 0.7 * page.inner_mm, page.y, out.translate("Date"))
+        page.put(EDGE_MM, page.y, out.sentence("Name"))
+        page.put(EDGE_MM + 0.7 * page.inner_mm, page.y, out.sentence("Date"))
         page.rule(page.y + 4.5, EDGE_MM + 14, 0.66 * page.inner_mm - 14)
         page.rule(page.y + 4.5, EDGE_MM + 0.7 * page.inner_mm + 14)
         page.y += 9
@@ -140,7 +140,7 @@ def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
     page.write(paraxial_setup(state).lens.title, SMALL)
     if lecture.name != CHECK:
         page.write(
-            out.translate("Each page is in the window under Course…, and a file beside this sheet opens it."), SMALL
+            out.sentence("Each page is in the window under Course…, and a file beside this sheet opens it."), SMALL
         )
     page.y += 2
 
@@ -150,7 +150,7 @@ def _write_step(out: SheetWriter, step: Step, solved: bool) -> None:
     out.page.y += 1
     out.markdown(step.text)
     if step.attempt:
-        out.paragraph(f"**{out.translate('Try')}.** {step.attempt}")
+        out.paragraph(f"**{out.sentence('Try')}.** {step.attempt}")
     if step.question:
         out.paragraph(step.question, QUESTION)
     if step.task:
@@ -177,14 +177,14 @@ def _write_offers(out: SheetWriter, task: Exercise, solved: bool) -> None:
 
 def _write_solution(out: SheetWriter, step: Step) -> None:
     if step.answer:
-        out.paragraph(f"**{out.translate('Solution')}.** {step.answer}")
+        out.paragraph(f"**{out.sentence('Solution')}.** {step.answer}")
     if step.task:
         for number, hint in enumerate(step.task.hints, 1):
-            out.paragraph(f"{out.translate('Hint {number}', number=number)}: {hint}", SMALL, INDENT_MM)
+            out.paragraph(f"{out.sentence('Hint {number}', number=number)}: {hint}", SMALL, INDENT_MM)
         for wrong, hint in _mistakes(out, step.task):
             out.paragraph(f"{wrong}: {hint}", SMALL, INDENT_MM)
     if step.note:
-        out.paragraph(f"**{out.translate('For the lecturer')}.** {step.note}", replace(BODY, italic=True))
+        out.paragraph(f"**{out.sentence('For the lecturer')}.** {step.note}", replace(BODY, italic=True))
 
 
 def _mistakes(out: SheetWriter, task: Exercise) -> list[tuple[str, str]]:
@@ -195,8 +195,8 @@ def _mistakes(out: SheetWriter, task: Exercise) -> list[tuple[str, str]]:
     elif isinstance(answer, OrderAnswer):
         told = [" ".join(str(k + 1) for k in order) for order, _ in answer.wrong]
     else:
-        return [(out.translate("A mistake to expect"), hint) for hint in task.words.wrong]
-    return [(out.translate("Who answers {answer}", answer=one), hint)
+        return [(out.sentence("A mistake to expect"), hint) for hint in task.words.wrong]
+    return [(out.sentence("Who answers {answer}", answer=one), hint)
             for one, hint in zip(told, task.words.wrong, strict=True)]  # fmt: skip
 
 
