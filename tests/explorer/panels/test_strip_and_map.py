@@ -279,13 +279,13 @@ def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
     ("ask", "points"),
     [
         (field_map.field_map, ({"field_deg": 0.0}, {"field_deg": 14.0})),
-        (through_focus.strip, ({"sensor_shift_um": 0.0}, {"sensor_shift_um": 400.0})),
+        (through_focus.strip, ({"sensor_shift_um": 0.0}, {"sensor_shift_um": 300.0})),
     ],
     ids=["map", "strip"],
 )
 def test_what_auto_chose_for_one_point_does_not_make_the_pictures_of_all(ask, points):
     """Six coefficients do near the axis and where all is blurred, and miss elsewhere: `auto` changes its mind."""
-    state = change(FIRST, method="auto", aim="paraxial", field_deg=2.0, f_number=5.6)
+    state = change(FIRST, method="auto", aim="paraxial", field_deg=1.5, f_number=5.6)
     answers = [live(change(state, **point)) for point in points]
     assert {answer.method for answer in answers} == {"seidel", "fitted"}
     first, second = map(ask, answers)
