@@ -26,7 +26,7 @@ from p2sf.image.highlights import (
     has_halos,
     kernel_between,
 )
-from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels, pad_kernel
+from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels, pad_to_largest
 from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, map_depths, stack_layers
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
@@ -46,6 +46,7 @@ LAYERS_NDIM = 4  # of layers, rows, columns and channels
 SAME_DEPTH = 1e-6  # a relative difference due to float32
 LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
+HEIGHTS = 3  # at which the width of blur is measured: of a curved field the corner may be the sharpest
 TILE_STEPS = 64  # of progress
 BETWEEN = 0.2  # of the scene's tolerance: the allowed error of kernels between computed nodes
 KEPT_BYTES = BYTES * MOST_KERNELS  # of depth nodes; those least recently used are computed again when needed
@@ -124,7 +125,7 @@ def form_image(
     if depth_mm is None:
         half = kernels.over(0, whole(picture.shape)).half
     else:
-        half = max(_corner_halves(planned))
+        half = max(_largest_halves(planned))
     if depth_mm is not None and stack is None:
         _check_depths(planned.scene, depth_mm)
         depths = map_depths(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2], half)
@@ -154,10 +155,10 @@ def _add_halos(out: np.ndarray, bright: BrightLight, former: "_Former") -> None:
         vergences = former.planned.vergences
         wide = full.at(row, column, float(np.interp(place, np.arange(len(vergences)), vergences)))
         near = int(min(place, max(len(vergences) - 2, 0)))
-        for number, part in ((near, near + 1 - place), (near + 1, place - near)):
-            if part:
-                wide -= part * pad_kernel(former.kernel_at(number, row, column), wide.shape[-1])
-        return group, wide
+        parts = [(part, n) for n, part in ((near, near + 1 - place), (near + 1, place - near)) if part]
+        blurs = [part * former.kernel_at(number, row, column) for part, number in parts]
+        wide, *blurs = pad_to_largest([wide, *blurs])  # beside another node or depth a blur may be wider
+        return group, wide - sum(blurs)
 
     def take(found: tuple[BrightLight, np.ndarray]) -> None:
         add_halo(out, *found)
@@ -176,7 +177,7 @@ class DepthKernels:
         if lattice is not None:
             self._nodes = {0: known_kernels(lattice)}
             return
-        halves = _corner_halves(planned)
+        halves = _largest_halves(planned)
         measured = {0, len(halves) - 1, int(np.argmin(halves))}  # the ends and the sharpest
         self._nodes = {number: node_kernels(planned, planned.vergences[number]) for number in measured}
         self._step = choose_step(list(self._nodes.values()), BETWEEN * planned.allowed_error, watch)
@@ -317,6 +318,9 @@ class _Placing:
 
     def bright(self, tile: Region) -> BrightLight:
         """Return the light of a tile that has halos."""
+        if self._former.dimmest == inf:
+            none = np.zeros(0, int)
+            return BrightLight(none, none, none, np.zeros((0, self._former.picture.shape[-1])))
         lit, depths = self.lit[tile.within(self._inside)], self._former.depths
         rows, columns = np.nonzero((lit > self._former.dimmest).any(-1))
         light = lit[rows, columns]
@@ -391,10 +395,14 @@ class _Placing:
         return values if self._shade is None else values * self._shade[box.within(self._inside)]
 
 
-def _corner_halves(planned: Plan) -> list[int]:
-    """Return the half width of the kernel in the corner at every depth node, pixels."""
-    corner, middle = ([0.0], [planned.scene.sensor.corners_mm()[1]]), len(planned.colours) // 2
-    return [int(planned.kernels(middle, v).points(*corner).half_widths()[0]) for v in planned.vergences]
+def _largest_halves(planned: Plan) -> list[int]:
+    """Return the largest half width of kernels at every depth node, pixels: of all channels, from middle to corner."""
+    heights, channels = np.linspace(*planned.scene.sensor.corners_mm(), HEIGHTS), range(len(planned.colours))
+
+    def half(channel: int, node: float) -> int:
+        return int(planned.kernels(channel, node).points(0 * heights, heights).half_widths().max())
+
+    return [max(half(channel, node) for channel in channels) for node in planned.vergences]
 
 
 def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:

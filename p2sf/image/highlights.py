@@ -10,7 +10,7 @@ from math import ceil, pi
 
 import numpy as np
 
-from p2sf.image.lattice import Lattice, pad_kernel
+from p2sf.image.lattice import Lattice, pad_kernel, pad_to_largest
 from p2sf.image.region import Region, whole
 from p2sf.metrics.tails import FAINTEST, FARTHEST
 from p2sf.pixel_kernels import RAYS, Colour, Kernels
@@ -124,7 +124,8 @@ def dimmest(full: np.ndarray, small: np.ndarray, brightest: float) -> float:
 
     ``full``, ``small``: kernels of one place; ``brightest``: of the picture.
     """
-    lost = 1 - np.minimum(pad_kernel(small, full.shape[-1]) > 0, full).sum((1, 2))
+    small, full = pad_to_largest([small, full])
+    lost = 1 - np.minimum(small > 0, full).sum((1, 2))
     return float(FAINTEST * brightest * full.max() / max(lost.max(), FAINTEST))
 
 

@@ -184,8 +184,7 @@ def _error_between(kernels: NodeKernels, step: int, watch: Progress | None) -> f
             weights = weights_between(count, step, range(node, node + 1))[0]
             near = np.flatnonzero(weights)
             true, *others = kernels.exact([(n, 0) if axis == 0 else (0, n) for n in (node, *near.tolist())], watch)
-            size = max(kernel.shape[-1] for kernel in (true, *others))
-            true, *others = (pad_kernel(kernel, size) for kernel in (true, *others))
+            true, *others = pad_to_largest([true, *others])
             found = np.tensordot(weights[near].astype(np.float32), np.stack(others), 1)
             off, whole_light = (np.square(values).sum((1, 2)) for values in (found - true, true))
             errors.append(float(np.sqrt(off / whole_light).max()))
@@ -197,6 +196,12 @@ def pad_kernel(kernel: np.ndarray, size: int) -> np.ndarray:
     """Return a kernel, (channels, rows, columns), with zeros around it, to an odd size."""
     edge = (size - kernel.shape[-1]) // 2
     return np.pad(kernel, ((0, 0), (edge, edge), (edge, edge))) if edge else kernel
+
+
+def pad_to_largest(kernels: list[np.ndarray]) -> list[np.ndarray]:
+    """Return kernels, each (channels, size, size), with zeros around them, all as large as the largest."""
+    size = max(kernel.shape[-1] for kernel in kernels)
+    return [pad_kernel(kernel, size) for kernel in kernels]
 
 
 def known_kernels(lattice: Lattice) -> NodeKernels:

@@ -76,6 +76,23 @@ def test_points_add_up_each_with_its_own_depth_and_halo():
     assert one[20, 40, 0] > 1e-6 * one.max()  # a small kernel ends at 9 pixels
 
 
+def test_a_halo_is_that_of_a_larger_picture_where_a_node_of_depth_has_a_wider_blur():
+    """Of 4 × 4 pixels, fewer than their kernels have, in the middle of 44 × 44; a tenth is asked of each."""
+    lens, counts, pictures, plans = find_lens("double_gauss_28"), (4, 44), [], []
+    for count in counts:
+        scene = Scene(Sensor(count, count, 6.0), (GREEN,), 3000.0, 12000.0, f_number=5.6, tail_error=0.1, focus_mm=3e3)
+        plans.append(plan(lens, scene))
+        pictures.append(np.zeros((count, count, 1), np.float32))
+        pictures[-1][count // 2, count // 2] = 1e4
+    middles = [slice(count // 2 - 2, count // 2 + 2) for count in counts]
+    for depth in (3323.4, 3338.5, 4589.8, 4732.9, 9546.9):
+        small, large = (
+            form_image(planned, each, np.full(each.shape[:2], depth), BLUR)[middle, middle]
+            for planned, each, middle in zip(plans, pictures, middles, strict=True)
+        )
+        np.testing.assert_allclose(small, large, rtol=0.1)
+
+
 def test_a_group_is_spread_as_the_sum_of_its_points_and_cut_at_the_edge():
     random = np.random.default_rng(4)
     rows, columns = random.integers(0, 12, 5), random.integers(0, 15, 5)

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from p2sf.errors import RequestError
-from p2sf.image import Forming, form_image
+from p2sf.image import Forming, form, form_image
+from p2sf.image.preview import preview_plan
+from p2sf.lensfile.library import find_lens
+from p2sf.scene import Scene, Sensor
 from tests.image.test_layers import BLUR, planned
 
 NODES = (1 / 8000.0, 1 / 4000.0)
@@ -35,6 +38,20 @@ def test_an_opaque_layer_is_the_picture_of_its_depth_and_hides_what_is_behind():
     two = np.stack([rgba(texture(2), 1.0), rgba(texture(1), 1.0)])
     found = form_image(made, two, np.array([8000.0, 4000.0]), BLUR)
     np.testing.assert_allclose(found, alone, atol=2e-5)  # kernels of float32 have unit sum to 1e-6 a pixel
+
+
+def test_a_layer_is_the_picture_of_its_depth_where_the_middle_blurs_more_than_the_corner():
+    scene = Scene(Sensor(161, 5, 60.0), near_mm=250.0, far_mm=250.0, focus_mm=2000.0)
+    made = preview_plan(scene.camera(find_lens("achromat_f6")), scene)
+    picture = np.random.default_rng(1).random((161, 5, 3)).astype(np.float32)
+    stack = np.concatenate([picture, np.ones((161, 5, 1), np.float32)], axis=-1)[None]
+    alone, found = form_image(made, picture, None, BLUR), form_image(made, stack, np.array([250.0]), BLUR)
+    np.testing.assert_allclose(found, alone, atol=2e-5)
+
+
+def test_layers_take_no_time_for_halos_that_they_do_not_have(monkeypatch):
+    monkeypatch.setattr(form._Placing, "lit", None)
+    assert form_image(scene_of(), rgba(texture(1), 1.0)[None], np.array([4000.0]), BLUR).any()
 
 
 @pytest.mark.parametrize("alpha", [0.0, 0.5, 1.0])
