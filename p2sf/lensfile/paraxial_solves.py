@@ -18,6 +18,7 @@ from p2sf.lensfile.raw import ParaxialSolve, RawLens
 from p2sf.lensfile.report import Notebook
 from p2sf.messages import Message
 
+NO_REFRACTION = "whose ray meets the surface on the axis, or where nothing refracts"
 SAME = 1e-4  # relative: glasses of another catalogue, and digits that files leave out
 CURVATURE, THICKNESS = Message("curvature"), Message("thickness")
 FOCUS_KEPT = "a solve puts the paraxial focus {found:.7g} mm behind it; the file's thickness, {old:.7g} mm, is kept"
@@ -86,7 +87,7 @@ def _curvature(lens: Lens, raw: RawLens, number: int, solve: ParaxialSolve) -> f
         return _second_curvature(lens, number, index, solve.value / raw.unit_mm)
     ray = _ray_before(lens, raw, number, solve)
     if not ray.y or ray.before == ray.behind:
-        raise GeometryError("whose ray meets the surface on the axis, or where nothing refracts")
+        raise GeometryError(NO_REFRACTION)
     return CURVATURES[solve.kind](ray, solve.value)
 
 
@@ -103,7 +104,10 @@ def _second_curvature(lens: Lens, number: int, index: list[float], power: float)
         raise GeometryError("before which no surface stands")
     first, (before, inside, behind) = lens.surfaces[number - 2], index
     one = first.vertex_curvature * (inside - before)
-    return (power - one) / (1 - one * first.thickness / inside) / (behind - inside)
+    height = 1 - one * first.thickness / inside  # of a ray parallel to the axis, of height 1 at the first
+    if not height or behind == inside:
+        raise GeometryError(NO_REFRACTION)
+    return (power - one) / height / (behind - inside)
 
 
 def _thickness(lens: Lens, raw: RawLens, number: int, solve: ParaxialSolve) -> float:
@@ -147,8 +151,8 @@ def _height_at_first(raw: RawLens, rows: list[conjugates.Row], index: float) -> 
     kind, value = raw.aperture or ("", 0.0)
     distance = raw.object_distance * raw.unit_mm
     if kind == "entrance_pupil_diameter":
-        pupil = 0.0 if not isfinite(distance) else _entrance(raw, rows, index) / distance
-        return value * raw.unit_mm / 2 / (1 + pupil)
+        share = (distance or 1.0) / _object_to_pupil(raw, rows, index) if isfinite(distance) else 1.0
+        return value * raw.unit_mm / 2 * share
     if kind in ("object_na", "object_cone_angle") and isfinite(distance):
         return (distance or 1.0) * conjugates.object_slope(kind, value, index)
     raise GeometryError("whose ray depends on the whole lens by its aperture")
@@ -162,6 +166,14 @@ def _entrance(raw: RawLens, rows: list[conjugates.Row], index: float) -> float:
     return index * b / a
 
 
+def _object_to_pupil(raw: RawLens, rows: list[conjugates.Row], index: float) -> float:
+    """Return the distance from the object to the entrance pupil, mm."""
+    distance = raw.object_distance * raw.unit_mm + _entrance(raw, rows, index)
+    if not distance:
+        raise GeometryError("whose entrance pupil is at the object")
+    return distance
+
+
 def _chief(raw: RawLens, rows: list[conjugates.Row], index: float) -> tuple[float, float]:
     """Return height and n·u of the chief ray of the largest field along y at the first surface."""
     pupil, fields = _entrance(raw, rows, index), [y for _, y in raw.fields]
@@ -171,5 +183,5 @@ def _chief(raw: RawLens, rows: list[conjugates.Row], index: float) -> tuple[floa
     if raw.field_kind == "angle":
         slope = conjugates.slope_of_angle(largest)
     else:
-        slope = -largest * raw.unit_mm / (raw.object_distance * raw.unit_mm + pupil)
+        slope = -largest * raw.unit_mm / _object_to_pupil(raw, rows, index)
     return -pupil * slope, index * slope

@@ -160,6 +160,22 @@ def test_a_solve_that_the_surfaces_before_do_not_determine_is_refused_without_a_
     assert read("vignetted.seq", without, stored).lens.surfaces[5].radius == -18.4
 
 
+GLASS = "  GLAS ___BLANK 1 0 1.62041 60.32 0 0 0 0 0 0\n"
+LAST_OF_GLASS = (("  CURV 0.0 2 -0.1 0 0\n", f"  CURV 0.0 8 0.03 0\n{GLASS}"),)
+PUPIL_AT_THE_OBJECT = (
+    ("CURV 0.0\n  DISZ INFINITY", "CURV 0.0\n  DISZ 0.0"),
+    ("SURF 4\n  STOP\n", "SURF 4\n"),
+    ("SURF 1\n", "SURF 1\n  STOP\n"),
+)
+
+
+@pytest.mark.parametrize("change", [LAST_OF_GLASS, PUPIL_AT_THE_OBJECT])
+def test_a_solve_whose_surface_or_aperture_determines_nothing_is_refused(change):
+    with pytest.raises(LensFileError) as refused:
+        read("vignetted.zmx", *change)
+    assert refused.value.message.values["message"].values["surface"] == 6
+
+
 def test_a_solve_that_gives_another_number_than_the_file_is_told_and_the_file_kept():
     found = read("vignetted.seq", ("S 0.0 0.0\n", "S -20.0 41.0\n"))
     notes = [note.message.values for note in found.report.notes if "old" in note.message.values]

@@ -2313,6 +2313,7 @@
 <message><source>whose ray depends on surfaces behind it, before the stop</source><translation>deren Strahl von Flächen dahinter, vor der Blende, abhängt</translation></message>
 <message><source>whose ray depends on the whole lens by its aperture</source><translation>deren Strahl durch die Öffnung vom ganzen Objektiv abhängt</translation></message>
 <message><source>whose entrance pupil is at infinity</source><translation>deren Eintrittspupille im Unendlichen liegt</translation></message>
+<message><source>whose entrance pupil is at the object</source><translation>deren Eintrittspupille am Objekt liegt</translation></message>
 <message><source>whose chief ray depends on the whole lens by its fields</source><translation>deren Hauptstrahl durch die Felder vom ganzen Objektiv abhängt</translation></message>
 <message><source>the pickup {command} is not evaluated; the numbers that the file states are read</source><translation>der Bezug {command} wird nicht ausgewertet; gelesen sind die Zahlen, die die Datei angibt</translation></message>
 <message><source>the solve {command} is not evaluated; the number that the file states is read</source><translation>der Solve {command} wird nicht ausgewertet; gelesen ist die Zahl, die die Datei angibt</translation></message>
