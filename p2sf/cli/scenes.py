@@ -307,8 +307,13 @@ def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -
     if not shown.deblur:
         return formed, facts
     lattice = plan_lattice(planned, planned.vergences[0])  # of the scene's far end
-    noise = float(scene.sensor.noise(np.mean(light))) or shown.noise
+    noise = noise_of(scene.sensor, light, shown)
     return _sharpen(lattice, formed, shown, noise), {**facts, "deblur": shown.deblur}
+
+
+def noise_of(sensor: Sensor, light: np.ndarray, shown: Shown) -> float:
+    """Return the standard deviation of a reading at the mean of the light: the sensor's noise and what is added."""
+    return float(np.hypot(sensor.noise(np.mean(light)), shown.noise))
 
 
 def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:

@@ -8,6 +8,7 @@ import tifffile
 
 import p2sf
 from p2sf.cli import main
+from p2sf.cli.scenes import Shown, noise_of
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.errors import RequestError
 from p2sf.image import Forming, expose, form_image, raw_numbers
@@ -54,6 +55,11 @@ def test_mean_and_variance_are_those_of_electrons(light, read_noise, fill):
     assert electrons.mean() == pytest.approx(signal, abs=5 * np.sqrt(variance / COUNT))
     assert electrons.var() == pytest.approx(variance, rel=5 * np.sqrt(2.2 / COUNT))
     assert 1000 * sensor.noise(light) == pytest.approx(np.sqrt(variance), rel=1e-12)
+
+
+def test_sharpening_takes_the_noise_of_the_sensor_and_what_is_added():
+    step = 1 / (4095 * np.sqrt(12))
+    assert noise_of(pixels(bits=12), flat(0.5), Shown(noise=0.02)) == pytest.approx(np.hypot(0.02, step), rel=1e-6)
 
 
 def test_light_without_read_noise_comes_in_whole_electrons_and_never_beyond_the_well():
