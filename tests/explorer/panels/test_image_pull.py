@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.errors import RequestError
+from p2sf.errors import GeometryError, RequestError
 from p2sf.io.photo_files import write_photo
 from p2sf.io.transfer import srgb_from_linear
 from p2sf_explorer.compute import live as compute
@@ -63,6 +63,30 @@ def test_the_psf_of_a_place_is_that_of_its_depth(near):
     rows, columns = near.after.shape[:2]
     sharp, wide = (local_psf(near, rows / 2, column) for column in (columns // 6, 5 * columns // 6))
     assert (wide > 0.1).sum() > 2 * (sharp > 0.1).sum()
+
+
+def test_the_psf_of_a_place_needs_no_map_once_the_picture_is_made(tmp_path):
+    path = tmp_path / "map.png"
+    write_photo(path, np.linspace(0, 1, 30)[:, None].repeat(45, 1), "linear")
+    found = moving(asked(photo_depths=str(path)))
+    before = local_psf(found, 100.0, 20.0)
+    path.unlink()
+    assert (local_psf(found, 100.0, 20.0) == before).all()
+    assert moving(asked(photo_depths="")).psfs is None
+
+
+def test_the_picture_by_rays_answers_what_was_asked(monkeypatch):
+    def fail(kept, camera):
+        raise GeometryError("no polynomials")
+
+    monkeypatch.setattr(image, "focused_picture", fail)
+    assert moving(asked()).question == asked()
+
+
+def test_the_shade_that_is_kept_is_that_of_the_lens_and_its_rims(keeper):
+    for changes in ({"clip": True}, {"clip": False}, {"lens": "double_gauss_28", "clip": False}):
+        kept = moving(asked(photo_depths="", **changes), keeper=keeper).after
+        np.testing.assert_array_equal(kept, moving(asked(photo_depths="", **changes)).after)
 
 
 def test_depths_count_through_the_lens_alone():

@@ -172,14 +172,16 @@ TO_THE_RIM = (1.0, 0.95, 0.9, 0.8, 0.7, 0.5)  # of the lens's widest field, wher
 
 @dataclass(frozen=True, eq=False)
 class PsfsByDepth:
-    """The PSFs of a picture at some depths, ``vergences`` 1/mm from far to near."""
+    """The PSFs of a picture at some depths, ``vergences`` 1/mm from far to near, and its own depths, mm."""
 
     lattices: tuple[Lattice, ...]
     vergences: np.ndarray
+    depth_mm: np.ndarray
 
-    def nearest(self, depth_mm: float) -> Lattice:
-        """Return those nearest to a depth."""
-        return self.lattices[int(np.abs(self.vergences - vergence(depth_mm)).argmin())]
+    def nearest(self, row: float, column: float) -> Lattice:
+        """Return those nearest to the depth of a place in the picture."""
+        here = vergence(self.depth_mm[round(row), round(column)])
+        return self.lattices[int(np.abs(self.vergences - here).argmin())]
 
 
 @dataclass(frozen=True)
@@ -342,7 +344,9 @@ class Keeper:
     def kept(self, request: ImageRequest, values: np.ndarray, scene: Scene, seen: SensorMap) -> KeptPicture:
         """Return what is kept of a picture, made anew where it is another, or distorted otherwise."""
         stamps = change_time(request.photo), change_time(request.depths.source)
-        key = (request.photo, request.depths, *stamps, request.shape, scene.near_mm, scene.far_mm, scene.channels)
+        shading = request.clip, tuple(surface.radius for surface in request.lens.surfaces)  # of any focus and f-number
+        place = request.shape, scene.near_mm, scene.far_mm, scene.channels
+        key = (request.photo, request.depths, *stamps, *place, *shading)
         if self._kept is not None and self._seen is not None and key == self._key:
             moved = moved_px(self._seen, self._kept.scene.sensor, seen, scene.sensor)
             if moved <= MOST_MOVED_PX:
@@ -378,8 +382,9 @@ def moving(request: ImageRequest, watch: Progress | None = None, keeper: Keeper 
         kept = (keeper or Keeper()).kept(request, values, scene, plan.sensor_map(float(scene.vergences(2)[0])))
         found = focused_picture(kept, camera)
     except GeometryError:
-        return coarse(replace(request, depths=ONE_DISTANCE), watch)
-    psfs = psfs_by_depth(found.kernels, kept)
+        return replace(coarse(replace(request, depths=ONE_DISTANCE), watch), question=request)
+    lattices, vergences = psfs_by_depth(found.kernels, kept)
+    depths = depth_map(request.depths, request.photo, request.shape)
     count = Message("{count} PSFs", count=int(np.prod(found.kernels.kernels.shape[:4])))
     cut = frame_notes(request.photo, request.shape)
     why_not = no_plan(plan)
@@ -391,26 +396,26 @@ def moving(request: ImageRequest, watch: Progress | None = None, keeper: Keeper 
         after=found.values,
         quality="coarse",
         plan=plan,
-        lattice=psfs.lattices[0],
+        lattice=lattices[0],
         seconds=perf_counter() - begun,
         headline=count,
         notes=(*frame, *moved_in(request, plan), (Message("Coarse"), UNMEASURED[why_not]), (Message("Error"), off)),
         cut=cut[0] if cut else None,
         no_plan=why_not,
         error=found.error,
-        psfs=psfs,
+        psfs=None if depths is None else PsfsByDepth(lattices, vergences, depths),
     )
 
 
-def psfs_by_depth(nodes: KernelNodes, kept: KeptPicture) -> PsfsByDepth:
-    """Return the PSFs of a moving picture, at its own pixels."""
+def psfs_by_depth(nodes: KernelNodes, kept: KeptPicture) -> tuple[tuple[Lattice, ...], np.ndarray]:
+    """Return the PSFs of a moving picture, at its own pixels, and their vergences, 1/mm."""
     times = kept.times
     rows, columns = ((n + 0.5) * times - 0.5 for n in (nodes.row_nodes, nodes.column_nodes))
     far, near = kept.scene.vergences(2)
     depths = far + nodes.depths / (LEVELS - 1) * (near - far)
     by_depth = np.moveaxis(nodes.kernels, 0, 3)
     lattices = tuple(Lattice(rows, columns, [list(line) for line in at]) for at in by_depth)
-    return PsfsByDepth(lattices, depths)
+    return lattices, depths
 
 
 def unmeasured_plan(request: ImageRequest) -> Plan:
@@ -753,7 +758,7 @@ def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
 
 def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
     """Return the PSF of a place in the picture as the picture uses it, (size, size, 3), its peak at 1."""
-    lattice = psf_lattice(answer, row, column)
+    lattice = answer.psfs.nearest(row, column) if answer.psfs else answer.lattice
     size = 2 * lattice.half + 1
     down = hats(lattice.row_nodes, np.array([row]))[:, 0]
     right = hats(lattice.column_nodes, np.array([column]))[:, 0]
@@ -763,15 +768,6 @@ def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
         edge = (size - kernel.shape[-1]) // 2
         total[:, edge : size - edge, edge : size - edge] += np.float32(down[a] * right[b]) * kernel
     return in_colours(np.moveaxis(total / total.max(), 0, -1))
-
-
-def psf_lattice(answer: ImageResult, row: float, column: float) -> Lattice:
-    """Return the PSFs of the depth that a place in the picture has."""
-    asked = answer.question
-    depths = depth_map(asked.depths, asked.photo, asked.shape)
-    if depths is None or answer.psfs is None:
-        return answer.lattice
-    return answer.psfs.nearest(float(depths[round(row), round(column)]))
 
 
 def pixels(values: np.ndarray) -> np.ndarray:
