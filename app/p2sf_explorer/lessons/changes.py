@@ -63,7 +63,7 @@ def _value(name: str, word: str) -> object:
         parts = () if word == "none" else tuple(word.split("+"))
         return tuple(map(float, parts)) if name in LISTED else parts
     if isinstance(known[name], str) or name == "lens_text":
-        return word
+        return "" if word == "none" and known[name] == "" else word
     try:
         return NUMBERS[word] if word in NUMBERS else (int if PLAIN.get(name) is int else float)(word)
     except ValueError:

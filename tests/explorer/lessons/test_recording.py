@@ -40,6 +40,14 @@ def test_each_step_shows_what_was_on_screen(tmp_path):
         assert (lesson.steps[number].text, lesson.steps[number].attempt) == ("Words.", "Try this.")
 
 
+def test_depths_of_a_picture_come_and_go_but_a_map_of_ones_own_is_left_out(tmp_path):
+    states = START, change(START, photo_depths="slope"), START, change(START, photo_depths="/home/me/map.png")
+    path = save_lesson("Depths", "", steps(*states), tmp_path)
+    lesson = read_lesson(path)
+    assert [lesson.state(number).photo.depths for number in range(4)] == ["", "slope", "", ""]
+    assert "map.png" not in path.read_text(encoding="utf-8")
+
+
 def test_an_edited_lens_stands_beside_its_lesson(tmp_path):
     state = edited_state(change(START, keep_focus="off"), prescription(default_state("tessar")))
     lesson = read_lesson(save_lesson("Mine", "", steps(state), tmp_path))

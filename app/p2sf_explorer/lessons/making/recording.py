@@ -13,6 +13,7 @@ from p2sf.errors import P2SFError
 from p2sf.lensfile.source_text import write_text
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.compute.setup import default_state, prescription, shipped_names, with_lens
+from p2sf_explorer.compute.views.depths import FLAT, SLOPE, STEPS
 from p2sf_explorer.lessons.changes import read_changes
 from p2sf_explorer.lessons.lesson import ENGLISH, ENTRY, PERSONAL, parse_lesson
 from p2sf_explorer.lessons.making.questions import Question, question_lines
@@ -83,6 +84,8 @@ def _written(name: str, old: Any, new: Any) -> list[str]:
         return [f"errors {'+'.join(f'{kind} {a}-{b} {amount:.10g}' for kind, a, b, amount in new) or 'none'}"]
     if isinstance(new, tuple):
         return [f"{name} {'+'.join(_value(item) for item in new) or 'none'}"]
+    if name == "photo_depths" and new not in (FLAT, SLOPE, STEPS):
+        return []  # a file, as `LEFT_OUT` has them
     return [f"{name} {_value(new)}"]
 
 
@@ -93,7 +96,7 @@ def _value(value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(value, float):
         return "inf" if value == inf else f"{value:.10g}"
-    return str(value)
+    return str(value) or "none"
 
 
 def _reads_back(part: str) -> bool:
