@@ -104,7 +104,8 @@ def write_table(table: ResultTable, path: Path) -> Path:
     """Write the table as CSV, one row a file, six columns a task; ExportError."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
-    rows.writerow((*PERSON, "right in all", *(f"{task} {part}" for task in table.tasks for part in OF_TASK)))
+    heads = (_plain_text(f"{task} {part}") for task in table.tasks for part in OF_TASK)
+    rows.writerow((*PERSON, "right in all", *heads))
     for file, result in table.rows:
         person = (result.name, file.name, result.program, result.course, result.language)
         right = sum(record.right for record in result.tasks.values())

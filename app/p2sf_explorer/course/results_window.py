@@ -1,8 +1,10 @@
 """The results of a class: students by tasks, how many got each right, and the files that could not be read."""
 
 from collections.abc import Callable
+from html import escape
 from pathlib import Path
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
@@ -47,6 +49,7 @@ class ResultsWindow(QDialog):
         self.faults.setObjectName("warning")
         for label in (key, self.faults):
             label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
         self.faults.setText("\n".join(f"⚠ {fault.message.text(WINDOW)}" for fault in table.faults))
         self.faults.setVisible(bool(table.faults))
         self.save, close = QPushButton(tr("Save as CSV…"), self), QPushButton(tr("Close"), self)
@@ -80,12 +83,12 @@ class ResultsWindow(QDialog):
             item = QTableWidgetItem(f"{lecture}\n{name}\n{100 * found.share_right:.0f} %")
             wrong = ", ".join(f"{answer} ({count})" for answer, count in found.wrong)
             tip = tr("{count} tried it; wrong at first: {wrong}", count=found.count, wrong=wrong or "–")
-            item.setToolTip(f"{task}\n{tip}")
+            item.setToolTip(literal_tip(f"{task}\n{tip}"))
             self.table.setHorizontalHeaderItem(column, item)
 
     def _fill(self, row: int, path: Path, result: CourseResult, version: str) -> None:
         right = sum(record.right for record in result.tasks.values())
-        self.table.put(row, 0, result.name or path.stem).setToolTip(path.name)
+        self.table.put(row, 0, result.name or path.stem).setToolTip(literal_tip(path.name))
         self.table.put(row, 1, str(right), right=True)
         other = result.course != version
         self.table.put(row, 2, f"⚠ {result.course}" if other else result.course).setToolTip(
@@ -95,7 +98,7 @@ class ResultsWindow(QDialog):
             record = result.tasks.get(task)
             cell = self.table.put(row, column, sign(record) if record else "")
             if record:
-                cell.setToolTip(", ".join(record.answers))
+                cell.setToolTip(literal_tip(", ".join(record.answers)))
 
     def ask_save(self) -> None:
         """Ask for a name and write the table as CSV."""
@@ -111,6 +114,11 @@ class ResultsWindow(QDialog):
             self._done(error)
             return
         self._done(Message("Saved {name}", name=path.name))
+
+
+def literal_tip(text: str) -> str:
+    """Return a tooltip that shows what a student's file says as it is, and never as HTML."""
+    return f"<qt>{escape(text)}</qt>".replace("\n", "<br>")
 
 
 def count_words(table: ResultTable) -> str:

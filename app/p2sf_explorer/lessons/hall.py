@@ -97,8 +97,9 @@ class Hall(QObject):
     def _tell(self, step: Step) -> None:
         """Show the answer, and the state that the question had asked to predict."""
         self.card.tell(step)
-        if step.task and step.task.see:
-            self._store.replace(apply_changes(self._store.state, step.task.see))
+        lesson, now = self._lesson(), self._store.state
+        if lesson and step.task and step.task.see:
+            self._store.replace(apply_changes(lesson.state(self._step[1], now), step.task.see))
 
     def _lesson(self) -> Lesson | None:
         name = self._store.state.lesson.name

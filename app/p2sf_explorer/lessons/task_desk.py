@@ -65,14 +65,15 @@ class TaskDesk(QObject):
 
     def show(self, lesson: Lesson, number: int) -> None:
         """Show the task of a step in the panel, hidden where it has none."""
-        if (lesson, number) != (self._lesson, self._number):
+        another = (lesson, number) != (self._lesson, self._number)
+        if another:
             self._lesson, self._number = lesson, number
             self._clock.start()
         if self._panel:
             task = lesson.steps[number].task
             self._panel.setVisible(task is not None)
             if task:
-                self._panel.show_task(self.view(lesson, task))
+                self._panel.show_task(self.view(lesson, task), another)
 
     def answer(self, text: str) -> None:
         """Judge an answer to the task on show, note it, and show what it predicted."""
@@ -129,6 +130,7 @@ class TaskDesk(QObject):
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             write_result(path, self.result().with_record(lesson.name, task.name, record))
+            self._read = None  # some file systems give two writings the same time
         except OSError as error:
             self._store.said.emit(ExportError("{path} cannot be written", path=str(error.filename)))
         except ExportError as error:

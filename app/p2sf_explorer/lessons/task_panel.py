@@ -71,10 +71,10 @@ class TaskPanel(QFrame):
     def _on_check(self) -> None:
         self.answered.emit(self.field.text())
 
-    def show_task(self, view: TaskView) -> None:
-        """Show a task with what was answered before."""
+    def show_task(self, view: TaskView, afresh: bool = False) -> None:
+        """Show a task with what was answered before; ``afresh`` where the same one stands in another lesson."""
         task, record = view.task, view.record
-        if task != self._task:
+        if afresh or task != self._task:
             self._task = task
             field = answer_field(task)
             field.entered.connect(self._on_check)

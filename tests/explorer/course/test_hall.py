@@ -41,6 +41,15 @@ def test_page_down_shows_question_answer_and_next_step(window, qtbot, hall, teac
     assert window.store.state.lesson.step == place.step
 
 
+def test_the_answer_is_seen_at_the_state_of_the_step_and_undo_brings_the_sliders_back(window, qtbot, hall, teaching):
+    window.store.update(f_number=9.0)
+    press(qtbot, window, Qt.Key.Key_PageDown, Qt.Key.Key_PageDown)
+    step = teaching.shelf(NAME)[NAME].state(STEP["choice"])
+    assert (window.store.state.optics.field_deg, window.store.state.optics.f_number) == (2.0, step.optics.f_number)
+    window.store.undo()
+    assert window.store.state.optics.f_number == 9.0
+
+
 def test_page_up_puts_the_question_away_first(window, qtbot, hall):
     place = window.store.state.lesson
     press(qtbot, window, Qt.Key.Key_PageDown, Qt.Key.Key_PageUp)

@@ -85,7 +85,7 @@ def test_no_name_or_answer_becomes_a_formula_in_a_spreadsheet(tmp_path):
     record = TaskRecord().with_answer("=1+1", False)
     write_result(tmp_path / "a.json", CourseResult(name="@SUM(A1)").with_record("lecture_1", "airy", record))
     record = TaskRecord().with_answer("-6.7", False)
-    write_result(tmp_path / "b.json", CourseResult(name="+B").with_record("lecture_1", "airy", record))
+    write_result(tmp_path / "b.json", CourseResult(name="+B").with_record("=2+3", "airy", record))
     path = write_table(read_folder(tmp_path), tmp_path / "table.csv")
     cells = [cell for row in csv.reader(path.read_text(encoding="utf-8-sig").splitlines()) for cell in row]
     assert not [cell for cell in cells if cell.startswith(("=", "@", "+"))] and "-6.7" in cells

@@ -1,11 +1,15 @@
 """Lectures in the window: tasks answered by mouse and keyboard, hints, solutions, progress, results in and out."""
 
+import html
+import os
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from p2sf_explorer.course.lectures import AFTER, BEFORE, course_version
 from p2sf_explorer.course.results_window import FIRST
+from p2sf_explorer.lessons import task_desk
 from p2sf_explorer.lessons.answer_fields import OptionLabel
 from p2sf_explorer.lessons.controller import progress_path
 from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
@@ -150,6 +154,42 @@ def test_a_concept_check_takes_one_answer_and_tells_only_afterwards(teaching, na
     assert not panel.field.isEnabled() and "Never shown." not in teaching.panel.title.text()
     assert ("Never shown." in panel.verdict.text()) == told and teaching.panel.reveal.isVisible() == told
     assert record(teaching, "c1", {BEFORE: AFTER, AFTER: BEFORE}[name]).attempts == 0
+
+
+def test_the_check_after_the_course_shows_nothing_of_the_answer_before(teaching):
+    teaching.begin(BEFORE)
+    panel = teaching.panel.task
+    panel.field.show_answer("2")
+    panel.check.click()
+    teaching.begin(AFTER)
+    assert not panel.field.text() and not panel.verdict.isVisible() and panel.field.isEnabled()
+
+
+def test_answers_that_are_written_at_the_same_time_of_a_file_are_all_kept(teaching, at, monkeypatch):
+    """Some file systems count whole seconds."""
+
+    def write(path, result):
+        write_result(path, result)
+        os.utime(path, (1e9, 1e9))
+
+    monkeypatch.setattr(task_desk, "write_result", write)
+    for task in ("radius", "choice", "order"):
+        at(task)
+        teaching.panel.task.hint.click()
+        teaching.desk.answer({"radius": "6.7", "choice": "2", "order": "1 2 3"}[task])
+    assert [record(teaching, task).right for task in ("radius", "choice", "order")] == [True] * 3
+
+
+def test_what_a_students_file_says_is_never_read_as_html(course, tmp_path):
+    folder, trick = tmp_path / "class", '<img src="file:///x.png">'
+    folder.mkdir()
+    answered = TaskRecord().with_answer(trick, False)
+    write_result(folder / "a.json", CourseResult(name="A").with_record(NAME, "radius", answered))
+    course.open_folder(folder)
+    table = course.results.table
+    tips = table.item(0, FIRST).toolTip(), table.horizontalHeaderItem(FIRST).toolTip()
+    assert all(trick not in tip and html.unescape(tip).count(trick) == 1 for tip in tips)
+    assert course.results.faults.textFormat() == Qt.TextFormat.PlainText
 
 
 def test_a_lecture_plays_its_lessons_and_they_lead_back(window, teaching):
