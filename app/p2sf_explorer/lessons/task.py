@@ -148,11 +148,9 @@ def diagnose(value: float, wanted: float) -> Message:
             return Message("Not yet: the size is right, and the sign is not.")
         if isclose(abs(power), log10(2), abs_tol=0.01):
             return Message("Not yet: a factor of two is wrong. Radius or diameter?")
-    if abs(value) == abs(wanted) or copysign(1, value) != copysign(1, wanted):
+    if value == wanted or copysign(1, value) != copysign(1, wanted):
         return WRONG
-    return (
-        Message("Not yet: that is too large.") if abs(value) > abs(wanted) else Message("Not yet: that is too small.")
-    )
+    return Message("Not yet: that is too large.") if value > wanted else Message("Not yet: that is too small.")
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.lessons.changes import apply_changes
 from p2sf_explorer.lessons.lesson import parse_lesson, with_words
-from p2sf_explorer.lessons.task import shuffle
+from p2sf_explorer.lessons.task import diagnose, shuffle
 from p2sf_explorer.lessons.typed_numbers import read_typed, units_like
 from p2sf_explorer.state.state import change
 
@@ -165,6 +165,11 @@ def test_a_foreseen_wrong_number_has_its_own_hint_and_others_tell_the_slip():
     assert judged("radius", "13.4").hint == "The diameter." and judged("radius", "3.4").hint == "Half of it."
     said = {judged("radius", text).words.template for text in ("6700", "-6.7", "20", "0.1")}
     assert len(said) == 4 and not any(judged("radius", text).hint for text in ("6700", "-6.7", "20", "0.1"))
+
+
+def test_of_negative_numbers_the_lower_one_is_too_small():
+    assert diagnose(-3.0, -2.0).template == diagnose(2.0, 3.0).template
+    assert diagnose(-2.0, -3.0).template == diagnose(3.0, 2.0).template != diagnose(2.0, 3.0).template
 
 
 def test_the_programs_own_figure_is_the_answer_at_the_state_of_the_task():
