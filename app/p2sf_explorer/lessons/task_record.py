@@ -97,9 +97,14 @@ def _result(content: dict[str, Any]) -> CourseResult:
     tasks = _entry(content, "tasks", dict)
     if len(tasks) > MOST_TASKS:
         raise ValueError("tasks")
-    return CourseResult(**{name: text[:LONGEST] for name, text in texts.items()}, tasks={
-        key: _record(record, key) for key, record in tasks.items()
+    return CourseResult(**{name: _printable(text) for name, text in texts.items()}, tasks={
+        _printable(key): _record(record, key) for key, record in tasks.items()
     })  # fmt: skip
+
+
+def _printable(text: str) -> str:
+    """Return the first LONGEST characters, spaces for those by which a file could steer a terminal."""
+    return "".join(letter if letter.isprintable() else " " for letter in text[:LONGEST])
 
 
 def _record(content: object, key: str) -> TaskRecord:
@@ -112,7 +117,7 @@ def _record(content: object, key: str) -> TaskRecord:
     if not isinstance(seconds, int | float) or isinstance(seconds, bool) or not isfinite(seconds) or seconds < 0:
         raise ValueError(f"{key} seconds")
     right, told = (_entry(content, name, bool) for name in ("right", "told"))
-    return TaskRecord(tuple(answer[:LONGEST] for answer in answers), hints, right, told, float(seconds))
+    return TaskRecord(tuple(map(_printable, answers)), hints, right, told, float(seconds))
 
 
 def _entry(content: dict[str, Any], name: str, kind: type) -> Any:

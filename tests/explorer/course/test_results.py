@@ -91,6 +91,14 @@ def test_no_name_or_answer_becomes_a_formula_in_a_spreadsheet(tmp_path):
     assert not [cell for cell in cells if cell.startswith(("=", "@", "+"))] and "-6.7" in cells
 
 
+def test_a_file_cannot_steer_the_terminal(tmp_path, capsys):
+    record = TaskRecord().with_answer("\x1b[2J6.7\u00a0µm", False)
+    write_result(tmp_path / "a.json", CourseResult(name="A\x07").with_record("lecture\n", "airy", record))
+    assert read_result(tmp_path / "a.json").record("lecture ", "airy").answers == (" [2J6.7 µm",)
+    assert main(["course", "--results", str(tmp_path)]) == 0
+    assert all(line.isprintable() for line in capsys.readouterr().out.splitlines())
+
+
 GOOD = {
     MARK: FORMAT,
     "name": "A",
