@@ -14,13 +14,15 @@ lines; a scene already in it is not tried again, so that a run that was stopped 
 those of the whole file. Set OMP_NUM_THREADS=1 and OPENBLAS_NUM_THREADS=1, or a second thread counts as CPU time.
 
 At the end it prints the sums of every lens and of all, full grid, plan, plan with its planning, and the figures that
-matter: seconds of planning, savings with the planning counted in, and how many errors the prediction bounds.
+matter: seconds of planning, savings with the planning counted in, and a histogram of the errors found, in parts of the
+predicted ones.
 """
 
 import argparse
 import json
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from math import ceil
 from pathlib import Path
 from time import process_time
@@ -51,7 +53,9 @@ from p2sf.scene.planning.verify import error_at, planned_kernel
 SCENES, POINTS, SAMPLE = 20, 1, 8
 HARDEST, TRIED_DEPTHS = 1, 7
 TOLERANCES = 0.2, 0.1, 0.05, 0.03
-LARGE = 1.0  # second of full grid: a scene that is worth a plan
+LARGE = 0.3  # seconds of full grid: a scene that is worth a plan
+NO_LOSS = 0.9  # of the full grid's cost per that of a plan with its planning: no worse than without a plan
+SLACK = 0, 0.1, 0.25, 0.5, 0.75, 1  # parts of the predicted error between which the found ones are counted
 AFFORDABLE = 2e11  # products of a reference sum, some minutes of one core
 TABLE, TABLES = lens_pupils._table, []  # makes the pupils that are kept of a lens; CPU seconds of each
 SLOWEST_TRIED = 4.0  # f-number: faster lenses are stopped down to it or beyond, as their rims are not clipped here
@@ -312,22 +316,33 @@ def print_figures(rows: list[dict]) -> None:
     for name in dict.fromkeys(row["lens"] for row in rows):
         print(sums(name, [row for row in rows if row["lens"] == name]))
     print(sums("all", rows))
-    planning, saving, large = (
+    planning, saving, full, found = (
         np.array(column)
         for column in zip(
-            *((row["planning_seconds"], row["saving_with_planning"], row["naive_seconds"] >= LARGE) for row in rows),
+            *(
+                (r["planning_seconds"], r["saving_with_planning"], r["naive_seconds"], r["worst"] / r["predicted"])
+                for r in rows
+            ),
             strict=True,
         )
     )
+    large = saving[full > LARGE]
     print(f"{len(rows)} scenes, {len(missed)} missed, {sum(row['meets'] for row in missed)} of these unannounced")
     print(f"planning: median {np.median(planning):.3f} s, worst {planning.max():.3f} s")
     print(
-        f"saving with the planning counted in: median {np.median(saving):.1f}×, at least 5× in "
-        f"{np.mean(saving >= 5):.1%} of the scenes; in {large.sum()} scenes of {LARGE:g} s of full grid and more: "
-        f"median {np.median(saving[large]) if large.any() else np.nan:.1f}×, "
-        f"at least 5× in {np.mean(saving[large] >= 5) if large.any() else np.nan:.1%}"
+        f"saving with the planning counted in: median {np.median(saving):.1f}×, least {saving.min():.2f}×, at least "
+        f"{NO_LOSS}× in {np.mean(saving >= NO_LOSS):.1%}, at least 5× in {np.mean(saving >= 5):.1%} of the scenes"
     )
+    if len(large):
+        print(
+            f"in {len(large)} scenes of more than {LARGE:g} s of full grid: median {np.median(large):.1f}×, "
+            f"least {large.min():.2f}×, at least 5× in {np.mean(large >= 5):.1%}"
+        )
+    if (saving < NO_LOSS).any():
+        print(f"the dearest full grid of those below {NO_LOSS}×: {full[saving < NO_LOSS].max():.3f} s")
     print(f"the predicted error bounds the found one in {np.mean([row['bounded'] for row in rows]):.1%}")
+    for low, high in pairwise((*SLACK, np.inf)):
+        print(f"found {low:g} to {high:g} of the predicted error: {np.mean((low < found) & (found <= high)):.1%}")
 
 
 def sums(name: str, rows: list[dict]) -> str:
