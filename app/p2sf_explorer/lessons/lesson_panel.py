@@ -168,9 +168,12 @@ class LessonPanel(QFrame):
     def _on_range(self) -> None:
         """Bring an answer into view that has just been shown, its question above it where there is room for both."""
         if self._to_answer:
-            self._to_answer = False
+            QTimer.singleShot(0, self._stop_following)  # lines that wrap anew change the range more than once
             bar, foot = self.area.verticalScrollBar(), self.answer.geometry().bottom() + 1
             bar.setValue(max(bar.value(), min(self.question.y(), foot - self.area.viewport().height())))
+
+    def _stop_following(self) -> None:
+        self._to_answer = False
 
 
 class StepBar(QWidget):
