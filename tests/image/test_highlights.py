@@ -8,6 +8,7 @@ from p2sf.image import Forming, form_image
 from p2sf.image.highlights import BrightLight, add_halo, groups_of
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
+from p2sf.metrics.tails import FAINTEST
 from p2sf.pixel_kernels.pixels import rim_gain
 from p2sf.pupil.mask import PupilMask
 from p2sf.scene import Channel, Scene, Sensor, plan, read_scene
@@ -45,8 +46,9 @@ def test_the_halo_of_a_bright_point_is_that_of_every_ray(mask, channel):
     place = float(sensor.x_mm(at)), float(sensor.y_mm(at))
     exact = reference_kernel(planned.sensor_map(0.0), channel, *place, half, 6.0)
     exact *= part.sum() / exact.sum()  # in this window
-    np.testing.assert_allclose(rings(part), rings(exact), rtol=0.02)
-    assert rings(exact)[-1] < (2e-6 if half == 60 else 3e-5) * exact.max()
+    promised = rings(exact) >= FAINTEST * exact.max()
+    np.testing.assert_allclose(rings(part)[promised], rings(exact)[promised], rtol=0.02)
+    assert rings(exact)[-1] < 5e-5 * exact.max()  # spikes of vanes are the brightest
     far = np.hypot(*np.mgrid[-half : half + 1, -half : half + 1]) > 6
     assert np.abs(part - exact)[far].max() < 3e-5 * exact.max()
 
