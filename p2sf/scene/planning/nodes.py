@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.pixel_kernels import Colour
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.field_area import Point
-from p2sf.scene.planning.study import Study, distance, weighted_sum
+from p2sf.scene.planning.study import SEEN_AT, Study, distance, weighted_sum
 
 NODE_COUNTS = (*range(1, 10), 11, 13, 15, 17, 21, 25, 29, 33, 41, 49, 57, 65, 81, 97)
 DEPTH_COUNTS = (*NODE_COUNTS, 113, 129, 161, 193)
@@ -116,12 +116,16 @@ DepthPlace = tuple[Colour, Point, float]  # channel, point of the area, vergence
 
 
 def depth_places(study: Study, colours: Sequence[Colour]) -> list[DepthPlace]:
-    """Return the points where depth nodes are tried: first the sharpest corner in blue, then the axis and both ends."""
+    """Return the points where depth nodes are tried: the sharpest corner in blue first, the axis, and between the two.
+
+    Where the image is curved, the kernels between axis and corner may be the sharpest, and change most with depth.
+    """
     blue, *others = sorted(colours, key=lambda colour: min(colour.wavelengths_um))
     axis, middle, corner = study.sharpest(blue.wavelengths_um[0])
     far, *others_far, near = study.area.corners
     places = [(blue, far, v) for v in (corner, middle, *study.scan)]
     places += [(blue, near, v) for v in (axis, *study.scan)]
+    places += [(blue, study.area.outwards(SEEN_AT[1]), v) for v in (middle, *study.scan)]
     places += [(blue, point, v) for point in others_far for v in study.scan]
     for colour in others:
         axis, _, corner = study.sharpest(colour.wavelengths_um[0])
