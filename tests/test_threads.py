@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import lru_cache, partial
 from threading import Barrier, Event, current_thread
+from time import monotonic, sleep
 
 import numpy as np
 import pytest
@@ -29,7 +30,14 @@ def no_environment(monkeypatch):
 
 @pytest.fixture
 def two_blas_threads():
-    """Give BLAS two threads as a fresh process on two cores has them: no thread has asked for them."""
+    """Give BLAS two threads as a fresh process on two cores has them: no thread has asked for them.
+
+    Workers of windows that earlier tests have closed may still be within `one_blas_thread`.
+    """
+    patient_until = monotonic() + PATIENCE
+    while one_blas_thread._process.within:
+        assert monotonic() < patient_until, "a context of an earlier test was never left"
+        sleep(0.01)
     limits = threadpool_limits(2, "blas")
     for library in ThreadpoolController().lib_controllers:
         if hasattr(library, "clear_controlling_thread"):

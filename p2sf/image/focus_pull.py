@@ -45,7 +45,6 @@ SHARP_PX = 4.0  # a blur of a larger radius leaves nothing of the finest octave
 LIGHT_HEIGHTS = 4
 MOST_SAMPLES = 8  # of λ/2NA across a pixel: it hides what diffraction adds to more
 MARGIN, LEAST_ERROR = 1.6, 2e-3  # of what is expected; edges of depth, rounding
-FEW_PIXELS = 624  # along the longer side: smaller pictures were seen to be off by more than is expected, up to twice
 
 
 @dataclass(frozen=True)
@@ -313,8 +312,7 @@ def expected_error(kept: KeptPicture, part: KernelComponents, spreads: list[np.n
     """
     moved = (kept.moved_px * kept.gradient) ** 2
     octaves = sum(float(power @ spread.mean((0, 1, 2))) for power, spread in zip(kept.powers, spreads, strict=True))
-    margin = MARGIN * min(2.0, max(1.0, FEW_PIXELS / max(kept.shape)))
-    return float(margin * np.sqrt(octaves + (part.left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
+    return float(MARGIN * np.sqrt(octaves + (part.left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
 
 
 def _blurred(

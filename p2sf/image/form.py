@@ -24,10 +24,9 @@ from p2sf.image.highlights import (
     gather,
     groups_of,
     has_halos,
-    kernel_between,
 )
 from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels, pad_to_largest
-from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, map_depths, stack_layers
+from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, least_jump, map_depths, stack_layers
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.region import Region, tiles, whole
@@ -123,13 +122,14 @@ def form_image(
     depths: DepthMap | LayerStack | None = stack
     kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)
     if depth_mm is None:
-        half = kernels.over(0, whole(picture.shape)).half
+        halves = [kernels.over(0, whole(picture.shape)).half]
     else:
-        half = max(_largest_halves(planned))
+        halves = _largest_halves(planned)
     if depth_mm is not None and stack is None:
         _check_depths(planned.scene, depth_mm)
-        depths = map_depths(np.asarray(depth_mm), np.array(planned.vergences), picture.shape[:2], half)
-    former = _Former(planned, picture, depths, how, half, kernels, watch)
+        nodes = np.array(planned.vergences)
+        depths = map_depths(np.asarray(depth_mm), nodes, picture.shape[:2], max(halves), least_jump(halves))
+    former = _Former(planned, picture, depths, how, max(halves), kernels, watch)
     out, parts, bright = np.empty_like(picture), list(tiles(picture.shape, TILE)), []
     watch.expect(TILE_STEPS * len(parts))
 
@@ -224,7 +224,7 @@ class _Former:
         """Return the kernels of a pixel at a depth node, (channels, size, size)."""
         top, left = int(row), int(column)
         lattice = self.kernels.over(number, Region(top, top + 2, left, left + 2))
-        return kernel_between(lattice, row - top, column - left)
+        return lattice.at(row - top, column - left)
 
     @cached_property
     def dimmest(self) -> float:

@@ -10,12 +10,11 @@ from math import ceil, pi
 
 import numpy as np
 
-from p2sf.image.lattice import Lattice, pad_kernel, pad_to_largest
+from p2sf.image.lattice import pad_to_largest
 from p2sf.image.region import Region, whole
 from p2sf.metrics.tails import FAINTEST, FARTHEST
 from p2sf.pixel_kernels import RAYS, Colour, Kernels
 from p2sf.pixel_kernels.channel import Points
-from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, rim_gain, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pupil.mask_cells import wings
@@ -106,17 +105,6 @@ def _pupils(point: Points) -> PupilStack:
 def has_halos(planned: Plan) -> bool:
     """Return whether a plan's pictures have halos: asked by the scene, and of kernels that are sums of waves."""
     return planned.scene.measure == "hdr" and planned.recipe.method != RAYS
-
-
-def kernel_between(lattice: Lattice, row: float, column: float) -> np.ndarray:
-    """Return the kernels that blur a pixel of a lattice, (channels, size, size)."""
-    size = 2 * lattice.half + 1
-    places = ((lattice.row_nodes, row), (lattice.column_nodes, column))
-    down, right = (hats(nodes, np.array([at]))[:, 0] for nodes, at in places)
-    total = np.zeros((lattice.channels, size, size))
-    for a, b in zip(*np.nonzero(np.outer(down, right)), strict=True):
-        total += down[a] * right[b] * pad_kernel(lattice.kernels[a][b], size)
-    return total
 
 
 def dimmest(full: np.ndarray, small: np.ndarray, brightest: float) -> float:

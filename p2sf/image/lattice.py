@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.image.progress import Progress
 from p2sf.image.region import Region, whole
-from p2sf.pixel_kernels.nodes import nodes_along
+from p2sf.pixel_kernels.nodes import hats, nodes_along
 from p2sf.threads import for_each
 
 # Numbers of nodes whose kernels are requested at once: first a few, to find their size; then by pixels, or nodes.
@@ -40,6 +40,16 @@ class Lattice:
     def channels(self) -> int:
         """Return the number of channels of every kernel."""
         return int(self.kernels[0][0].shape[0])
+
+    def at(self, row: float, column: float) -> np.ndarray:
+        """Return the kernels that blur a pixel, (channels, size, size): those of the nodes about it, by their hats."""
+        places = (self.row_nodes, row), (self.column_nodes, column)
+        down, right = (hats(nodes, np.array([at]))[:, 0] for nodes, at in places)
+        size = 2 * self.half + 1
+        total = np.zeros((self.channels, size, size))
+        for a, b in zip(*np.nonzero(np.outer(down, right)), strict=True):
+            total += down[a] * right[b] * pad_kernel(self.kernels[a][b], size)
+        return total
 
 
 KernelsAt = Callable[[np.ndarray, np.ndarray], list[np.ndarray]]

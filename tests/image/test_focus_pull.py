@@ -144,7 +144,7 @@ def test_the_moving_picture_is_as_near_the_exact_one_as_it_says(depth, focus_mm)
     scene, values = replace(SCENE, focus_mm=focus_mm), smooth_noise(SHAPE)
     exact = form_image(plan(LENS, scene), values, depth)
     found = focused_picture(kept_of(values, depth, MOVING, scene), scene.camera(LENS))
-    assert float(np.sqrt(np.mean((found.values - exact) ** 2))) <= found.error < 0.2  # doubled for few pixels
+    assert float(np.sqrt(np.mean((found.values - exact) ** 2))) <= found.error < 0.1
 
 
 def test_a_sharp_object_hides_what_is_behind_it():

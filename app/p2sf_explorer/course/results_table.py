@@ -12,7 +12,6 @@ from p2sf.files.writing import write_beside
 from p2sf_explorer.course.lectures import AFTER, BEFORE
 from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord, read_result
 
-MOST_FILES = 5_000
 FORMULA = ("=", "+", "-", "@", "\t", "\r")  # with which a spreadsheet begins a formula
 PERSON = ("name", "file", "program", "course", "language")
 OF_TASK = ("right", "attempts", "hints", "solution shown", "seconds", "last answer")
@@ -87,7 +86,7 @@ def read_folder(folder: Path, known: Sequence[tuple[str, str]] = ()) -> ResultTa
     if not folder.is_dir():
         raise ExportError("{path} is no folder; choose the one that holds the files of results", path=str(folder))
     rows, faults = [], []
-    for path in sorted(folder.glob("*.json"))[:MOST_FILES]:
+    for path in sorted(folder.glob("*.json")):
         try:
             rows.append((path, read_result(path)))
         except P2SFError as error:

@@ -101,7 +101,7 @@ def lecture_sheets(lecture: Lesson, paper: Paper = A4, solved: bool = False) -> 
     for number, step in enumerate(lecture.steps):
         trial = SheetWriter(paper, out.words)
         _write_step(trial, step, solved)
-        if len(trial.pages) == 1:  # a step that fits a page is not parted
+        if len(trial.pages) == 1:  # a step that fits a page is not split
             out.keep(trial.page.y - EDGE_MM + GAP_MM)
         out.gap(GAP_MM)
         if lecture.name != CHECK:

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.lessons.offer import tool
-from p2sf_explorer.lessons.task import PARTED, ChoiceAnswer, Exercise, NumericAnswer, OrderAnswer, display_order
+from p2sf_explorer.lessons.task import SEPARATOR, ChoiceAnswer, Exercise, NumericAnswer, OrderAnswer, display_order
 from p2sf_explorer.lessons.typed_numbers import SHOWN, prompt
 
 NUMBER = Qt.ItemDataRole.UserRole
@@ -62,12 +62,12 @@ class NumberFields(AnswerField):
             self.edits.append(edit)
 
     def text(self) -> str:
-        """Return the numbers, parted by semicolons."""
-        return PARTED.join(edit.text().replace(PARTED, " ") for edit in self.edits)
+        """Return the numbers, separated by semicolons."""
+        return SEPARATOR.join(edit.text().replace(SEPARATOR, " ") for edit in self.edits)
 
     def show_answer(self, text: str) -> None:
         """Fill the lines."""
-        for edit, part in zip(self.edits, text.split(PARTED), strict=False):
+        for edit, part in zip(self.edits, text.split(SEPARATOR), strict=False):
             edit.setText(part.strip())
 
 

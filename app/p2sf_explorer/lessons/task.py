@@ -1,6 +1,6 @@
 """Tasks of a lesson that grade themselves: a number, a choice, an order, or sliders to be set. No Qt in here.
 
-An answer is a text: a number with its unit ("6.7 µm", several parted by ";"), the number of an option in the file
+An answer is a text: a number with its unit ("6.7 µm", several separated by ";"), the number of an option in the file
 ("2"), the numbers of items in their order ("2 1 3"), or nothing where the state of the window is the answer. Judging
 never compares texts.
 """
@@ -19,7 +19,7 @@ from p2sf_explorer.lessons.measure_words import measure_words
 from p2sf_explorer.lessons.typed_numbers import read_typed, unit_of, written_value
 from p2sf_explorer.state.state import State, entry
 
-PARTED = ";"
+SEPARATOR = ";"
 RIGHT, WRONG = Message("Right."), Message("Not yet.")
 
 
@@ -107,8 +107,8 @@ class NumericAnswer:
     wrong: tuple[tuple[NumericPart, str], ...] = ()
 
     def judge(self, text: str, set_up: State, now: State) -> Judgement:
-        """Judge numbers, parted by semicolons, in the order of the parts."""
-        texts = text.split(PARTED)
+        """Judge numbers, separated by semicolons, in the order of the parts."""
+        texts = text.split(SEPARATOR)
         if len(texts) != len(self.parts):
             count = len(self.parts)
             raise P2SFError("{given} numbers are given, {count} are asked for", given=len(texts), count=count)
@@ -119,7 +119,8 @@ class NumericAnswer:
         return Judgement(True, RIGHT)
 
     def _judge_wrong(self, value: float, part: NumericPart, state: State) -> Judgement:
-        hint = next((hint for foreseen, hint in self.wrong if foreseen.covers(value, state)), "")
+        alike = ((foreseen, hint) for foreseen, hint in self.wrong if foreseen.unit == part.unit)
+        hint = next((hint for foreseen, hint in alike if foreseen.covers(value, state)), "")
         said = diagnose(value, part.target(state)) if not hint else WRONG
         if part.label:
             said = Message("{label}: {words}", label=part.label, words=said)

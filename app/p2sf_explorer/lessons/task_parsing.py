@@ -169,7 +169,7 @@ def _order(found: Mapping[str, Lines], where: str) -> Answer:
     number = found["order"][0][0]
     items = tuple(item for _, text in found["order"] for item in _items(text))
     if len(set(items)) < 2 or len(set(items)) != len(items):
-        raise fault(where, number, "an order has two different items or more, parted by semicolons")
+        raise fault(where, number, "an order has two different items or more, separated by semicolons")
     wrong = []
     for line, text in found["wrong"]:
         words = _with_hint(text)[0].split()

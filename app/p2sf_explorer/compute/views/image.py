@@ -33,7 +33,6 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_image_height
 from p2sf.pixel_kernels import RAYS, Recipe, SensorMap
-from p2sf.pixel_kernels.nodes import hats
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
@@ -759,15 +758,8 @@ def rim_mm(lens: Lens, depth_mm: float, wavelength_um: float) -> float:
 def local_psf(answer: ImageResult, row: float, column: float) -> np.ndarray:
     """Return the PSF of a place in the picture as the picture uses it, (size, size, 3), its peak at 1."""
     lattice = answer.psfs.nearest(row, column) if answer.psfs else answer.lattice
-    size = 2 * lattice.half + 1
-    down = hats(lattice.row_nodes, np.array([row]))[:, 0]
-    right = hats(lattice.column_nodes, np.array([column]))[:, 0]
-    total = np.zeros((lattice.channels, size, size), np.float32)
-    for a, b in zip(*np.nonzero(np.outer(down, right)), strict=True):
-        kernel = lattice.kernels[a][b]
-        edge = (size - kernel.shape[-1]) // 2
-        total[:, edge : size - edge, edge : size - edge] += np.float32(down[a] * right[b]) * kernel
-    return in_colours(np.moveaxis(total / total.max(), 0, -1))
+    total = lattice.at(row, column)
+    return in_colours(np.moveaxis(total / total.max(), 0, -1).astype(np.float32))
 
 
 def pixels(values: np.ndarray) -> np.ndarray:

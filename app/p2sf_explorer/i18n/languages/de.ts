@@ -108,7 +108,7 @@
 <message><source>a wrong order has the numbers of all items, such as 2 1 3</source><translation>eine falsche Reihenfolge hat die Nummern aller Einträge, etwa 2 1 3</translation></message>
 <message><source>above {wanted}</source><translation>über {wanted}</translation></message>
 <message><source>an f-number, such as f/8</source><translation>eine Blendenzahl, etwa f/8</translation></message>
-<message><source>an order has two different items or more, parted by semicolons</source><translation>eine Reihenfolge hat zwei verschiedene Einträge oder mehr, durch Semikolons getrennt</translation></message>
+<message><source>an order has two different items or more, separated by semicolons</source><translation>eine Reihenfolge hat zwei verschiedene Einträge oder mehr, durch Semikolons getrennt</translation></message>
 <message><source>answer</source><translation>Antwort</translation></message>
 <message><source>astigmatism W22</source><translation>Astigmatismus W22</translation></message>
 <message><source>below {wanted}</source><translation>unter {wanted}</translation></message>

@@ -80,7 +80,7 @@ KINDS: dict[str, type[TileChart]] = {
 }
 FREQUENCY = "frequency on the sensor, 1/mm"
 LEFT_AXES = {"ray_fan": "landing point, µm", "opd_fan": "OPD, waves", "mtf": "contrast"}
-SHORT = {"geometric": "ray density", "six coefficients": "6 coefficients"}
+SHORT = {"geometric": "ray density"}
 PREVIEW = "preview"
 
 
