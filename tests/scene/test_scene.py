@@ -169,7 +169,10 @@ def test_by_the_law_of_errors_few_choices_are_tried():
 
 def test_the_first_of_choices_is_found_whatever_their_errors():
     for first in range(16):
-        measure = lambda tries, first=first: [1.0 if number < first else 0.0 for number, _ in tries]  # noqa: E731
+
+        def measure(tries, first=first):
+            return [1.0 if number < first else 0.0 for number, _ in tries]
+
         assert first_allowed(range(1, 17), measure, 1, 0.5, 3)[0] == first
 
 
