@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
 from threading import Lock
 
 import numpy as np
@@ -31,7 +32,7 @@ class Lattice:
     column_nodes: np.ndarray
     kernels: list[list[np.ndarray]]
 
-    @property
+    @cached_property
     def half(self) -> int:
         """Return the largest half width of all kernels."""
         return max(int(kernel.shape[-1]) // 2 for line in self.kernels for kernel in line)

@@ -15,14 +15,7 @@ from p2sf.lens.misalignment import average_azimuths
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange
-from p2sf.pixel_kernels.sensor_points import (
-    CHIEF_RAYS,
-    PlaneFields,
-    SensorMap,
-    landing_mm,
-    landings_mm,
-    sensor_maps,
-)
+from p2sf.pixel_kernels.sensor_points import PlaneFields, SensorMap, landing_mm, landings_mm, sensor_maps
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.threads import map_threads
@@ -33,17 +26,15 @@ DEPTHS = 3  # at which they are traced: chief rays of one slope hardly change wi
 MOST_MISS_PX = 0.1  # allowed error of that polynomial
 
 
-def scene_maps(
-    lens: Lens, scene: Scene, vergences: Sequence[float], wavelength_um: float, rays: int = CHIEF_RAYS
-) -> list[SensorMap]:
+def scene_maps(lens: Lens, scene: Scene, vergences: Sequence[float], wavelength_um: float) -> list[SensorMap]:
     """Return the maps of a scene's sensor at several vergences, 1/mm, within its depths.
 
-    With rotational symmetry they follow from one line of ``rays`` chief rays. Raises GeometryError unless chief rays
+    With rotational symmetry they follow from one line of chief rays. Raises GeometryError unless chief rays
     reach all of the sensor monotonically.
     """
     depths, sensor, clip = [depth_of(v) for v in vergences], scene.sensor, scene.clip
     if not lens.misaligned:
-        return sensor_maps(lens, depths, wavelength_um, sensor.corners_mm()[1], clip, rays)
+        return sensor_maps(lens, depths, wavelength_um, sensor.corners_mm()[1], clip)
     far, near = scene.vergences(2).tolist()
     series, scale = _series(lens, sensor, (far, near), wavelength_um), _scale_mm(lens, depth_of(far), wavelength_um)
     pairs = zip(depths, vergences, strict=True)

@@ -41,7 +41,6 @@ SEEN_AT = 0.0, 0.6, 1.0  # fractions of the way to the farthest point at which t
 
 FOCUSED = 4  # depths between which the phase is interpolated in that search
 MAPPED = 5  # depths that are mapped at once: among them those of the first pupils to be fitted
-CHIEF_RAYS = 65  # between which fields are interpolated linearly by height, to some 1e-6
 
 Sampling = tuple[float, float]
 
@@ -98,7 +97,7 @@ class Study:
         if missing and len(self.ends) > 1 and not self._maps:
             missing = list(dict.fromkeys((*missing, *chebyshev(self.ends[0], self.ends[-1], MAPPED).tolist())))
         if missing:
-            maps = scene_maps(self.lens, self.scene, missing, self.reference_um, CHIEF_RAYS)
+            maps = scene_maps(self.lens, self.scene, missing, self.reference_um)
             self._maps.update(zip(missing, maps, strict=True))
 
     def sharpest(self, wave: float) -> list[float]:
