@@ -240,20 +240,20 @@ class _Former:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return the light of the layers from near to far, each behind those before it, and what they cover."""
         count = self.picture.shape[-1]
-        light, covered = (np.zeros((*tile.shape, n), np.float32) for n in (count, 1))
+        light, covered = (np.zeros((*tile.shape, count), np.float32) for _ in range(2))
         passing = np.ones_like(covered)
         for number, planes, box in layers:
             planes, box = self._surrounded(planes, box, reach)
-            colours = (*range(count), *[count // 2] * (planes.shape[-1] - count))
-            blurred, spread = self._blur(number, planes, box, colours)
+            planes = np.concatenate([planes[..., :count], np.repeat(planes[..., count:], count, -1)], -1)
+            blurred, spread = self._blur(number, planes, box, tuple(range(count)) * (planes.shape[-1] // count))
             seen = spread.meet(tile)
             if seen.empty:
                 continue
             part, at = blurred[seen.within(spread)], seen.within(tile)
             light[at] += passing[at] * part[..., :count]
-            covered[at] += passing[at] * part[..., count : count + 1]
-            if planes.shape[-1] > count + 1:
-                passing[at] *= np.clip(1 - part[..., -1:], 0, 1)
+            covered[at] += passing[at] * part[..., count : 2 * count]
+            if planes.shape[-1] > 2 * count:
+                passing[at] *= np.clip(1 - part[..., 2 * count :], 0, 1)
         return light, covered
 
     def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:

@@ -78,6 +78,23 @@ def test_what_is_hidden_takes_colour_and_depth_of_the_nearest_pixel_beside_it():
     assert only.number == 1 and (only.opacity == 1).all() and not only.hiding.any()
 
 
+@pytest.mark.parametrize("as_layers", [False, True])
+def test_even_light_stays_even_at_edges_of_depth_in_every_colour(as_layers):
+    """A layer covers and hides as its light spreads: by each colour's own kernels, which axial colour tells apart."""
+    scene = Scene(Sensor(31, 31, 20.0), near_mm=1000.0, far_mm=4000.0, focus_mm=4000.0)
+    made = preview_plan(scene.camera(find_lens("singlet_f6")), scene)
+    made = replace(made, counts=(1, 1), vergences=(1 / 4000.0, 1 / 1000.0))
+    before = np.zeros((31, 31))
+    before[:, 12:19] = 1
+    if as_layers:
+        stack = np.ones((2, 31, 31, 4), np.float32)
+        stack[1] = before[..., None]
+        found = form_image(made, stack, np.array([4000.0, 1000.0]), BLUR)
+    else:
+        found = form_image(made, np.ones((31, 31, 3), np.float32), np.where(before, 1000.0, 4000.0), BLUR)
+    np.testing.assert_allclose(found, 1, atol=2e-5)  # kernels of float32 have unit sum to 1e-6 a pixel
+
+
 def test_a_point_between_two_depths_is_the_interpolated_kernel_of_the_plan():
     made = planned(8000.0, (0.0, 1 / 8000.0, 1 / 4000.0))
     picture = np.zeros((41, 41, 1), np.float32)
