@@ -439,7 +439,7 @@ class Camera(Settings):
         near, far = float(depths.min()), float(depths.max())
         seen = set_up_source(lens, Source(far, wavelength_um=middle), self.settings).lens
         sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
-        scene = Scene(sensor, near_mm=near, far_mm=far, rtol=rtol, clip=clip)
+        scene = Scene(sensor, near_mm=near, far_mm=far, rtol=rtol, clip=clip).at_depths(depths)
         if values.ndim == 2 or values.shape[2] == 1:
             scene = replace(scene, channels=(Channel("light", (middle * NM_PER_UM,), (1.0,)),))
         return plan(seen, scene)

@@ -48,8 +48,8 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IE
 SCENE_HELP = (
     "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db, tail_error), f_number, zoom, focus_position, "
     "focus_mm, aim, clip; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, black_level, "
-    "mosaic, fill_factor; [depth] near_mm, far_mm or map; [[channel]] name, wavelengths_nm, weights, or [filters] "
-    "curves, light, by default red, green and blue."
+    "mosaic, fill_factor; [depth] near_mm, far_mm, gaps_mm or map; [[channel]] name, wavelengths_nm, weights, or "
+    "[filters] curves, light, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
@@ -67,7 +67,9 @@ def plan_command(
     """Decide what a scene requires of a lens model, and say why."""
     check_whole("check", check, 0, 1000)
     glass = find_lens(lens)
-    planned = _make_plan(glass, _read_scene(glass, scene))
+    asked = _read_scene(glass, scene)
+    depth = depth_map(asked)
+    planned = _make_plan(glass, asked if depth is None else asked.at_depths(depth))
     with using_threads(threads):
         verdict = verify(planned, check) if check else None
     measured = None if verdict is None else {"points": check, "worst": verdict.worst, "kept": verdict.kept}
@@ -299,7 +301,7 @@ def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
-    planned = _make_plan(glass, scene)
+    planned = _make_plan(glass, scene if depth is None else scene.at_depths(depth))
     warn(None if planned.meets else TOO_TIGHT)
     light = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)
     formed = expose(scene.sensor, light, shown.seed)

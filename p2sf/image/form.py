@@ -26,7 +26,7 @@ from p2sf.image.highlights import (
     has_halos,
 )
 from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels, pad_to_largest
-from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, least_jump, map_depths, stack_layers
+from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, least_fold, map_depths, stack_layers
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.region import Region, tiles, whole
@@ -42,7 +42,6 @@ METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
 LIGHT_HEIGHTS = 4, 9  # heights at which illumination is computed, for a preview and for the final picture
 LAYERS_NDIM = 4  # of layers, rows, columns and channels
-SAME_DEPTH = 1e-6  # a relative difference due to float32
 LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
 HEIGHTS = 3  # at which the width of blur is measured: of a curved field the corner may be the sharpest
@@ -126,9 +125,9 @@ def form_image(
     else:
         halves = _largest_halves(planned)
     if depth_mm is not None and stack is None:
-        _check_depths(planned.scene, depth_mm)
+        planned.scene.check_depths(np.asarray(depth_mm))
         nodes = np.array(planned.vergences)
-        depths = map_depths(np.asarray(depth_mm), nodes, picture.shape[:2], max(halves), least_jump(halves))
+        depths = map_depths(np.asarray(depth_mm), nodes, picture.shape[:2], max(halves), least_fold(halves))
     former = _Former(planned, picture, depths, how, max(halves), kernels, watch)
     out, parts, bright = np.empty_like(picture), list(tiles(picture.shape, TILE)), []
     watch.expect(TILE_STEPS * len(parts))
@@ -437,22 +436,8 @@ def _check_layers(scene: Scene, values: ArrayLike, depth_mm: np.ndarray | None) 
             layers=len(stack),
             shape=depths.shape,
         )
-    _check_depths(scene, depths)
+    scene.check_depths(depths)
     return stack_layers([check_picture(scene, layer[..., :-1]) for layer in stack], stack[..., -1], depths)
-
-
-def _check_depths(scene: Scene, depth_mm: np.ndarray) -> None:
-    """Raise RequestError for a depth without kernels in the plan."""
-    near, far = scene.near_mm * (1 - SAME_DEPTH), scene.far_mm * (1 + SAME_DEPTH)
-    if ((depth_mm > 0) & ((depth_mm < near) | (depth_mm > far))).any():
-        raise RequestError(
-            "the depth map reaches from {low:g} mm to {high:g} mm, and the scene from {near:g} mm to {far:g} mm; give "
-            "depths in mm from the first vertex, and the scene a range that holds them",
-            low=float(np.min(depth_mm)),
-            high=float(np.max(depth_mm)),
-            near=scene.near_mm,
-            far=scene.far_mm,
-        )
 
 
 def node_kernels(planned: Plan, vergence: float, most_half: int = LARGEST_WINDOW) -> NodeKernels:

@@ -18,6 +18,7 @@ from p2sf.errors import RequestError
 from p2sf.image.region import Region, whole
 
 FAR = 2**28  # pixels, more than any picture has
+TINY = 1e-300  # 1/mm: keeps the quotient finite in a scene of one depth
 JUMP = 0.5  # of the distance between depth nodes, from one pixel to the next; of less, the layers do not tell
 CONTINUED, HIDING = 2, 4  # half widths of kernels about an edge: beyond the first nothing is seen of what goes on there
 
@@ -107,27 +108,29 @@ def stack_layers(colours: list[np.ndarray], alpha: np.ndarray, depth_mm: np.ndar
 
 
 def map_depths(
-    depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...], half: int, jump: float = JUMP
+    depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...], half: int, fold: float = 0.0
 ) -> DepthMap:
     """Return the places of a picture's depths, (rows, columns) mm, among nodes.
 
     ``vergences`` increase: the farthest node is number 0, and beyond the ends depths count as these. ``half``: the
-    largest half width of a kernel, pixels. ``jump``: the step from one pixel to the next, in distances between nodes,
-    beyond which depth has an edge, see `least_jump`. Raises RequestError for a map that does not fit.
+    largest half width of a kernel, pixels. Depth has an edge where it changes by more than JUMP nodes from one pixel to
+    the next, and by more than ``fold``, see `least_fold`. Raises RequestError for a map that does not fit.
     """
     place = _places(depth_mm, vergences, shape)
-    near, hiding = (_beside_jumps(place, jump, reach * half) for reach in (CONTINUED, HIDING))
+    part = (vergences - vergences[0]) / max(vergences[-1] - vergences[0], TINY)
+    jumps = _jumps(place, JUMP) & _jumps(np.interp(place, np.arange(len(part)), part), fold)
+    near, hiding = (_beside(jumps, reach * half) for reach in (CONTINUED, HIDING))
     return DepthMap(place, near, hiding)
 
 
-def least_jump(halves: Sequence[int]) -> float:
-    """Return the least jump in depth, in distances between nodes, from half widths of the kernels of each, pixels.
+def least_fold(halves: Sequence[int]) -> float:
+    """Return the least jump in depth, in parts of the range of depths, from half widths of the kernels of each, pixels.
 
     A slope hides nothing unless the radius of its blur, which is linear in 1/depth, changes by more than a pixel from
     one pixel to the next: only then does the blurred surface fold over itself. The ends may lie on both sides of the
     focus, so that the radius changes by the sum of theirs at most.
     """
-    return max(JUMP, (len(halves) - 1) / (halves[0] + halves[-1]))
+    return 1 / max(halves[0] + halves[-1], 1)
 
 
 def _hides(beyond: np.ndarray, opacity: np.ndarray) -> np.ndarray:
@@ -135,14 +138,19 @@ def _hides(beyond: np.ndarray, opacity: np.ndarray) -> np.ndarray:
     return np.where((beyond > 0) & (beyond < 1), 1.0, np.where((beyond > -1) & (beyond < 0), 0.0, opacity))
 
 
-def _beside_jumps(place: np.ndarray, jump: float, reach: int) -> np.ndarray:
+def _jumps(place: np.ndarray, least: float) -> np.ndarray:
+    """Return beside which pixels, (rows, columns), the next one differs by more than ``least``."""
+    jumps = np.zeros(place.shape, bool)
+    for axis in (0, 1):
+        found = np.abs(np.diff(place, axis=axis)) > least
+        jumps |= np.pad(found, [(0, int(axis == other)) for other in (0, 1)])
+    return jumps
+
+
+def _beside(jumps: np.ndarray, reach: int) -> np.ndarray:
     """Return which pixels are within ``reach`` rows and columns of a jump in depth, (rows, columns)."""
     from scipy.ndimage import maximum_filter
 
-    jumps = np.zeros(place.shape, bool)
-    for axis in (0, 1):
-        found = np.abs(np.diff(place, axis=axis)) > jump
-        jumps |= np.pad(found, [(0, int(axis == other)) for other in (0, 1)])
     near: np.ndarray = maximum_filter(jumps, 2 * reach + 1) if jumps.any() else jumps
     return near
 

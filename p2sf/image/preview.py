@@ -44,7 +44,7 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
     times = -(-max(scene.sensor.rows, scene.sensor.columns) // LONGEST)
     coarse = replace(scene, sensor=_coarser(scene.sensor, times), depth_map=None)
     if depth_mm is not None:
-        coarse = replace(coarse, near_mm=depth_mm, far_mm=depth_mm)
+        coarse = replace(coarse, near_mm=depth_mm, far_mm=depth_mm, gaps_mm=())
     planned = preview_plan(camera, coarse)
     lattice = preview_lattice(planned)
     return form_image(planned, block_means(values, times), how=Forming(spline=1), lattice=lattice)

@@ -16,7 +16,7 @@ from p2sf.scene.sensor import Sensor
 KEYS = {
     "": {"name", "tolerance", "measure", *LIMITS, *CAMERA_PARAMETERS, "clip", "sensor", "depth", "filters", "channel"},
     "sensor": {each.name for each in fields(Sensor)},
-    "depth": {"near_mm", "far_mm", "map"},
+    "depth": {"near_mm", "far_mm", "gaps_mm", "map"},
     "filters": {"curves", "light"},
     "channel": {"name", "wavelengths_nm", "weights"},
 }
@@ -77,6 +77,7 @@ def scene_from(table: dict, path: Path) -> Scene:
         channels=_channels(table, path),
         near_mm=_number("near_mm", depth.get("near_mm", far)),
         far_mm=far,
+        gaps_mm=tuple(map(_gap, depth.get("gaps_mm", []))),
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
         **given,
     )
@@ -142,6 +143,11 @@ def _pair(sensor: dict) -> tuple[float, float]:
     if len(values) != 2:
         raise RequestError("centre_mm has {count} numbers; give two, x and y", count=len(values))
     return values[0], values[1]
+
+
+def _gap(values: Any) -> tuple[float, float]:
+    near, far = _numbers("gaps_mm", values)
+    return near, far
 
 
 def _channel(table: dict) -> Channel:

@@ -2,8 +2,9 @@
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import wraps
+from itertools import pairwise
 from math import inf, isfinite, log10, sqrt
 from typing import Any
 
@@ -16,6 +17,14 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.parameters import check_aim, check_reach
+from p2sf.scene.depth_gaps import (
+    Gaps,
+    check_depths,
+    depth_parts,
+    ends_and_gaps,
+    nearest_occupied,
+    occupied_intervals,
+)
 from p2sf.scene.sensor import Sensor
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
@@ -85,7 +94,7 @@ class Scene:
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
     the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
-    mm.
+    mm. ``gaps_mm``: between which depths, from near to far, nothing is, so that no kernels are needed there.
     """
 
     sensor: Sensor
@@ -105,6 +114,7 @@ class Scene:
     clip: bool = False
     depth_map: str | None = None
     name: str = "scene"
+    gaps_mm: Gaps = ()
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -116,6 +126,7 @@ class Scene:
                 near=self.near_mm,
                 far=self.far_mm,
             )
+        self._check_gaps()
         self._check_limit()
         check_aim("aim", self.aim)
         if not self.channels:
@@ -125,6 +136,20 @@ class Scene:
                 "the mosaic {mosaic} needs red, green and blue, but the scene has {count} channels; change one of them",
                 mosaic=self.sensor.mosaic,
                 count=len(self.channels),
+            )
+
+    def _check_gaps(self) -> None:
+        """Raise RequestError unless the gaps are pairs of depths in the scene's range, from near to far."""
+        ends = [self.near_mm, *(end for gap in self.gaps_mm for end in gap), self.far_mm]
+        pairs = all(len(gap) == 2 and gap[0] < gap[1] for gap in self.gaps_mm)
+        if not pairs or any(not near <= far for near, far in pairwise(ends)):
+            raise RequestError(
+                "{parameter} is {gaps}; give pairs of depths in mm between {near:g} mm and {far:g} mm, from near to "
+                "far, of which none overlap",
+                parameter="gaps_mm",
+                gaps=str(self.gaps_mm),
+                near=self.near_mm,
+                far=self.far_mm,
             )
 
     def _check_limit(self) -> None:
@@ -203,6 +228,37 @@ class Scene:
         """Return ``count`` vergences (1/mm) from far to near, the middle for one."""
         far, near = vergence(self.far_mm), vergence(self.near_mm)
         return np.array([(far + near) / 2]) if count == 1 else np.linspace(far, near, count)
+
+    def depth_parts(self, count: int) -> list[np.ndarray]:
+        """Return depth nodes, 1/mm, from far to near, in parts with gaps between them, see `depth_gaps.depth_parts`.
+
+        ``count`` nodes without gaps.
+        """
+        return depth_parts(self._intervals, count)
+
+    def scan(self, count: int) -> np.ndarray:
+        """Return at most ``count`` vergences (1/mm) from far to near at which depths occur, the ends among them."""
+        return self.occupied(self.vergences(count))
+
+    def occupied(self, vergences: np.ndarray) -> np.ndarray:
+        """Return the nearest vergences at which depths occur, sorted, each once."""
+        return nearest_occupied(self._intervals, vergences)
+
+    def at_depths(self, depth_mm: np.ndarray) -> "Scene":
+        """Return the scene with the depths of a map alone, mm, any shape; RequestError for one not in the scene."""
+        self.check_depths(depth_mm)
+        if not (depth_mm > 0).any():
+            return self
+        near, far, gaps = ends_and_gaps(depth_mm)
+        return replace(self, near_mm=near, far_mm=far, gaps_mm=gaps)
+
+    def check_depths(self, depth_mm: np.ndarray) -> None:
+        """Raise RequestError for a positive depth, mm, that is not in the scene."""
+        check_depths(self._intervals, depth_mm)
+
+    @property
+    def _intervals(self) -> np.ndarray:
+        return occupied_intervals(self.near_mm, self.far_mm, self.gaps_mm)
 
     def camera(self, lens: Lens) -> Lens:
         """Return the lens with the scene's focus and f-number."""

@@ -40,7 +40,7 @@ class Between:
 
 
 def worst_errors(study: Study, groups: Sequence[Sequence[Between]]) -> list[float]:
-    """Return the worst error of interpolation in each group; all kernels are computed together."""
+    """Return the worst error of interpolation in each group, 0 in none; all kernels are computed together."""
     spots = [(one.colour, spot) for group in groups for one in group for spot in (one.true, *one.nodes)]
     kernels = dict(zip(spots, study.channel_kernels(spots), strict=True))
 
@@ -48,7 +48,7 @@ def worst_errors(study: Study, groups: Sequence[Sequence[Between]]) -> list[floa
         between = weighted_sum([kernels[one.colour, spot] for spot in one.nodes], one.weights)
         return distance(between, kernels[one.colour, one.true])
 
-    return [max(map(error, group)) for group in groups]
+    return [max(map(error, group), default=0.0) for group in groups]
 
 
 def field_counts(study: Study, number: int) -> tuple[int, int]:
@@ -136,12 +136,14 @@ def depth_places(study: Study, colours: Sequence[Colour]) -> list[DepthPlace]:
 def between_depth_nodes(study: Study, number: int, place: DepthPlace) -> list[Between]:
     """Return the interpolation midway by an entry of DEPTH_COUNTS: near a point's vergence, or everywhere if few."""
     (colour, point, vergence), spot = place, study.spot
-    nodes = study.scene.vergences(DEPTH_COUNTS[number])
+    parts = study.scene.depth_parts(DEPTH_COUNTS[number])
+    nodes = np.concatenate(parts)
     if len(nodes) == 1:
         return [Between(colour, spot(point, vergence), (spot(point, float(nodes[0])),), (1.0,))]
     last = len(nodes) - 2
     about = np.clip(np.searchsorted(nodes, vergence) + np.array([-2, -1, 0]), 0, last)
-    chosen = sorted(set(about.tolist()) | set(range(last + 1) if last < EVERY else ()))
+    gaps = set((np.cumsum([len(part) for part in parts]) - 1).tolist())  # nothing is interpolated across them
+    chosen = sorted((set(about.tolist()) | set(range(last + 1) if last < EVERY else ())) - gaps)
     return [
         Between(
             colour,

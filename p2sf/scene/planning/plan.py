@@ -361,10 +361,19 @@ def _depths(study: Study, budget: float, colours: Sequence[Colour]) -> tuple[tup
         return worst_errors(study, [between_depth_nodes(study, n, places[k]) for n, k in tries])
 
     number, error = _first(spans(DEPTH_COUNTS), errors, len(places), SHARES["depth"] * budget, FIRST_TRIED)
-    nodes = scene.vergences(DEPTH_COUNTS[number])
-    why = Message("defocus grows with 1/distance, so nodes stand at equal steps of it")
+    parts = scene.depth_parts(DEPTH_COUNTS[number])
+    nodes = np.concatenate(parts)
+    why = _why_depths(parts)
     choice = Message("{count} nodes", count=len(nodes)) if len(nodes) > 1 else Message("1 node")
     return tuple(nodes.tolist()), Decision(Message("depth"), choice, why, error, "depth")
+
+
+def _why_depths(parts: Sequence[np.ndarray]) -> Message:
+    if len(parts) == 1:
+        return Message("defocus grows with 1/distance, so nodes stand at equal steps of it")
+    if all(len(part) == 1 for part in parts):
+        return Message("the scene has these depths alone")
+    return Message("nodes stand at equal steps of 1/distance, and none in {count} gaps", count=len(parts) - 1)
 
 
 def _pupils(study: Study) -> Decision:

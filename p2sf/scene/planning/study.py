@@ -74,7 +74,7 @@ class Study:
         every = [float(wave) for channel in self.scene.channels for wave in channel.wavelengths_um]
         self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
-        self.scan = tuple(dict.fromkeys(map(float, self.scene.vergences(DEPTHS))))  # both, and depths between them
+        self.scan = tuple(self.scene.scan(DEPTHS).tolist())  # both, and depths between them
         self.kept_error = 0.0
         self._maps: dict[float, SensorMap] = {}
         self._fits = KnownPupils()
@@ -110,7 +110,7 @@ class Study:
     @cached_property
     def _sharpest(self) -> dict[float, list[float]]:
         """Return the vergence of the least variance of the phase, which is a polynomial in the vergence."""
-        scan = self.scene.vergences(SCAN)
+        scan = self.scene.scan(SCAN)
         nodes = tuple(chebyshev(float(scan[0]), float(scan[-1]), FOCUSED if len(self.ends) > 1 else 1).tolist())
         points = [self.area.outwards(part) for part in SEEN_AT]
         waves = sorted({*self.waves_um, *(float(c.wavelengths_um @ c.shares) for c in self.scene.channels)})

@@ -49,9 +49,10 @@ def verify(planned: Plan, points: int = 5, seed: int = 0) -> Verdict:
 def _place(planned: Plan, random: np.random.Generator) -> tuple[float, float, float, int]:
     scene = planned.scene
     row, column = random.uniform(0, scene.sensor.rows - 1), random.uniform(0, scene.sensor.columns - 1)
-    near, far = scene.vergences(2)[::-1]
     channel = int(random.integers(len(scene.channels)))
-    return float(scene.sensor.x_mm(column)), float(scene.sensor.y_mm(row)), float(random.uniform(far, near)), channel
+    near, far = scene.vergences(2)[::-1]
+    depth = float(scene.occupied(random.uniform(far, near, 1))[0])
+    return float(scene.sensor.x_mm(column)), float(scene.sensor.y_mm(row)), depth, channel
 
 
 def error_at(planned: Plan, x_mm: float, y_mm: float, vergence: float, channel: int) -> tuple[float, float]:

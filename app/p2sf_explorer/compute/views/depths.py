@@ -8,6 +8,7 @@ import numpy as np
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
 from p2sf.io.depth_files import USUAL_SCALE, DepthScale, depths_of, own_depths, read_depths
+from p2sf.scene.depth_gaps import Gaps, ends_and_gaps
 from p2sf_explorer.compute.views.photos import change_time, frame_box
 
 FLAT, SLOPE, STEPS, OWN = "", "slope", "steps", "photo"
@@ -49,6 +50,20 @@ def _map(choice: DepthChoice, photo: str, _changed: int, shape: tuple[int, int])
     if depths is None:
         raise RequestError("{path} has no depths of its own; choose a map of depths", path=photo)
     return _in_frame(depths, shape)
+
+
+def occupied_depths(choice: DepthChoice, photo: str, shape: tuple[int, int]) -> tuple[float, float, Gaps] | None:
+    """Return the nearest and the farthest depth of a picture, mm, and its gaps, as `ends_and_gaps` does.
+
+    None where it has one distance. Raises RequestError for a map that cannot be read.
+    """
+    path = photo if choice.source == OWN else choice.source
+    return None if choice.source == FLAT else _occupied(choice, photo, change_time(path), shape)
+
+
+@lru_cache(maxsize=2)
+def _occupied(choice: DepthChoice, photo: str, changed: int, shape: tuple[int, int]) -> tuple[float, float, Gaps]:
+    return ends_and_gaps(_map(choice, photo, changed, shape))
 
 
 def has_own_depths(photo: str) -> bool:

@@ -38,7 +38,7 @@ from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
 from p2sf.scene.planning.pricing import computed_counts
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.depths import FLAT, ONE_DISTANCE, OWN, DepthChoice, depth_map
+from p2sf_explorer.compute.views.depths import FLAT, ONE_DISTANCE, OWN, DepthChoice, depth_map, occupied_depths
 from p2sf_explorer.compute.views.photos import (
     MOST_PIXELS,
     NOISE,
@@ -702,7 +702,8 @@ def scene_of(request: ImageRequest) -> Scene:
     channels = channels_of(request.lens)
     if request.pixel_um is not None:
         _check_within(request)
-    near, far = depth_ends(request)
+    depths = occupied_depths(request.depths, request.photo, request.shape)
+    near, far, gaps = depths or (request.depth_mm, request.depth_mm, ())
     reach = CORNER * rim_mm(request.lens, request.depth_mm, float(channels[1].wavelengths_um[1]))
     half_um = hypot(*request.shape) / 2
     if request.pixel_um is None:
@@ -710,13 +711,7 @@ def scene_of(request: ImageRequest) -> Scene:
     else:
         room = max(0.0, reach - half_um * request.pixel_um / UM_PER_MM)
         sensor = Sensor(*request.shape, request.pixel_um, (0.0, float(np.clip(request.centre_mm, -room, room))))
-    return Scene(sensor, channels, near, far, TOLERANCE, clip=request.clip)
-
-
-def depth_ends(request: ImageRequest) -> tuple[float, float]:
-    """Return the nearest and the farthest depth of a picture, mm; RequestError for a map that cannot be read."""
-    depths = depth_map(request.depths, request.photo, request.shape)
-    return (request.depth_mm, request.depth_mm) if depths is None else (float(depths.min()), float(depths.max()))
+    return Scene(sensor, channels, near, far, TOLERANCE, clip=request.clip, gaps_mm=gaps)
 
 
 def moved_in(request: ImageRequest, plan: Plan) -> Notes:

@@ -3,6 +3,7 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>{parameter} is {gaps}; give pairs of depths in mm between {near:g} mm and {far:g} mm, from near to far, of which none overlap</source><translation>{parameter} ist {gaps}; Paare von Tiefen in mm zwischen {near:g} mm und {far:g} mm angeben, von nah nach fern, von denen sich keine überlappen</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths × {depths} depths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen × {depths} Entfernungen</translation></message>
 <message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
 <message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
@@ -24,6 +25,8 @@
 <message><source>error up to {percent} % of white</source><translation>Fehler bis {percent} % von Weiß</translation></message>
 <message><source>farthest depth of the photo</source><translation>größte Entfernung des Fotos</translation></message>
 <message><source>nearest depth of the photo</source><translation>kleinste Entfernung des Fotos</translation></message>
+<message><source>nodes stand at equal steps of 1/distance, and none in {count} gaps</source><translation>die Knoten stehen in gleichen Schritten von 1/Abstand, und keine in {count} Lücken</translation></message>
+<message><source>the depth map holds {depth:g} mm, which lies in a gap of the scene; leave {parameter} out, or plan for the depths of this map</source><translation>die Tiefenkarte enthält {depth:g} mm, was in einer Lücke der Szene liegt; {parameter} weglassen oder für die Tiefen dieser Karte planen</translation></message>
 <message><source>the map reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Karte reicht von {near:g} mm bis {far:g} mm; positive Entfernungen angeben, die nahe zuerst</translation></message>
 <message><source>{path} does not state how far away its depths are; save them as a PNG and give near and far</source><translation>{path} sagt nicht, wie groß seine Entfernungen sind; als PNG speichern und nah und fern angeben</translation></message>
 <message><source>{path} has no depths of its own; choose a map of depths</source><translation>{path} hat keine eigenen Entfernungen; eine Karte der Entfernungen wählen</translation></message>
@@ -34,6 +37,7 @@
 <message><source>{path} is a HEIF that cannot be read ({why}); save it again</source><translation>{path} ist ein HEIF, das nicht gelesen werden kann ({why}); noch einmal speichern</translation></message>
 <message><source>one distance</source><translation>eine Entfernung</translation></message>
 <message><source>sloping</source><translation>geneigt</translation></message>
+<message><source>the scene has these depths alone</source><translation>die Szene hat nur diese Abstände</translation></message>
 <message><source>three steps</source><translation>drei Stufen</translation></message>
 <message><source>its own depths</source><translation>eigene Entfernungen</translation></message>
 <message><source>white is near</source><translation>Weiß ist nah</translation></message>
