@@ -57,10 +57,11 @@ USUAL_SCALE = DepthScale()
 
 
 def read_depths(path: str | os.PathLike[str], scale: DepthScale) -> np.ndarray:
-    """Return the depths of a PNG or TIFF of one channel, (rows, columns) float32 mm.
+    """Return the depths of a PNG, TIFF or OpenEXR of one channel, (rows, columns) float32 mm.
 
-    Whole numbers of 8 or 16 bits span ``scale``, floats 0 to 1 do; in mm or m they are taken as they are. Raises
-    RequestError for colours, numbers that are not finite, negative or beyond 1, and a map without any depth.
+    Whole numbers of 8 or 16 bits span ``scale``, floats 0 to 1 do; in mm or m they are taken as they are, where inf
+    and more than FARTHEST_MM, as renderers write of the sky, are infinity. Raises RequestError for colours, numbers
+    that are NaN, negative or beyond 1, and a map without any depth.
     """
     raw = read_samples(Path(path))
     if raw.ndim == 3 and raw.shape[2] in (3, 4) and (raw[..., :1] == raw[..., :3]).all():
@@ -71,8 +72,8 @@ def read_depths(path: str | os.PathLike[str], scale: DepthScale) -> np.ndarray:
             "{path} has the shape ({shape}); a map of depths has one grey channel", path=str(path), shape=raw.shape
         )
     values = raw.astype(np.float32)
-    if not np.isfinite(values).all() or (values < 0).any():
-        raise RequestError("{path} holds depths that are negative or not finite; correct them", path=str(path))
+    if np.isnan(values).any() or (values < 0).any():
+        raise RequestError("{path} holds depths that are negative or no numbers; correct them", path=str(path))
     if scale.meaning in UNITS:
         return _in_mm(values * np.float32(UNITS[scale.meaning]), path)
     if raw.dtype.kind == "u":
@@ -87,10 +88,10 @@ def read_depths(path: str | os.PathLike[str], scale: DepthScale) -> np.ndarray:
 
 
 def _in_mm(depths: np.ndarray, path: str | os.PathLike[str]) -> np.ndarray:
-    """Return depths with infinity in place of 0; RequestError where there is no other."""
+    """Return depths with infinity in place of 0 and of more than FARTHEST_MM; RequestError where all of it is 0."""
     if not depths.any():
         raise RequestError("{path} holds no depth: all of it is 0; choose another map", path=str(path))
-    found: np.ndarray = np.where(depths > 0, depths, np.inf).astype(np.float32)
+    found: np.ndarray = np.where((depths > 0) & (depths <= FARTHEST_MM), depths, np.inf).astype(np.float32)
     return found
 
 

@@ -42,6 +42,17 @@ def test_millimetres_and_metres_are_taken_as_they_are_and_0_is_infinity(tmp_path
     assert read_depths(tmp_path / "whole.tif", DepthScale("mm")).tolist() == [[1200.0, 65535.0]]
 
 
+def test_infinity_and_what_renderers_write_of_the_sky_are_far_away(tmp_path):
+    values = np.array([[inf, 1e14], [2.5, 4.0]], np.float32)
+    write_photo(tmp_path / "map.tif", values, "linear", "float")
+    assert read_depths(tmp_path / "map.tif", DepthScale("m")).tolist() == [[inf, inf], [2500.0, 4000.0]]
+    library = pytest.importorskip("OpenEXR")
+    header = {"compression": library.ZIP_COMPRESSION, "type": library.scanlineimage}
+    with library.File(header, {"Z": values}) as file:
+        file.write(str(tmp_path / "map.exr"))
+    assert read_depths(tmp_path / "map.exr", DepthScale("m")).tolist() == [[inf, inf], [2500.0, 4000.0]]
+
+
 def test_grey_saved_in_colours_is_a_map_and_colours_are_none(tmp_path):
     write_photo(tmp_path / "grey.png", np.repeat(RAMP[..., None], 3, -1), "linear")
     write_photo(tmp_path / "colours.png", np.random.default_rng(0).random((3, 4, 3)), "linear")
@@ -56,10 +67,12 @@ def test_grey_saved_in_colours_is_a_map_and_colours_are_none(tmp_path):
     [
         ([[0.5, -1.0], [0.5, -1.0]], DepthScale()),
         ([[0.5, np.nan], [0.5, np.nan]], DepthScale()),
+        ([[0.5, np.nan], [0.5, np.nan]], DepthScale("m")),
+        ([[0.5, inf], [0.5, inf]], DepthScale()),
         ([[0.5, 3.0], [0.5, 3.0]], DepthScale()),
         ([[0.0, 0.0], [0.0, 0.0]], DepthScale("mm")),
     ],
-    ids=["negative", "nan", "beyond 1", "all 0"],
+    ids=["negative", "nan", "nan metres", "infinite share", "beyond 1", "all 0"],
 )
 def test_numbers_that_are_no_depths_are_one_sentence(tmp_path, values, scale):
     write_photo(tmp_path / "map.tif", np.array(values, np.float32), "linear", "float")

@@ -31,7 +31,7 @@
 <message><source>{path} does not state how far away its depths are; save them as a PNG and give near and far</source><translation>{path} sagt nicht, wie groß seine Entfernungen sind; als PNG speichern und nah und fern angeben</translation></message>
 <message><source>{path} has no depths of its own; choose a map of depths</source><translation>{path} hat keine eigenen Entfernungen; eine Karte der Entfernungen wählen</translation></message>
 <message><source>{path} has the shape ({shape}); a map of depths has one grey channel</source><translation>{path} hat die Form ({shape}); eine Karte der Entfernungen hat einen grauen Kanal</translation></message>
-<message><source>{path} holds depths that are negative or not finite; correct them</source><translation>{path} enthält Entfernungen, die negativ oder nicht endlich sind; berichtigen</translation></message>
+<message><source>{path} holds depths that are negative or no numbers; correct them</source><translation>{path} enthält Entfernungen, die negativ oder keine Zahlen sind; berichtigen</translation></message>
 <message><source>{path} holds no depth: all of it is 0; choose another map</source><translation>{path} enthält keine Entfernung: alles ist 0; eine andere Karte wählen</translation></message>
 <message><source>{path} holds numbers up to {most:g}, between near and far they reach from 0 to 1; choose mm or m</source><translation>{path} enthält Zahlen bis {most:g}, zwischen nah und fern reichen sie von 0 bis 1; mm oder m wählen</translation></message>
 <message><source>{path} is a HEIF that cannot be read ({why}); save it again</source><translation>{path} ist ein HEIF, das nicht gelesen werden kann ({why}); noch einmal speichern</translation></message>
