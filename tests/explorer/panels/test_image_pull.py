@@ -83,10 +83,18 @@ def test_the_picture_by_rays_answers_what_was_asked(monkeypatch):
     assert moving(asked()).question == asked()
 
 
-def test_the_shade_that_is_kept_is_that_of_the_lens_and_its_rims(keeper):
-    for changes in ({"clip": True}, {"clip": False}, {"lens": "double_gauss_28", "clip": False}):
-        kept = moving(asked(photo_depths="", **changes), keeper=keeper).after
-        np.testing.assert_array_equal(kept, moving(asked(photo_depths="", **changes)).after)
+@pytest.mark.parametrize(
+    "changes",
+    [{"clip": True}, {"errors": (("thickness", 2, 2, 3.0),)}, {"errors": (("index", 3, 3, 0.1),)}],
+    ids=["rims", "a thickness", "a glass"],
+)
+def test_what_is_kept_is_of_the_picture_and_nothing_of_the_lens(tmp_path, changes):
+    write_photo(tmp_path / "white.png", np.ones((20, 30, 3)))  # in which distortion does not show
+    white = {"photo_depths": "", "photo_source": str(tmp_path / "white.png"), "photo_pixel_um": 64.0}
+    keeper = Keeper()
+    before = moving(asked(**white), keeper=keeper).after
+    kept, anew = (moving(asked(**white, **changes), keeper=one).after for one in (keeper, Keeper()))
+    assert np.abs(kept - anew).max() < 1e-5 < 1e-3 < np.abs(kept - before).max()  # float32
 
 
 def test_depths_count_through_the_lens_alone():
