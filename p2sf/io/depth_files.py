@@ -13,7 +13,7 @@ import numpy as np
 from p2sf.arguments import check_fields
 from p2sf.conventions import FARTHEST_MM, depth_of, vergence
 from p2sf.errors import RequestError
-from p2sf.io.photo_files import HEIF, open_heif, read_samples
+from p2sf.io.photo_files import HEIF, heif_depth_image, read_samples
 from p2sf.messages import Alternatives
 from p2sf.parameters import check_reach
 
@@ -111,12 +111,13 @@ def depths_of(vergences: np.ndarray) -> np.ndarray:
 def own_depths(path: str | os.PathLike[str]) -> np.ndarray | None:
     """Return the depths that a HEIF photo brings with it, (rows, columns) float32 mm; None where it has none.
 
-    Needs pillow-heif. Raises RequestError where the file does not say how far away its numbers are.
+    Turned upright where the file says how. Needs pillow-heif. Raises RequestError where it does not say how far away
+    its numbers are.
     """
     if Path(path).suffix.lower() not in HEIF:
         return None
-    images = open_heif(path).info.get("depth_images", [])
-    return heif_depths(np.asarray(images[0]), images[0].info.get("metadata", {}), path) if images else None
+    found = heif_depth_image(path)
+    return heif_depths(*found, path) if found else None
 
 
 def heif_depths(raw: np.ndarray, stated: dict[str, Any], path: str | os.PathLike[str]) -> np.ndarray:

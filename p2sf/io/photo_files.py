@@ -2,6 +2,7 @@
 
 import io
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -151,6 +152,39 @@ def photo_shape(path: str | os.PathLike[str]) -> tuple[int, int]:
         return read_photo(path).values.shape[:2]
 
 
+def turned_as(photo: str | os.PathLike[str], values: np.ndarray) -> np.ndarray:
+    """Return a map of a photo, (rows, columns), turned as the photo is where it lies on its side and the photo not.
+
+    Its proportions tell: programs store maps like the photo's own pixels, or upright. One that is square stays.
+    Raises RequestError where there is no photo.
+    """
+    rows, columns = photo_shape(photo)
+    tall, wide = values.shape
+    if (rows < columns) == (tall < wide) or rows == columns or tall == wide:
+        return values
+    turn = TURNS.get(_orientation(photo))
+    return turn(values) if turn else values
+
+
+TURNS: dict[int, Callable[[np.ndarray], np.ndarray]] = {  # of SIDEWAYS
+    5: np.transpose,
+    6: lambda values: np.rot90(values, -1),
+    7: lambda values: values[::-1, ::-1].T,
+    8: np.rot90,
+}
+
+
+def _orientation(path: str | os.PathLike[str]) -> int:
+    """Return how a picture's pixels are to be turned, as Exif says it; 1 where they are upright."""
+    from PIL import Image
+
+    with Image.open(path) as picture:
+        if picture.format == "TIFF":  # which is read as it is stored
+            return 1
+        found: int = picture.info.get("original_orientation") or picture.getexif().get(ORIENTATION, 1)
+        return found
+
+
 def read_samples(path: Path) -> np.ndarray:
     """Return the samples of a picture file as they are stored, upright; RequestError where it cannot be read."""
     try:
@@ -185,12 +219,16 @@ def pillow_heif(path: str | os.PathLike[str]) -> Any:
     return pillow_heif
 
 
-def open_heif(path: str | os.PathLike[str]) -> Any:
-    """Return a HEIF file, opened; RequestError where it is none, or damaged."""
+def heif_depth_image(path: str | os.PathLike[str]) -> tuple[np.ndarray, dict[str, Any]] | None:
+    """Return the samples of a HEIF file's first depth image and what is stated of them; None where it has none.
+
+    Raises RequestError for what is no HEIF, or damaged.
+    """
     library = pillow_heif(path)
     try:
-        return library.open_heif(path)
-    except (OSError, ValueError, RuntimeError, EOFError) as error:
+        images = library.open_heif(path).info.get("depth_images", [])
+        return (np.asarray(images[0]), images[0].info.get("metadata", {})) if images else None
+    except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
             "{path} is a HEIF that cannot be read ({why}); save it again", path=str(path), why=str(error)
         ) from error

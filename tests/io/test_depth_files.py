@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import RequestError
-from p2sf.io import depth_files, photo_files
+from p2sf.io import photo_files
 from p2sf.io.depth_files import DepthScale, heif_depths, own_depths, read_depths
 from p2sf.io.photo_files import write_photo
 
@@ -114,25 +114,70 @@ def test_depths_of_heif_without_limits_are_refused(stated):
         heif_depths(np.zeros((2, 2), np.uint8), stated, "photo.heic")
 
 
+class DepthImage:
+    def __init__(self):
+        self.info = {"metadata": LIMITS | {"representation_type": 1}}
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array([[0, 255]], np.uint8)
+
+
+def heif_of(images):
+    return lambda path: SimpleNamespace(open_heif=lambda path: SimpleNamespace(info={"depth_images": images}))
+
+
 def test_a_photos_own_depths_are_those_of_its_first_depth_image(monkeypatch):
-    class DepthImage:
-        def __init__(self):
-            self.info = {"metadata": LIMITS | {"representation_type": 1}}
-
-        def __array__(self, dtype=None, copy=None):
-            return np.array([[0, 255]], np.uint8)
-
-    monkeypatch.setattr(depth_files, "open_heif", lambda path: SimpleNamespace(info={"depth_images": [DepthImage()]}))
+    monkeypatch.setattr(photo_files, "pillow_heif", heif_of([DepthImage()]))
     assert own_depths("photo.heic").tolist() == [[pytest.approx(4000), pytest.approx(500)]]
-    monkeypatch.setattr(depth_files, "open_heif", lambda path: SimpleNamespace(info={}))
+    monkeypatch.setattr(photo_files, "pillow_heif", heif_of([]))
     assert own_depths("photo.heic") is None and own_depths("photo.jpg") is None
 
 
 def test_a_damaged_heif_is_one_sentence(monkeypatch, tmp_path):
-    def fail(path):
-        raise ValueError("no ftyp")
+    class Damaged:
+        def __array__(self, dtype=None, copy=None):
+            raise SyntaxError("no colours")  # as pillow-heif says of what it cannot convert
 
-    monkeypatch.setattr(photo_files, "pillow_heif", lambda path: SimpleNamespace(open_heif=fail))
+    monkeypatch.setattr(photo_files, "pillow_heif", heif_of([Damaged()]))
     with pytest.raises(RequestError) as raised:
         own_depths(tmp_path / "photo.heic")
-    assert raised.value.message.values["why"] == "no ftyp"
+    assert raised.value.message.values["why"] == "no colours"
+
+
+SIDES = np.arange(12.0).reshape(3, 4)
+
+
+@pytest.mark.parametrize("orientation", [5, 6, 7, 8])
+def test_a_map_that_lies_on_its_side_is_turned_as_its_photo(tmp_path, orientation):
+    from PIL import Image
+
+    exif, grey = Image.Exif(), np.round(20 * SIDES).astype(np.uint8)
+    exif[photo_files.ORIENTATION] = orientation
+    Image.fromarray(grey).save(tmp_path / "photo.png", exif=exif)
+    upright = photo_files.read_samples(tmp_path / "photo.png")
+    assert upright.shape == (4, 3)
+    assert (photo_files.turned_as(tmp_path / "photo.png", grey) == upright).all()
+    assert (photo_files.turned_as(tmp_path / "photo.png", upright) == upright).all()
+    square = SIDES[:, :3]
+    assert photo_files.turned_as(tmp_path / "photo.png", square) is square
+
+
+CORNERS = {1: [500.0, 4000.0, 886.2, 886.2], 3: [886.2, 886.2, 4000.0, 500.0], 6: [886.2, 500.0, 886.2, 4000.0]}
+
+
+@pytest.mark.parametrize("orientation", CORNERS)
+@pytest.mark.parametrize("of_depth", [True, False], ids=["both stated", "the photo's stated"])
+def test_depths_of_a_heif_photo_lie_as_its_colours(tmp_path, orientation, of_depth):
+    pytest.importorskip("pillow_heif")
+    from tests.support.heif_with_depth import write_heif_with_depth
+
+    if orientation == 3 and not of_depth:
+        pytest.skip("proportions do not tell")
+    path, near = tmp_path / "photo.heic", np.full((48, 72), 128, np.uint8)
+    near[:24, :36], near[:24, 36:] = 255, 0
+    colours = np.repeat(np.where(near == 255, 255, 0).astype(np.uint8)[..., None], 3, -1).repeat(2, 0).repeat(2, 1)
+    write_heif_with_depth(path, colours, near, (0.25, 2.0), (orientation, orientation if of_depth else 1))
+    found, seen = photo_files.turned_as(path, own_depths(path)), photo_files.read_photo(path).values[..., 0]
+    assert found[[0, 0, -1, -1], [0, -1, 0, -1]] == pytest.approx(np.array(CORNERS[orientation]), rel=5e-3)  # of 255
+    assert found.shape[0] * 2 == seen.shape[0]
+    assert ((seen > 0.5) == (found < 600).repeat(2, 0).repeat(2, 1)).mean() > 0.99  # HEVC blurs the edges

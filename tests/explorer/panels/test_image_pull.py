@@ -94,7 +94,7 @@ def test_what_is_kept_is_of_the_picture_and_nothing_of_the_lens(tmp_path, change
     keeper = Keeper()
     before = moving(asked(**white), keeper=keeper).after
     kept, anew = (moving(asked(**white, **changes), keeper=one).after for one in (keeper, Keeper()))
-    assert np.abs(kept - anew).max() < 1e-5 < 1e-3 < np.abs(kept - before).max()  # float32
+    assert np.abs(kept - anew).max() < 2e-4 < 1e-3 < np.abs(kept - before).max()  # the spline of a constant
 
 
 def test_depths_count_through_the_lens_alone():

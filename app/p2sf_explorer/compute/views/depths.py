@@ -7,8 +7,10 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
+from p2sf.image.charts import CHARTS
 from p2sf.io.depth_files import USUAL_SCALE, DepthScale, depths_of, own_depths, read_depths
 from p2sf.scene.depth_gaps import Gaps, ends_and_gaps
+from p2sf.io.photo_files import turned_as
 from p2sf_explorer.compute.views.photos import change_time, frame_box
 
 FLAT, SLOPE, STEPS, OWN = "", "slope", "steps", "photo"
@@ -38,18 +40,17 @@ def depth_map(choice: DepthChoice, photo: str, shape: tuple[int, int]) -> np.nda
     """
     if choice.source == FLAT:
         return None
-    path = photo if choice.source == OWN else choice.source
-    return _map(choice, photo, change_time(path), shape)
+    return _map(choice, photo, (change_time(photo), change_time(choice.source)), shape)
 
 
 @lru_cache(maxsize=2)
-def _map(choice: DepthChoice, photo: str, _changed: int, shape: tuple[int, int]) -> np.ndarray:
+def _map(choice: DepthChoice, photo: str, _changed: tuple[int, int], shape: tuple[int, int]) -> np.ndarray:
     if choice.source in (SLOPE, STEPS):
         return _ramp(choice.source, choice.scale, shape)
     depths = own_depths(photo) if choice.source == OWN else read_depths(choice.source, choice.scale)
     if depths is None:
         raise RequestError("{path} has no depths of its own; choose a map of depths", path=photo)
-    return _in_frame(depths, shape)
+    return _in_frame(depths if photo in CHARTS else turned_as(photo, depths), shape)
 
 
 def occupied_depths(choice: DepthChoice, photo: str, shape: tuple[int, int]) -> tuple[float, float, Gaps] | None:
