@@ -75,8 +75,7 @@ class KeptPicture:
 
     ``scene`` has the sensor, grown to whole coarse pixels; ``shape`` is the picture's own. ``powers``: the mean square
     of each octave by level of depth, (LEVELS,); ``contrast``: the standard deviation of the picture; ``gradient``: the
-    RMS step from pixel to pixel. ``shade``: the relative illumination of coarse pixels. ``moved_px``: how far the
-    distortion of the lens is from that of the picture.
+    RMS step from pixel to pixel. ``moved_px``: how far the distortion of the lens is from that of the picture.
     """
 
     scene: Scene
@@ -86,7 +85,6 @@ class KeptPicture:
     powers: list[np.ndarray]
     contrast: float
     gradient: float
-    shade: np.ndarray
     moved_px: float = 0.0
 
     def in_scene(self, scene: Scene, moved_px: float) -> "KeptPicture":
@@ -118,7 +116,7 @@ def coarser(sensor: Sensor, times: int) -> Sensor:
 def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: SensorMap, effort: Effort) -> KeptPicture:
     """Return what is kept of a picture, (rows, columns, channels), and of its depths, (rows, columns) mm.
 
-    It is distorted and lit as ``seen`` has it, the lens as it was set then. Without depths all of it is at the far end.
+    It is distorted as ``seen`` has it, the lens as it was set then. Without depths all of it is at the far end.
     """
     far, near = (float(v) for v in scene.vergences(2))
     shape = values.shape[:2]
@@ -131,10 +129,9 @@ def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: Se
     placed, levels = np.pad(placed, [(0, 0), *more], mode="edge"), np.pad(levels, more, mode="edge")
     grown = replace(scene, sensor=_grown(scene.sensor, more[0][1], more[1][1]))
     cut = cut_into_slabs(placed, levels, effort.halvings)
-    shade = illumination(seen, coarser(grown.sensor, 2**effort.halvings), LIGHT_HEIGHTS)
     by_slab = [np.sum([octave_powers(slab, number) for slab in cut], axis=0) for number in range(effort.halvings)]
     powers = [4.0**number * power / levels.size for number, power in enumerate(by_slab)]
-    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()), _gradient(placed), shade)
+    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()), _gradient(placed))
 
 
 def _gradient(planes: np.ndarray) -> float:
@@ -288,9 +285,7 @@ def focused_picture(kept: KeptPicture, camera: Lens) -> FocusedPicture:
     gains = [over_levels(gain, nodes.depths) for gain, _ in responses]
     part = components(nodes, effort.tolerance, effort.rank)
     error = expected_error(kept, part, [over_levels(spread, nodes.depths) for _, spread in responses])
-    shade = kept.shade
-    if kept.scene.clip:  # otherwise it hardly depends on focus and f-number
-        shade = illumination(made.study.sensor_map(made.study.ends[0]), kept.coarse, LIGHT_HEIGHTS)
+    shade = illumination(made.study.sensor_map(made.study.ends[0]), kept.coarse, LIGHT_HEIGHTS)
     out: np.ndarray | None = None
     for slab in kept.slabs:
         (down, across), planes = _blurred(slab, part, gains, shade)

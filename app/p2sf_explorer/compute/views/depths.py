@@ -9,8 +9,8 @@ from p2sf.conventions import vergence
 from p2sf.errors import RequestError
 from p2sf.image.charts import CHARTS
 from p2sf.io.depth_files import USUAL_SCALE, DepthScale, depths_of, own_depths, read_depths
-from p2sf.scene.depth_gaps import Gaps, ends_and_gaps
 from p2sf.io.photo_files import turned_as
+from p2sf.scene.depth_gaps import Gaps, ends_and_gaps
 from p2sf_explorer.compute.views.photos import change_time, frame_box
 
 FLAT, SLOPE, STEPS, OWN = "", "slope", "steps", "photo"

@@ -333,7 +333,10 @@ MOST_MOVED_PX = 1.0  # of a kept picture, before it is made anew
 
 
 class Keeper:
-    """The picture that is kept from one setting of a lens to the next, one at a time; for one thread."""
+    """The picture that is kept from one setting of a lens to the next, one at a time; for one thread.
+
+    Nothing of a lens is kept, but for its distortion, which is compared with that of the next.
+    """
 
     def __init__(self) -> None:
         self._key: tuple[object, ...] = ()
@@ -343,9 +346,7 @@ class Keeper:
     def kept(self, request: ImageRequest, values: np.ndarray, scene: Scene, seen: SensorMap) -> KeptPicture:
         """Return what is kept of a picture, made anew where it is another, or distorted otherwise."""
         stamps = change_time(request.photo), change_time(request.depths.source)
-        shading = request.clip, tuple(surface.radius for surface in request.lens.surfaces)  # of any focus and f-number
-        place = request.shape, scene.near_mm, scene.far_mm, scene.channels
-        key = (request.photo, request.depths, *stamps, *place, *shading)
+        key = (request.photo, request.depths, *stamps, request.shape, scene.near_mm, scene.far_mm)
         if self._kept is not None and self._seen is not None and key == self._key:
             moved = moved_px(self._seen, self._kept.scene.sensor, seen, scene.sensor)
             if moved <= MOST_MOVED_PX:
@@ -364,7 +365,10 @@ def moved_px(before: SensorMap, its: Sensor, now: SensorMap, sensor: Sensor) -> 
         )
         for seen, own in ((before, its), (now, sensor))
     ]
-    (x, y), (across, up) = ([axis / own.pixel_mm for axis in at] for at, own in zip(places, (its, sensor), strict=True))
+    (x, y), (across, up) = (
+        [(axis - centre) / own.pixel_mm for axis, centre in zip(at, own.centre_mm, strict=True)]
+        for at, own in zip(places, (its, sensor), strict=True)
+    )
     return float(np.hypot(across - x, up - y).max())
 
 
