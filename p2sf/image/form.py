@@ -29,6 +29,7 @@ from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels,
 from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, least_fold, map_depths, stack_layers
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
+from p2sf.image.pupil_moments import Passing, PupilLandings, first_moments, pupil_landings
 from p2sf.image.region import Region, tiles, whole
 from p2sf.messages import Alternatives, ParameterName
 from p2sf.pixel_kernels.nodes import nodes_along
@@ -172,7 +173,7 @@ class DepthKernels:
     def __init__(self, planned: Plan, watch: Progress, lattice: Lattice | None = None) -> None:
         """Take the ``lattice`` of the far end, if it is known; else measure how many nodes must be computed."""
         self._planned, self._watch, self._step = planned, watch, 1
-        self._lock = Lock()
+        self._lock, self._landings = Lock(), dict[int, PupilLandings]()
         if lattice is not None:
             self._nodes = {0: known_kernels(lattice)}
             return
@@ -190,6 +191,13 @@ class DepthKernels:
             while len(self._nodes) > 1 and sum(each.bytes for each in self._nodes.values()) > KEPT_BYTES:
                 del self._nodes[next(iter(self._nodes))]
         return nodes.over(region, self._watch)
+
+    def first_moments(self, number: int, region: Region) -> Lattice:
+        """Return the first moments over the pupil of these kernels, of all channels twice, see `first_moments`."""
+        with self._lock:
+            if number not in self._landings:
+                self._landings[number] = pupil_landings(self._planned, self._planned.vergences[number])
+        return first_moments(self.over(number, region), region, self._landings[number])
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,19 +248,24 @@ class _Former:
         """Return the light of the layers from near to far, each behind those before it, and what they cover."""
         count = self.picture.shape[-1]
         light, covered = (np.zeros((*tile.shape, count), np.float32) for _ in range(2))
-        passing = np.ones_like(covered)
+        passing = Passing(light.shape)
         for number, planes, box in layers:
             planes, box = self._surrounded(planes, box, reach)
             planes = np.concatenate([planes[..., :count], np.repeat(planes[..., count:], count, -1)], -1)
-            blurred, spread = self._blur(number, planes, box, tuple(range(count)) * (planes.shape[-1] // count))
+            colours = tuple(range(count)) * (planes.shape[-1] // count)
+            blurred, spread = self._blur(number, planes, box, colours)
             seen = spread.meet(tile)
             if seen.empty:
                 continue
             part, at = blurred[seen.within(spread)], seen.within(tile)
-            light[at] += passing[at] * part[..., :count]
-            covered[at] += passing[at] * part[..., count : 2 * count]
+            first = 0 if passing.tilted else 2 * count  # before any silhouette, moments of what hides are enough
+            if passing.tilted:
+                planes = planes * passing.near_moments(self.half)[box.within(reach)][..., None]
+            tilts = self._tilts(number, planes[..., first:], box, colours[first:], blurred)[:, *seen.within(spread)]
+            for total, of_it in ((light, np.s_[..., :count]), (covered, np.s_[..., count : 2 * count])):
+                total[at] += passing.seen(at, part[of_it], tilts[of_it])
             if planes.shape[-1] > 2 * count:
-                passing[at] *= np.clip(1 - part[..., 2 * count :], 0, 1)
+                passing.hide(at, part[..., -count:], tilts[..., -count:])
         return light, covered
 
     def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:
@@ -270,27 +283,42 @@ class _Former:
         return (np.pad(planes, (down, right, (0, 0)), mode="edge") if wide != box else planes), wide
 
     def _blur(
-        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...]
+        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...], moments: bool = False
     ) -> tuple[np.ndarray, Region]:
-        """Return planes of a box blurred by kernels of these channels, with all light, and where that lies."""
+        """Return planes of a box blurred by kernels of these channels, with all light, and where that lies.
+
+        ``moments``: by the first moments of the kernels, whose channels these are then.
+        """
         if self.how.method == "lowrank":
-            parts = self._low_rank(number)
+            parts = self._low_rank(number, moments)
             blurred = low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
             return blurred, box.grown(parts[0].mean.shape[0] // 2)
-        lattice = self.kernels.over(number, box)
+        lattice = (self.kernels.first_moments if moments else self.kernels.over)(number, box)
         # Halos are far below the rounding of float32 beside very bright light.
         kind = np.float64 if has_halos(self.planned) else np.float32
         blurred = BlurOperator(lattice, box.shape, channels=channels, kind=kind).spread(planes, self.watch)
         return blurred, box.grown(lattice.half)
 
+    def _tilts(
+        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...], blurred: np.ndarray
+    ) -> np.ndarray:
+        """Return the first moments over the pupil of ``blurred`` planes, (2, rows, columns, planes)."""
+        if not channels:
+            return np.zeros((2, *blurred.shape[:2], 0), np.float32)
+        every = len(self.planned.colours)
+        both = (*channels, *[every + channel for channel in channels])
+        moments, _ = self._blur(number, np.concatenate([planes, planes], axis=-1), box, both, moments=True)
+        return np.stack(np.split(moments, 2, axis=-1))
+
     @cached_property
-    def _low_rank(self) -> Callable[[int], list[LowRank]]:
-        """Return the function from a depth node to the low ranks of its channels."""
+    def _low_rank(self) -> Callable[[int, bool], list[LowRank]]:
+        """Return the function from a depth node to the low ranks of its channels, or of their first moments."""
         tolerance = RANK_TOLERANCE * self.planned.allowed_error
 
         @cache
-        def parts_of(number: int) -> list[LowRank]:
-            lattice = self.kernels.over(number, whole(self.picture.shape))
+        def parts_of(number: int, moments: bool) -> list[LowRank]:
+            kernels = self.kernels.first_moments if moments else self.kernels.over
+            lattice = kernels(number, whole(self.picture.shape))
             return map_threads(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
 
         return parts_of

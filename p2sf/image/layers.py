@@ -3,7 +3,8 @@
 The kernels of a surface that slopes from one depth node to the next are interpolated: its layers add up. At an edge a
 nearer layer hides what lies behind it, and where it is blurred, that part of the pupil which looks past it sees on. So
 beside edges a layer reaches on behind the nearer ones. No depth map can tell how: across a jump in depth a hidden
-pixel takes colour and depth of the nearest pixel in its row or column that is not hidden.
+pixel takes colour and depth of the nearest pixel in its row or column that is not hidden, and where these are hidden
+throughout, those of the nearest pixel in line that has taken some.
 """
 
 from collections.abc import Iterator, Sequence
@@ -172,12 +173,27 @@ def _places(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...])
 
 
 def nearest_open(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return row and column of the nearest pixel along row or column that is not hidden; of itself where none is."""
+    """Return row and column of the nearest pixel along row or column that is not hidden.
+
+    Where all of both are hidden, those of the nearest pixel in line that has one; of itself where everything is.
+    """
+    rows, columns, found = _nearest_in_line(hidden)
+    if found.any() and not found.all():
+        by_row, by_column, _ = _nearest_in_line(~found)
+        rows, columns = rows[by_row, by_column], columns[by_row, by_column]
+    return rows, columns
+
+
+def _nearest_in_line(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return row and column of the nearest pixel along row or column that is not hidden, and whether there is one.
+
+    Where there is none, those of the pixel itself.
+    """
     rows, columns = np.ogrid[: hidden.shape[0], : hidden.shape[1]]
     column, across = _nearest_in_row(hidden)
     row, down = (found.T for found in _nearest_in_row(hidden.T))
     none, sideways = np.minimum(across, down) == FAR, across <= down
-    return np.where(sideways | none, rows, row), np.where(sideways & ~none, column, columns)
+    return np.where(sideways | none, rows, row), np.where(sideways & ~none, column, columns), ~none
 
 
 def _nearest_in_row(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

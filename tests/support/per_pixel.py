@@ -1,14 +1,14 @@
 """A picture with depth by the kernel of every single pixel, in every wavelength: no nodes in field, depth or colour.
 
-Layers of depth are taken from `map_depths`, one for each depth of the scene, so that it is a reference for kernels
-and not for occlusion, which `tests.support.visibility` is.
+Layers of depth are taken from `map_depths`, one for each depth of the scene, and what they hide from `Passing`, so that
+it is a reference for kernels and not for occlusion, which `tests.support.visibility` is.
 """
 
 import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.image.layers import map_depths
-from p2sf.pixel_kernels import Kernels
+from p2sf.image.pupil_moments import Passing, kernel_moments, pupil_landings
 from p2sf.scene import Plan
 
 TOGETHER = 400  # pixels whose kernels are computed at once
@@ -33,31 +33,36 @@ def per_pixel_picture(
     """
     levels = np.unique(vergence(depth_mm))
     half = widest_half(planned, levels)
-    light = covered = 0.0
-    passing: np.ndarray | float = 1.0
+    shape = (*(part.stop - part.start for part in region), 1)
+    light, covered, passing, at = 0.0, 0.0, Passing(shape), np.s_[:, :]
     for layer in map_depths(depth_mm, levels, values.shape, half).layers(values[..., None]):
         planes = np.stack([layer.colours[..., 0] * layer.opacity, layer.opacity, layer.hiding], axis=-1)
-        own, over, hides = np.moveaxis(
-            _spread(planned.kernels(channel, float(levels[layer.number])), planned, planes, region, half), -1, 0
-        )
-        light, covered = light + passing * own, covered + passing * over
-        passing = passing * np.clip(1 - hides, 0, 1)
+        mean, *tilts = _spread(planned, float(levels[layer.number]), channel, planes, region, half)
+        shown = passing.seen(at, mean[..., :2], np.stack(tilts)[..., :2])
+        light, covered = light + shown[..., 0], covered + shown[..., 1]
+        passing.hide(at, mean[..., 2:], np.stack(tilts)[..., 2:])
     found: np.ndarray = light / covered
     return found
 
 
-def _spread(kernels: Kernels, planned: Plan, planes: np.ndarray, region: Region, half: int) -> np.ndarray:
-    """Return what a layer's pixels send into a region, (rows, columns, planes), each by its own kernel."""
+def _spread(planned: Plan, vergence: float, channel: int, planes: np.ndarray, region: Region, half: int) -> np.ndarray:
+    """Return what a layer's pixels send into a region, each by its own kernel and then by that kernel's moments.
+
+    (1 + 2, rows, columns, planes).
+    """
     (top, bottom), (left, right) = ((part.start - half, part.stop + half) for part in region)
     rows, columns = np.nonzero(planes[top:bottom, left:right, 1])
     rows, columns = rows + top, columns + left
-    canvas = np.zeros((bottom - top + 2 * half, right - left + 2 * half, planes.shape[-1]))
-    sensor = planned.scene.sensor
+    canvas = np.zeros((3, bottom - top + 2 * half, right - left + 2 * half, planes.shape[-1]))
+    sensor, kernels = planned.scene.sensor, planned.kernels(channel, vergence)
+    landings = pupil_landings(planned, vergence)
     for start in range(0, len(rows), TOGETHER):
         row, column = rows[start : start + TOGETHER], columns[start : start + TOGETHER]
         points = kernels.points(sensor.x_mm(column), sensor.y_mm(row))
         halves = np.minimum(points.half_widths(), half)
         for r, c, h, kernel in zip(row, column, halves, points.kernels(halves), strict=True):
             r0, c0 = r - top + half - h, c - left + half - h
-            canvas[r0 : r0 + 2 * h + 1, c0 : c0 + 2 * h + 1] += kernel[..., None] * planes[r, c]
-    return canvas[2 * half : -2 * half, 2 * half : -2 * half]
+            moments = kernel_moments(kernel[None], landings.at(np.array([r]), np.array([c]))[0, 0])
+            every = np.concatenate([kernel[None], moments])
+            canvas[:, r0 : r0 + 2 * h + 1, c0 : c0 + 2 * h + 1] += every[..., None] * planes[r, c]
+    return canvas[:, 2 * half : -2 * half, 2 * half : -2 * half]
