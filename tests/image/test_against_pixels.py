@@ -11,16 +11,19 @@ from tests.support.depth_scenes import SCENES
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(("shape", "focus"), [("near over far, left", "far"), ("fence", "near")])
-def test_edges_are_right_to_a_hundredth_where_coverage_was_far_off(shape, focus):
+@pytest.mark.parametrize(
+    ("shape", "focus", "better"),
+    [
+        ("near over far, left", "far", 50),
+        ("fence", "near", 10),
+        ("far through a window", "between", 4),
+        (PANE, "near", 30),
+    ],
+)
+def test_edges_are_right_to_a_hundredth_where_coverage_was_far_off(shape, focus, better):
+    """With the focus between, the parts of the pupil see other parts of both depths: a product of means will not do."""
     former, now = edge_errors(shape, focus)
-    assert now.rms < GOAL and former.rms > 5 * now.rms
-
-
-def test_a_pane_is_as_transparent_as_its_alpha():
-    """Its own silhouette cuts pupils of a wall whose edge lies behind it: the hardest of the twenty but the window."""
-    former, now = edge_errors(PANE, "near")
-    assert now.rms < 0.02 and former.rms > 5 * now.rms
+    assert now.rms < GOAL and now.largest < 3 * GOAL and former.rms > better * now.rms
     assert len(configurations()) == 20
 
 

@@ -4,8 +4,8 @@ from p2sf.scene.planning.plan import Plan
 
 MEBIBYTE = 2.0**20
 EDGES = (
-    "This is the error of kernels. Within four pixels of an edge of depth, occlusion adds some 0.01 of white (RMS), "
-    "and up to 0.03 with the focus between the two depths."
+    "This is the error of kernels. Within four pixels of an edge of depth, occlusion adds up to 0.01 of white (RMS), "
+    "for a background that goes on behind it as its nearest pixels."
 )
 
 
