@@ -59,21 +59,20 @@ class DepthMap:
         """
         place, colours, hides = self.place, values, bool(self.hiding.any())
         for number in range(ceil(place.max()), int(place.min()) - 1, -1):
-            opacity = np.clip(1 - np.abs(self.place - number), 0, 1)
+            beyond = np.where(self.continued, place, self.place) - number
+            opacity = np.clip(1 - np.abs(beyond), 0, 1)
             if not hides:
                 yield DepthLayer(number, colours, opacity, np.zeros_like(opacity))
                 continue
-            reaching_on = np.clip(place - (number - 1), 0, 1) if number else np.ones_like(place)
-            opacity = np.where(self.continued & (opacity == 0), reaching_on, opacity)
             if opacity.any():
-                yield DepthLayer(number, colours, opacity, self.hiding * _hides(self.place - number, opacity))
-            hidden = reaching_on >= 1
+                yield DepthLayer(number, colours, opacity, self.hiding * _hides(beyond, opacity))
+            hidden = place >= number
             if (hidden & self.continued).any():  # elsewhere nothing is seen of what goes on
                 nearest = nearest_open(hidden)
-                jumps = reaching_on[nearest] == 0  # a surface that only slopes on goes on as it is
+                jumps = hidden & (place[nearest] <= number - 1)  # a surface that only slopes on goes on as it is
                 place = np.where(jumps, place[nearest], place)
                 colours = np.where(jumps[..., None], colours[nearest], colours)
-            place = np.minimum(place, number - 1)
+            place = np.where(hidden, np.minimum(place, number - 1), place)
 
 
 @dataclass(frozen=True, eq=False)

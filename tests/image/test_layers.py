@@ -78,6 +78,17 @@ def test_what_is_hidden_takes_colour_and_depth_of_the_nearest_pixel_beside_it():
     assert only.number == 1 and (only.opacity == 1).all() and not only.hiding.any()
 
 
+def test_what_is_hidden_between_two_nodes_is_divided_between_them_as_what_is_seen():
+    """A wall 0.65 of the way from a node to the next, behind a post: both of its layers go on evenly, and add up."""
+    depth = 1 / np.array([[0.65e-4, 0.65e-4, 3e-4, 3e-4, 0.65e-4]])
+    near, *wall = layers(np.ones((1, 5, 1)), depth, np.array([1e-14, 1e-4, 2e-4, 3e-4]))
+    assert near.opacity[0].tolist() == [0, 0, 1, 1, 0]
+    for layer, number, opacity, hiding in zip(wall, (1, 0), (0.65, 0.35), (0, 1), strict=True):
+        assert layer.number == number
+        assert layer.opacity[0] == pytest.approx(np.full(5, opacity), abs=1e-6)
+        assert layer.hiding[0] == pytest.approx(np.full(5, hiding), abs=1e-6)
+
+
 @pytest.mark.parametrize("as_layers", [False, True])
 def test_even_light_stays_even_at_edges_of_depth_in_every_colour(as_layers):
     """A layer covers and hides as its light spreads: by each colour's own kernels, which axial colour tells apart."""
