@@ -1,12 +1,19 @@
 """Pictures with depth against sums over single pixels and over the pupil: short versions of two long jobs."""
 
+from itertools import product
+
 import numpy as np
 import pytest
+from numpy.lib.stride_tricks import sliding_window_view
 
-from tests.benchmarks.image_simulation import CAMERAS
+from p2sf.image import form_image
+from p2sf.scene.planning.study import distance
+from p2sf.scene.planning.verify import planned_kernel
+from tests.benchmarks.image_simulation import BLUR, CAMERAS, for_reference
 from tests.long.depth_edges import GOAL, PANE, configurations, edge_errors
 from tests.long.picture_crops import crop_errors
 from tests.support.depth_scenes import SCENES
+from tests.support.per_pixel import per_pixel_picture, widest_half
 
 pytestmark = pytest.mark.slow
 
@@ -30,6 +37,32 @@ def test_edges_are_right_to_a_hundredth_where_coverage_was_far_off(shape, focus,
 def test_a_picture_with_edges_keeps_its_tolerance():
     found = crop_errors(0, (60, 80), (6, 8))
     assert found["light"] <= 1
+
+
+def test_the_error_of_a_picture_is_what_the_error_of_its_kernels_allows():
+    """White noise at one depth: Cauchy and Schwarz bound each pixel; the variance is that of the kernels' errors."""
+    camera, shape, region, green = CAMERAS[0], (60, 80), (slice(20, 36), slice(26, 46)), 1
+    values = np.random.default_rng(5).random((*shape, 3)).astype(np.float32)
+    made, exact, depth = camera.plan(0.2, shape), for_reference(camera, shape), np.full(shape, 1 / camera.middle)
+    truth = per_pixel_picture(exact, values[..., green], depth, region, green)
+    off = form_image(made, values, depth, BLUR)[region][..., green] - truth
+
+    sensor, vergence, shares, norms = made.scene.sensor, camera.middle, [], []
+    for row, column in product(range(20, 36, 5), range(26, 46, 5)):
+        x, y = float(sensor.x_mm(column)), float(sensor.y_mm(row))
+        true = exact.kernels(green, vergence).at(x, y)
+        shares.append(distance(planned_kernel(made, x, y, vergence, green), true))
+        norms.append(float(np.linalg.norm(true)))
+    # 320 pixels, a few of them independent of each other: their variance is known to a third
+    assert off.std() / truth.std() == pytest.approx(np.sqrt(np.mean(np.square(shares))), rel=0.3)
+    half = widest_half(exact, np.array([vergence]))
+    around = values[
+        region[0].start - half : region[0].stop + half, region[1].start - half : region[1].stop + half, green
+    ]
+    windows = sliding_window_view(around, (2 * half + 1, 2 * half + 1))
+    contrast = windows.std((2, 3)) * (2 * half + 1)
+    assert (np.abs(off) <= max(shares) * max(norms) * contrast).all()
+    assert max(shares) <= 0.2
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -3,13 +3,16 @@
 Pictures of 200 × 300 pixels with edges of depth, highlights of fifty times white and colour, random scenes of
 `tests.support.depth_scenes` through the lenses of `tests.benchmarks.image_simulation`, are formed by plans of a random
 tolerance. One channel of 12 × 16 pixels somewhere in each, about an edge of depth where it can be, is compared with the
-sum over single pixels, whose own kernels are right to some 0.002 (the benchmark prints it). The error is the relative
-L2 difference and the allowed one is the tolerance; both are of light without its mean too, which is the harder measure,
-since the mean is right in any case. Pictures in FILE, JSON lines, are not made again.
+sum over single pixels, whose own kernels are right to some 0.002 (the benchmark prints it). The error is the L2
+difference, and the allowed one the tolerance times the L2 norm of: the part's *light*; the contrast of the *object*
+about its mean, in the part and as far around as kernels reach, which is what bounds the error (handbook, *Plans*, *What
+this means for a picture*); the *contrast* of the part, which blur may leave little of and no tolerance of kernels
+bounds. Pictures in FILE, JSON lines, are not made again.
 """
 
 import argparse
 import json
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -22,10 +25,11 @@ from tests.support.per_pixel import Region, per_pixel_picture, widest_half
 SHAPE, PART = (200, 300), (12, 16)
 TOLERANCES = 0.2, 0.1, 0.05, 0.02
 QUANTILES = 0.5, 0.95, 1.0
+MEASURES = "light", "object", "contrast"
 
 
 def crop_errors(number: int, shape: tuple[int, int] = SHAPE, part: tuple[int, int] = PART) -> dict[str, object]:
-    """Return one picture's error and its error of light about the mean, both over the allowed one."""
+    """Return one picture's error over what is allowed of each of MEASURES, and what picture it is."""
     random = np.random.default_rng(number)
     camera = CAMERAS[int(random.integers(len(CAMERAS)))]
     scene, rtol = str(random.choice(list(SCENES))), float(random.choice(TOLERANCES))
@@ -36,13 +40,12 @@ def crop_errors(number: int, shape: tuple[int, int] = SHAPE, part: tuple[int, in
     region = _region(depth, part, 2 * half, random)
     truth = per_pixel_picture(exact, values[..., channel], depth, region, channel)
     off = form_image(made, values, depth, BLUR)[region][..., channel] - truth
-    norms = np.linalg.norm(truth), np.linalg.norm(truth - truth.mean())
-    light, contrast = (float(np.linalg.norm(off) / norm / rtol) for norm in norms)
-    about = {"number": number, "lens": camera.lens, "scene": scene, "rtol": rtol, "channel": channel}
+    around = tuple(slice(side.start - half, side.stop + half) for side in region)
+    spread = float(values[*around, channel].std()) * np.sqrt(truth.size)
+    norms = np.linalg.norm(truth), spread, np.linalg.norm(truth - truth.mean())
     return {
-        **about,
-        "light": light,
-        "contrast": contrast,
+        **{"number": number, "lens": camera.lens, "scene": scene, "rtol": rtol, "channel": channel},
+        **{name: float(np.linalg.norm(off) / norm / rtol) for name, norm in zip(MEASURES, norms, strict=True)},
         "largest": float(np.abs(off).max()),
         "edge": _jumps(depth[region]),
     }
@@ -74,12 +77,15 @@ def main() -> None:
         with asked.keep.open("a", encoding="utf-8") as file:
             file.write(json.dumps(found[-1]) + "\n")
         print(json.dumps(found[-1]), flush=True)
-    for measure in ("light", "contrast"):
-        shares = np.quantile([each[measure] for each in found], QUANTILES)
-        print(
-            f"{len(found)} pictures, error / allowed of {measure}: "
-            + ", ".join(f"{q:.0%} {s:.2f}" for q, s in zip(QUANTILES, shares, strict=True))
-        )
+    parts = {
+        "all": found,
+        "with an edge of depth": [each for each in found if each["edge"]],
+        "without": [each for each in found if not each["edge"]],
+    }
+    for (words, some), measure in product(parts.items(), MEASURES):
+        shares = np.quantile([each[measure] for each in some], QUANTILES) if some else []
+        text = ", ".join(f"{q:.0%} {s:.2f}" for q, s in zip(QUANTILES, shares, strict=False))
+        print(f"{len(some)} pictures, {words}: error / allowed of {measure}: {text}")
 
 
 if __name__ == "__main__":
