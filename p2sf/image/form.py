@@ -4,6 +4,7 @@ See handbook 10.1.
 """
 
 from collections.abc import Callable, Iterator
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from math import inf
@@ -31,6 +32,7 @@ from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.pupil_moments import Passing, PupilLandings, first_moments, pupil_landings
 from p2sf.image.region import Region, tiles, whole
+from p2sf.image.structure import FLAT, steepest, structured_parts
 from p2sf.messages import Alternatives, ParameterName
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
@@ -43,6 +45,7 @@ METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
 LIGHT_HEIGHTS = 4, 9  # heights at which illumination is computed, for a preview and for the final picture
 LAYERS_NDIM = 4  # of layers, rows, columns and channels
+ROUNDING = 1e-6  # of float32
 LEAST_COVERAGE = 1e-6  # keeps the quotient finite where the surround is black
 RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low rank
 HEIGHTS = 3  # at which the width of blur is measured: of a curved field the corner may be the sharpest
@@ -106,8 +109,10 @@ def form_image(
         stack = _check_layers(planned.scene, values, depth_mm)
         planned = replace(planned, vergences=stack.vergences)
         picture: np.ndarray = stack.colours[0]
+        _check_light(planned.scene, stack.colours)
     else:
         picture = check_picture(planned.scene, values)
+        _check_light(planned.scene, picture)
     if how.method != "patches" and has_halos(planned):
         raise RequestError(
             "a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches",
@@ -213,19 +218,44 @@ class _Former:
     watch: Progress
 
     def form(self, tile: Region) -> tuple[np.ndarray, BrightLight]:
-        """Return a tile of the formed picture without halos, and its light that has some."""
-        reach = tile.grown(self.half)
-        inside = reach.meet(whole(self.picture.shape))
-        placed = _Placing(self, inside)
-        if self.depths is None:
-            planes, box = self._surrounded(placed.lit, inside, reach)
-            blurred, spread = self._blur(0, planes, box, tuple(range(planes.shape[-1])))
-            return blurred[tile.within(spread)], placed.bright(tile)
+        """Return a tile of the formed picture without halos, and its light that has some.
+
+        Parts without structure remain as they are, see `structure`.
+        """
+        placed = _Placing(self, self._inside(tile))
         if isinstance(self.depths, LayerStack):
-            return self._add_layers(tile, reach, placed.stack(self.depths))[0], placed.bright(tile)
-        light, covered = self._add_layers(tile, reach, placed.layers(self.depths))
-        light /= np.maximum(covered, LEAST_COVERAGE)
+            return self._add_layers(tile, tile.grown(self.half), placed.stack(self.depths))[0], placed.bright(tile)
+        parts = self._structured(tile, placed)
+        if parts == [tile]:
+            return self._blurred(tile, placed), placed.bright(tile)
+        light = placed.lit[tile.within(placed.inside)].copy()
+        for part in parts:
+            light[part.within(tile)] = self._blurred(part, placed.over(self._inside(part)))
         return light, placed.bright(tile)
+
+    def _inside(self, part: Region) -> Region:
+        """Return the pixels of the picture from which kernels reach a part."""
+        return part.grown(self.half).meet(whole(self.picture.shape))
+
+    def _structured(self, tile: Region, placed: "_Placing") -> list[Region]:
+        """Return the parts of a tile that must be blurred: all of it where light is halos or a black surround's."""
+        dark = self.how.surround != "edge" and placed.inside != tile.grown(self.half)
+        if dark or has_halos(self.planned):
+            return [tile]
+        allowed = FLAT * self.planned.allowed_error - self.half * placed.steepest
+        return structured_parts(placed.moved, placed.inside, tile, self.half, allowed) if allowed > 0 else [tile]
+
+    def _blurred(self, part: Region, placed: "_Placing") -> np.ndarray:
+        """Return a part of the formed picture without halos, (rows, columns, channels)."""
+        reach = part.grown(self.half)
+        if self.depths is None:
+            planes, box = self._surrounded(placed.lit, placed.inside, reach)
+            blurred, spread = self._blur(0, planes, box, tuple(range(planes.shape[-1])))
+            return blurred[part.within(spread)]
+        assert isinstance(self.depths, DepthMap)
+        light, covered = self._add_layers(part, reach, placed.layers(self.depths))
+        light /= np.maximum(covered, LEAST_COVERAGE)
+        return light
 
     def kernel_at(self, number: int, row: float, column: float) -> np.ndarray:
         """Return the kernels of a pixel at a depth node, (channels, size, size)."""
@@ -328,7 +358,7 @@ class _Placing:
     """The picture on the pixels of a region ``inside``, with distortion and illumination."""
 
     def __init__(self, former: _Former, inside: Region) -> None:
-        self._former, self._inside, self._all = former, inside, whole(former.picture.shape)
+        self._former, self.inside, self._all = former, inside, whole(former.picture.shape)
         planned, sensor = former.planned, former.planned.scene.sensor
         self._places: np.ndarray | None = None
         self._shade: np.ndarray | None = None
@@ -337,24 +367,41 @@ class _Placing:
             self._places = source_places(seen, sensor, inside)
             self._shade = illumination(seen, sensor, LIGHT_HEIGHTS[former.how.spline > 1], inside)[..., None]
 
+    def over(self, inside: Region) -> "_Placing":
+        """Return the picture on the pixels of a part of the region."""
+        part, at = copy(self), inside.within(self.inside)
+        part.inside, part.lit = inside, self.lit[at]
+        part._places = self._places if self._places is None else self._places[:, *at]
+        part._shade = self._shade if self._shade is None else self._shade[at]
+        return part
+
+    @cached_property
+    def moved(self) -> np.ndarray:
+        """Return the picture's colours on the pixels of the region, without illumination."""
+        return self._moved(self._former.picture, self._all, self.inside, self._former.how.spline)
+
     @cached_property
     def lit(self) -> np.ndarray:
         """Return the picture's colours on the pixels of the region."""
-        moved = self._moved(self._former.picture, self._all, self._inside, self._former.how.spline)
-        return self._shaded(moved, self._inside)
+        return self._shaded(self.moved, self.inside)
+
+    @property
+    def steepest(self) -> float:
+        """Return the largest relative change of the illumination from one pixel to the next."""
+        return 0.0 if self._shade is None else steepest(self._shade[..., 0])
 
     def bright(self, tile: Region) -> BrightLight:
         """Return the light of a tile that has halos."""
         if self._former.dimmest == inf:
             none = np.zeros(0, int)
             return BrightLight(none, none, none, np.zeros((0, self._former.picture.shape[-1])))
-        lit, depths = self.lit[tile.within(self._inside)], self._former.depths
+        lit, depths = self.lit[tile.within(self.inside)], self._former.depths
         rows, columns = np.nonzero((lit > self._former.dimmest).any(-1))
         light = lit[rows, columns]
         rows, columns = rows + tile.top, columns + tile.left
         source = np.stack([rows, columns])
         if self._places is not None:
-            at = self._places[:, rows - self._inside.top, columns - self._inside.left]
+            at = self._places[:, rows - self.inside.top, columns - self.inside.left]
             source = np.clip(np.rint(at).astype(int), 0, np.array(self._former.picture.shape[:2])[:, None] - 1)
         places = depths.place[*source] if isinstance(depths, DepthMap) else np.zeros(len(rows))
         return BrightLight(rows, columns, places, light)
@@ -364,7 +411,7 @@ class _Placing:
 
         Where it hides others, that part of its opacity which does so is the last plane.
         """
-        source = self._inside if self._places is None else region_of(self._places, self._all)
+        source = self.inside if self._places is None else region_of(self._places, self._all)
         if depths.hiding[source.within(self._all)].any():
             source = source.grown(CONTINUED * self._former.half).meet(self._all)
         picture = self._former.picture[source.within(self._all)]
@@ -374,7 +421,7 @@ class _Placing:
                 continue
             planes = [layer.opacity, layer.hiding] if layer.hiding.any() else [layer.opacity]
             opacity = self._moved(np.stack(planes, axis=-1), source, box, 1)
-            colours = self.lit[box.within(self._inside)]
+            colours = self.lit[box.within(self.inside)]
             other = (
                 Region(0, 0, 0, 0)
                 if layer.colours is picture
@@ -389,7 +436,7 @@ class _Placing:
 
     def stack(self, stack: LayerStack) -> Iterator[tuple[int, np.ndarray, Region]]:
         """Yield each layer's number, its light and behind it its alpha, which covers and hides, and where it lies."""
-        inside = self._inside
+        inside = self.inside
         for number in range(len(stack.alpha) - 1, -1, -1):
             alpha = self._moved(stack.alpha[number][..., None], self._all, inside, 1)
             colours = self._moved(stack.colours[number], self._all, inside, self._former.how.spline)
@@ -403,23 +450,23 @@ class _Placing:
         top, left = source.top + int(rows[0]), source.left + int(columns[0])
         found = Region(top, source.top + int(rows[-1]) + 1, left, source.left + int(columns[-1]) + 1)
         if self._places is None:
-            return found.meet(self._inside)
+            return found.meet(self.inside)
         row = np.clip(self._places[0], source.top, source.bottom - 1)  # outermost pixels are repeated
         column = np.clip(self._places[1], source.left, source.right - 1)
         lit = (row > found.top - 1) & (row < found.bottom) & (column > found.left - 1) & (column < found.right)
         down, right = (np.flatnonzero(lit.any(axis)) for axis in (1, 0))
         if not down.size:
             return Region(0, 0, 0, 0)
-        first, last = self._inside.top, self._inside.left
+        first, last = self.inside.top, self.inside.left
         return Region(first + int(down[0]), first + int(down[-1]) + 1, last + int(right[0]), last + int(right[-1]) + 1)
 
     def _moved(self, values: np.ndarray, given: Region, box: Region, order: int) -> np.ndarray:
         if self._places is None:
             return values[box.within(given)]
-        return resample(values, self._places[:, *box.within(self._inside)], order, given)
+        return resample(values, self._places[:, *box.within(self.inside)], order, given)
 
     def _shaded(self, values: np.ndarray, box: Region) -> np.ndarray:
-        return values if self._shade is None else values * self._shade[box.within(self._inside)]
+        return values if self._shade is None else values * self._shade[box.within(self.inside)]
 
 
 def _largest_halves(planned: Plan) -> list[int]:
@@ -452,6 +499,19 @@ def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
     if not np.isfinite(values).all():
         raise RequestError("the picture holds values that are not finite; replace them first")
     return values
+
+
+def _check_light(scene: Scene, values: np.ndarray) -> None:
+    """Raise RequestError for light beyond that for which noise decided the tolerance."""
+    most = float(values.max(initial=0.0))
+    if scene.noise_decides and most > scene.brightest * (1 + ROUNDING):
+        raise RequestError(
+            "the picture has light up to {most:g}, but the noise that the plan allows for is that of light up to "
+            "{brightest:g}; plan with {parameter} {most:g}",
+            most=most,
+            brightest=scene.brightest,
+            parameter=ParameterName("brightest"),
+        )
 
 
 def _check_layers(scene: Scene, values: ArrayLike, depth_mm: np.ndarray | None) -> LayerStack:

@@ -1,0 +1,124 @@
+"""Flat areas look the same through any lens: they take no kernels, and no pixel changes by more than is allowed."""
+
+import numpy as np
+import pytest
+from scipy.ndimage import convolve, gaussian_filter, maximum_filter, minimum_filter
+
+from p2sf.image import Forming, form, form_image
+from p2sf.image.region import Region, whole
+from p2sf.image.structure import steepest, structured_parts
+from p2sf.lensfile.library import find_lens
+from p2sf.scene import Channel, Scene, Sensor, plan
+from tests.support.per_pixel import per_pixel_picture
+
+HALF = 5
+SHAPE = 150, 190
+COLOURS = tuple(Channel(name, (nm,), (1.0,)) for name, nm in (("green", 540.0), ("blue", 465.0)))
+CHANNEL = 0
+
+
+@pytest.fixture(scope="module")
+def studio():
+    """Return a picture and its depths: a ball with texture before an even background, which has a slight slope."""
+    row, column = np.indices(SHAPE)
+    values = np.broadcast_to((0.6 + 1e-5 * row)[..., None], (*SHAPE, 2)).astype(np.float32)
+    ball = np.hypot(row - 70, column - 60) < 25
+    values[ball] = np.random.default_rng(2).random((*SHAPE, 2))[ball]
+    return values, np.where(ball, 4000.0, 12000.0)
+
+
+@pytest.fixture(scope="module")
+def planned(studio):
+    """Return the plan of the Double Gauss at f/4 for the picture."""
+    scene = Scene(Sensor(*SHAPE, 20.0), COLOURS, 4000.0, 12000.0, 0.05, focus_mm=6000.0, f_number=4.0)
+    return plan(find_lens("double_gauss_28"), scene.at_depths(studio[1]))
+
+
+def everywhere(monkeypatch) -> None:
+    """Let no part count as flat."""
+    monkeypatch.setattr(form, "FLAT", -1.0)
+
+
+def test_a_pixel_and_its_blur_differ_by_no_more_than_the_range_within_reach():
+    """By any kernels without negative values and of unit sum: the law that leaves flat areas as they are."""
+    random = np.random.default_rng(0)
+    values = gaussian_filter(random.random((60, 60)), 3)
+    size = 2 * HALF + 1
+    ranges = maximum_filter(values, size) - minimum_filter(values, size)
+    for _ in range(4):
+        kernel = random.random((size, size)) ** 8
+        blurred = convolve(values, kernel / kernel.sum(), mode="nearest")
+        assert (np.abs(blurred - values) <= ranges + 1e-12).all()
+    flat = np.full((40, 40), 0.3)
+    assert convolve(flat, kernel / kernel.sum(), mode="nearest") == pytest.approx(flat, abs=1e-12)
+
+
+@pytest.mark.parametrize("corner", [(0, 0), (37, 21)])
+def test_every_pixel_whose_reach_is_not_flat_is_in_a_part(corner):
+    random = np.random.default_rng(1)
+    values = np.full((300, 260, 2), 0.5, np.float32)
+    for row, column in random.integers(0, 260, (9, 2)):
+        values[row, column] = 0.6
+    given = Region(corner[0], corner[0] + 300, corner[1], corner[1] + 260)
+    tile, size = given.grown(-HALF), (2 * HALF + 1, 2 * HALF + 1, 1)
+    low, high = minimum_filter(values, size), maximum_filter(values, size)
+    busy = (high - low > 0.01 * low).any(-1)[tile.within(given)]
+    parts, found = structured_parts(values, given, tile, HALF, 0.01), np.zeros(tile.shape, int)
+    for part in parts:
+        found[part.within(tile)] += 1
+    assert found.max() == 1 and found[busy].all()
+    assert busy.sum() < found.sum() < 0.4 * found.size
+
+
+def test_all_of_a_texture_is_one_part_and_an_even_picture_has_none():
+    values = np.random.default_rng(0).random((100, 90, 1))
+    given = whole(values.shape)
+    assert structured_parts(values, given, given.grown(-HALF), HALF, 0.1) == [given.grown(-HALF)]
+    assert structured_parts(np.zeros_like(values), given, given, HALF, 0.0) == []
+    assert structured_parts(np.full_like(values, 0.7), given, given, HALF, 0.0) == []
+
+
+def test_the_slope_of_illumination_bounds_its_change_over_a_reach():
+    row, column = np.indices((50, 60))
+    shade = np.exp(-((row - 10) ** 2 + (column - 5) ** 2) / 4000)
+    size = 2 * HALF + 1
+    change = maximum_filter(shade, size) - shade
+    assert (change <= HALF * steepest(shade) * shade.max()).all()
+
+
+def test_what_is_flat_changes_by_no_more_than_allowed_and_takes_no_kernels(studio, planned, monkeypatch):
+    values, depth = studio
+    blurred = form._Former._blurred
+    areas: list[int] = []
+
+    def counted(former, part, placed):
+        areas.append(part.shape[0] * part.shape[1])
+        return blurred(former, part, placed)
+
+    monkeypatch.setattr(form._Former, "_blurred", counted)
+    few, area = form_image(planned, values, depth), sum(areas)
+    areas.clear()
+    everywhere(monkeypatch)
+    true = form_image(planned, values, depth)
+    assert area < 0.4 * sum(areas)
+    assert np.abs(few - true).max() <= planned.allowed_error / 3 * values.max()
+    assert np.abs(few - true).max() > 0
+
+
+def test_beside_a_black_surround_nothing_is_flat(planned, studio, monkeypatch):
+    values = np.full_like(studio[0], 0.5)
+    far = np.full(SHAPE, 12000.0)
+    how = Forming(surround="black", geometry=False)
+    few = form_image(planned, values, far, how)
+    everywhere(monkeypatch)
+    assert few == pytest.approx(form_image(planned, values, far, how), abs=1e-6)
+
+
+@pytest.mark.slow
+def test_a_studio_keeps_its_tolerance_against_the_kernel_of_every_pixel(planned, studio):
+    """About the rim of the ball, and in the part that has no kernels."""
+    values, depth = studio
+    found = form_image(planned, values, depth, Forming(geometry=False))[..., CHANNEL]
+    for region in ((slice(60, 72), slice(80, 96)), (slice(60, 72), slice(130, 146))):
+        true = per_pixel_picture(planned, values[..., CHANNEL], depth, region, CHANNEL)
+        assert np.linalg.norm(found[region] - true) <= planned.allowed_error * np.linalg.norm(true)
