@@ -1,7 +1,7 @@
 """`p2sf plan` and `p2sf image`: what a scene requires, and its picture through the lens."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 from time import perf_counter
@@ -34,7 +34,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
-from p2sf.scene.scene import RGB
+from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
@@ -47,9 +47,9 @@ BARELY_WHITE = 1.001  # rounding of white is no light that is cut off
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 SCENE_HELP = (
     "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db, tail_error), f_number, zoom, focus_position, "
-    "focus_mm, aim, clip; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, black_level, "
-    "mosaic, fill_factor; [depth] near_mm, far_mm, gaps_mm or map; [[channel]] name, wavelengths_nm, weights, or "
-    "[filters] curves, light, by default red, green and blue."
+    "focus_mm, aim, clip, brightest; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, "
+    "black_level, mosaic, fill_factor; [depth] near_mm, far_mm, gaps_mm or map; [[channel]] name, wavelengths_nm, "
+    "weights, or [filters] curves, light, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
@@ -301,6 +301,7 @@ def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
+    scene = replace(scene, brightest=float(np.clip(values.max(), DIMMEST, MOST_LIGHT)))
     planned = _make_plan(glass, scene if depth is None else scene.at_depths(depth))
     warn(None if planned.meets else TOO_TIGHT)
     light = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)

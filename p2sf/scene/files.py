@@ -14,7 +14,19 @@ from p2sf.scene.scene import CAMERA_PARAMETERS, LIMITS, RGB, USUAL_RTOL, Channel
 from p2sf.scene.sensor import Sensor
 
 KEYS = {
-    "": {"name", "tolerance", "measure", *LIMITS, *CAMERA_PARAMETERS, "clip", "sensor", "depth", "filters", "channel"},
+    "": {
+        "name",
+        "tolerance",
+        "measure",
+        *LIMITS,
+        *CAMERA_PARAMETERS,
+        "clip",
+        "brightest",
+        "sensor",
+        "depth",
+        "filters",
+        "channel",
+    },
     "sensor": {each.name for each in fields(Sensor)},
     "depth": {"near_mm", "far_mm", "gaps_mm", "map"},
     "filters": {"curves", "light"},
@@ -66,7 +78,7 @@ def scene_from(table: dict, path: Path) -> Scene:
         raise RequestError("[sensor] lacks {missing}; add it", missing=tuple(sorted(missing)))
     far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
     given: dict[str, Any] = {key: table[key] for key in ("name", "aim") if key in table}
-    given |= {key: _number(key, table[key]) for key in (*LIMITS, "focus_mm", "f_number") if key in table}
+    given |= {key: _number(key, table[key]) for key in (*LIMITS, "focus_mm", "f_number", "brightest") if key in table}
     if "tolerance" in table or "measure" in table:  # as before 0.3
         given |= limit_of(table.get("measure", "relative"), _number("tolerance", table.get("tolerance", USUAL_RTOL)))
     given |= {key: _place(key, table[key]) for key in PARAMETER.values() if key in table}

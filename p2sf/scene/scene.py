@@ -16,7 +16,7 @@ from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Alternatives, Message, ParameterName
-from p2sf.parameters import check_aim, check_reach
+from p2sf.parameters import check_aim, check_between, check_reach
 from p2sf.scene.depth_gaps import (
     Gaps,
     check_depths,
@@ -33,6 +33,8 @@ LIMITS = {"rtol": "relative", "min_r2": "r2", "mtf_error": "mtf", "min_psnr_db":
 USUAL_RTOL = 0.05
 TIGHTEST = 3e-3  # relative error: polynomial fits of a pupil do not achieve less
 LOOSEST = 0.9  # relative error: beyond 1 a kernel of zeros would suffice
+NOISE_PART = 1 / 3  # of the sensor's noise: as much error, added in squares, makes 5 % more of it
+DIMMEST, MOST_LIGHT = 1e-9, 1e9
 WHITE = 0.5  # the largest standard deviation of numbers from 0 to 1: half of them are 0 (Popoviciu 1935)
 
 
@@ -94,7 +96,8 @@ class Scene:
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
     the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
-    mm. ``gaps_mm``: between which depths, from near to far, nothing is, so that no kernels are needed there.
+    mm. ``brightest``: the most light in the picture, 1 being white, see `noise_floor`. ``gaps_mm``: between which
+    depths, from near to far, nothing is, so that no kernels are needed there.
     """
 
     sensor: Sensor
@@ -115,6 +118,7 @@ class Scene:
     depth_map: str | None = None
     name: str = "scene"
     gaps_mm: Gaps = ()
+    brightest: float = 1.0
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -128,6 +132,7 @@ class Scene:
             )
         self._check_gaps()
         self._check_limit()
+        check_between("brightest", self.brightest, DIMMEST, MOST_LIGHT)
         check_aim("aim", self.aim)
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
@@ -207,14 +212,36 @@ class Scene:
         of two kernels' transforms, over all frequencies up to the pixels' own, is the sum of the squares of theirs, and
         no two complex numbers are nearer than their moduli: so the MTF's error is at most the relative error times
         ``norm``. Pixels of white noise are independent: the mean square error of its picture is its variance times that
-        sum, the peak being 1.
+        sum, the peak being 1. An error of pictures below `noise_floor` is tolerable in any case.
         """
+        if self.measure in ("mtf", "hdr"):  # of kernels, not of pictures
+            return self._stated_error(norm)
+        return max(self._stated_error(norm), self.noise_floor)
+
+    def _stated_error(self, norm: float) -> float:
+        """Return the stated tolerance as `relative_error` has it, without regard to noise."""
         if self.measure in ("relative", "hdr"):
             return self.limit
         if self.measure == "r2":
             return sqrt(1 - self.limit)
         absolute = self.limit if self.measure == "mtf" else 10 ** (-self.limit / 20) / WHITE
         return min(absolute / norm, LOOSEST)
+
+    @property
+    def noise_floor(self) -> float:
+        """Return the relative error of kernels that the sensor's noise hides, 0 for ideal pixels.
+
+        Independent pixels of mean m up to the brightest light L have a variance of m(L − m) at most (Bhatia and Davis
+        2000), and kernels of unit sum with an error of ε a picture with an RMS error of ε√(m(L − m)). Its noise has the
+        variance σ²(m) ≥ σ²(L)·m/L, since that of shot noise grows with the light. So with ε = f·σ(L)/L the picture's
+        error is at most f times its noise, whatever m.
+        """
+        return min(NOISE_PART * float(self.sensor.noise(self.brightest)) / self.brightest, LOOSEST)
+
+    @property
+    def noise_decides(self) -> bool:
+        """Return whether the noise hides more than the stated tolerance allows, for a kernel on a single pixel."""
+        return self.relative_error(1.0) > self._stated_error(1.0)
 
     def measured(self, relative: float, norm: float) -> float:
         """Return a relative error in the measure of the tolerance, for kernels as in `relative_error`."""

@@ -47,7 +47,7 @@ from p2sf.scene.planning.study import (
     first_allowed,
     weighted_sum,
 )
-from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.scene import NOISE_PART, Channel, Scene
 from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import one_blas_thread
 
@@ -185,7 +185,7 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     table = study.table
     if table and by_six(recipe.method):
         table = seidel_table(study, table)
-    decisions = (method, sampled, field, depth, *colour, _pupils(study))
+    decisions = (method, sampled, field, depth, *colour, _pupils(study), *_noise(scene))
     error = predicted_error(decisions)
     cost = predicted_cost(plan_work(study, recipe, colours, counts, len(vergences)))
     naive = predicted_cost(naive_work(study, recipe, counts, len(vergences)))
@@ -374,6 +374,20 @@ def _why_depths(parts: Sequence[np.ndarray]) -> Message:
     if all(len(part) == 1 for part in parts):
         return Message("the scene has these depths alone")
     return Message("nodes stand at equal steps of 1/distance, and none in {count} gaps", count=len(parts) - 1)
+
+
+def _noise(scene: Scene) -> list[Decision]:
+    """Return the decision to allow the error that the sensor's noise hides, if that is more than was asked for."""
+    if not scene.noise_decides:
+        return []
+    why = Message(
+        "a picture of light up to {light:g} has noise of {noise:.2g} there; errors up to {part:.0%} of the noise "
+        "are hidden by it, and larger than what was asked for",
+        light=scene.brightest,
+        noise=float(scene.sensor.noise(scene.brightest)),
+        part=NOISE_PART,
+    )
+    return [Decision(Message("noise"), Message("{error:.2g} allowed", error=scene.noise_floor), why, 0.0, "noise")]
 
 
 def _pupils(study: Study) -> Decision:

@@ -61,6 +61,7 @@ HEADINGS = {  # of a plan's decisions by kind, in the order in which they are sh
     "sampling": "Sampling",
     "depth": "Depths",
     "pupils": "Pupils",
+    "noise": "Noise",
 }
 
 Notes = tuple[tuple[Message, Message], ...]

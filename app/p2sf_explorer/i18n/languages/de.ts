@@ -3,12 +3,14 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>{error:.2g} allowed</source><translation>{error:.2g} erlaubt</translation></message>
 <message><source>{parameter} is {gaps}; give pairs of depths in mm between {near:g} mm and {far:g} mm, from near to far, of which none overlap</source><translation>{parameter} ist {gaps}; Paare von Tiefen in mm zwischen {near:g} mm und {far:g} mm angeben, von nah nach fern, von denen sich keine überlappen</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths × {depths} depths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen × {depths} Entfernungen</translation></message>
 <message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
 <message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
 <message><source>Undo brings this lens back</source><translation>Rückgängig holt dieses Objektiv zurück</translation></message>
 <message><source>{why}. Drop a lens file on the window, or take one with maps.</source><translation>{why}. Eine Objektivdatei auf das Fenster ziehen oder ein Objektiv mit Karten nehmen.</translation></message>
+<message><source>a picture of light up to {light:g} has noise of {noise:.2g} there; errors up to {part:.0%} of the noise are hidden by it, and larger than what was asked for</source><translation>ein Bild mit Licht bis {light:g} hat dort ein Rauschen von {noise:.2g}; Fehler bis zu {part:.0%} des Rauschens verschwinden darin, und das ist mehr als verlangt</translation></message>
 <message><source>no maps</source><translation>keine Karten</translation></message>
 <message><source>A landscape that reaches from 1 m to 10 m: move the focus through it</source><translation>Eine Landschaft, die von 1 m bis 10 m reicht: die Schärfe hindurchziehen</translation></message>
 <message><source>Choose a map of depths</source><translation>Eine Karte der Entfernungen wählen</translation></message>
@@ -26,6 +28,7 @@
 <message><source>farthest depth of the photo</source><translation>größte Entfernung des Fotos</translation></message>
 <message><source>nearest depth of the photo</source><translation>kleinste Entfernung des Fotos</translation></message>
 <message><source>nodes stand at equal steps of 1/distance, and none in {count} gaps</source><translation>die Knoten stehen in gleichen Schritten von 1/Abstand, und keine in {count} Lücken</translation></message>
+<message><source>noise</source><translation>Rauschen</translation></message>
 <message><source>the depth map holds {depth:g} mm, which lies in a gap of the scene; leave {parameter} out, or plan for the depths of this map</source><translation>die Tiefenkarte enthält {depth:g} mm, was in einer Lücke der Szene liegt; {parameter} weglassen oder für die Tiefen dieser Karte planen</translation></message>
 <message><source>the map reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Karte reicht von {near:g} mm bis {far:g} mm; positive Entfernungen angeben, die nahe zuerst</translation></message>
 <message><source>{path} does not state how far away its depths are; save them as a PNG and give near and far</source><translation>{path} sagt nicht, wie groß seine Entfernungen sind; als PNG speichern und nah und fern angeben</translation></message>
@@ -37,6 +40,7 @@
 <message><source>{path} is a HEIF that cannot be read ({why}); save it again</source><translation>{path} ist ein HEIF, das nicht gelesen werden kann ({why}); noch einmal speichern</translation></message>
 <message><source>one distance</source><translation>eine Entfernung</translation></message>
 <message><source>sloping</source><translation>geneigt</translation></message>
+<message><source>the picture has light up to {most:g}, but the noise that the plan allows for is that of light up to {brightest:g}; plan with {parameter} {most:g}</source><translation>das Bild hat Licht bis {most:g}, doch der Plan rechnet mit dem Rauschen von Licht bis {brightest:g}; mit {parameter} {most:g} planen</translation></message>
 <message><source>the scene has these depths alone</source><translation>die Szene hat nur diese Abstände</translation></message>
 <message><source>three steps</source><translation>drei Stufen</translation></message>
 <message><source>its own depths</source><translation>eigene Entfernungen</translation></message>
