@@ -1,7 +1,7 @@
 """Kernels over place and depth as a few components: a picture whose depth changes from pixel to pixel, by few sums.
 
 K(place, depth, channel) = Σ_k s_k(place, depth)·C_k(channel), C_0 the mean and the others the strongest deviations from
-it (as in `lowrank`, of one depth and one channel). Between depth nodes and places strengths are linear, as kernels
+it (`lowrank.principal_kernels`). Between depth nodes and places strengths are linear, as kernels
 between the nodes of a lattice are.
 """
 
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.image.lowrank import principal_kernels
 from p2sf.image.octaves import octave_weights
 from p2sf.image.slabs import LEVELS
 from p2sf.pixel_kernels.nodes import hats
@@ -43,17 +44,11 @@ def components(nodes: KernelNodes, tolerance: float, most: int) -> KernelCompone
     """Return the fewest components that leave ``tolerance`` of all kernels in relative L2, ``most`` at most."""
     channels, *count, size, _ = nodes.kernels.shape
     flat = np.moveaxis(nodes.kernels, 0, -3).reshape(-1, channels * size * size)
-    mean = flat.mean(0)
-    deviation = flat - mean
-    values, vectors = np.linalg.eigh((deviation @ deviation.T).astype(float))
-    values, vectors = np.maximum(values[::-1], 0), vectors[:, ::-1]
-    left = np.sqrt(np.append(values[::-1].cumsum()[::-1], 0) / np.square(flat).sum(dtype=float))
-    rank = min(most, int(np.argmax(left <= tolerance)))
-    chosen = vectors[:, :rank].T.astype(np.float32)
-    shapes = np.concatenate([mean[None], chosen @ deviation]).reshape(-1, channels, size, size)
-    strengths = np.concatenate([np.ones((1, len(flat)), np.float32), chosen]).reshape(-1, *count)
+    found = principal_kernels(flat, tolerance, most)
+    shapes = np.concatenate([found.mean[None], found.shapes]).reshape(-1, channels, size, size)
+    strengths = np.concatenate([np.ones((1, len(flat)), np.float32), found.strengths]).reshape(-1, *count)
     return KernelComponents(
-        shapes, over_levels(strengths, nodes.depths), nodes.row_nodes, nodes.column_nodes, float(left[rank])
+        shapes, over_levels(strengths, nodes.depths), nodes.row_nodes, nodes.column_nodes, found.left
     )
 
 

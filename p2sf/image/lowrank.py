@@ -7,6 +7,7 @@ light is conserved for any rank (PCA of PSFs, Lauer 2002; singular values as in 
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,24 +37,44 @@ class LowRank:
     left: float
 
 
-def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, rank: int | None = None) -> LowRank:
-    """Return the fewest kernels that approximate the whole set to ``tolerance`` in relative L2, or ``rank`` of them."""
-    kernels = common_size(lattice, channel)
-    nodes, size = kernels.shape[:2], kernels.shape[-1]
-    flat = kernels.reshape(nodes[0] * nodes[1], -1).astype(float)
+class PrincipalKernels(NamedTuple):
+    """Flat kernels as ``mean`` (pixels,) plus ``strengths`` (rank, kernels) of ``shapes`` (rank, pixels).
+
+    ``left``: the relative L2 norm of the remainder of all of them.
+    """
+
+    mean: np.ndarray
+    shapes: np.ndarray
+    strengths: np.ndarray
+    left: float
+
+
+def principal_kernels(flat: np.ndarray, tolerance: float, most: int | None = None) -> PrincipalKernels:
+    """Return the fewest deviations from the mean that leave ``tolerance`` of kernels, (kernels, pixels), or ``most``.
+
+    Arrays have the dtype of the kernels.
+    """
     mean = flat.mean(0)
     deviation = flat - mean
-    # The nodes are fewer than the pixels, so the small Gram matrix has all the singular values.
-    values, vectors = np.linalg.eigh(deviation @ deviation.T)
+    # The kernels are fewer than the pixels, so the small Gram matrix has all the singular values.
+    values, vectors = np.linalg.eigh((deviation @ deviation.T).astype(float))
     values, vectors = np.maximum(values[::-1], 0), vectors[:, ::-1]
-    left = np.sqrt(np.append(values[::-1].cumsum()[::-1], 0) / np.square(flat).sum())
-    rank = int(np.argmax(left <= tolerance)) if rank is None else min(rank, len(values))
-    shapes = (vectors[:, :rank].T @ deviation).reshape(rank, size, size).astype(np.float32)
-    strengths = vectors[:, :rank].T.reshape(rank, *nodes)
-    return LowRank(
-        mean.reshape(size, size).astype(np.float32), shapes, strengths,
-        lattice.row_nodes, lattice.column_nodes, float(left[rank]),
-    )  # fmt: skip
+    whole_light = np.square(flat).sum(dtype=float) or 1.0
+    left = np.sqrt(np.append(values[::-1].cumsum()[::-1], 0) / whole_light)
+    rank = int(np.argmax(left <= tolerance))
+    rank = rank if most is None else min(rank, most)
+    strengths = vectors[:, :rank].T.astype(flat.dtype)
+    return PrincipalKernels(mean, strengths @ deviation, strengths, float(left[rank]))
+
+
+def decompose(lattice: Lattice, channel: int, tolerance: float = 1e-3, most: int | None = None) -> LowRank:
+    """Return the fewest kernels that approximate the whole set to ``tolerance`` in relative L2, ``most`` at most."""
+    kernels = common_size(lattice, channel)
+    nodes, size = kernels.shape[:2], kernels.shape[-1]
+    found = principal_kernels(kernels.reshape(nodes[0] * nodes[1], -1).astype(float), tolerance, most)
+    mean, shapes = (each.astype(np.float32).reshape(-1, size, size) for each in (found.mean, found.shapes))
+    strengths = found.strengths.reshape(-1, *nodes)
+    return LowRank(mean[0], shapes, strengths, lattice.row_nodes, lattice.column_nodes, found.left)
 
 
 def low_rank_blur(

@@ -117,7 +117,7 @@ def test_what_cost_grows_with(benchmark, planned):
 
 
 def _by_rank(picture, lattice, rank: int):
-    return low_rank_blur(picture, [decompose(lattice, channel, rank=rank) for channel in range(3)])
+    return low_rank_blur(picture, [decompose(lattice, channel, 0.0, rank) for channel in range(3)])
 
 
 def _by_nodes(planned, picture, counts):

@@ -92,9 +92,9 @@ def test_a_real_lens_equals_its_direct_sum():
 
 def test_a_low_rank_says_what_it_leaves_out():
     lattice = build_lattice(each(comet), (SIDE, SIDE), (9, 9))
-    left = [decompose(lattice, 0, rank=rank).left for rank in (0, 2, 5, 20)]
+    left = [decompose(lattice, 0, 0.0, rank).left for rank in (0, 2, 5, 20)]
     assert left == sorted(left, reverse=True) and left[-1] < 0.15 * left[0]
-    assert np.abs(decompose(lattice, 0, rank=5).kernels.sum((1, 2))).max() < 1e-5
+    assert np.abs(decompose(lattice, 0, 0.0, 5).kernels.sum((1, 2))).max() < 1e-5
 
 
 def test_mirrored_quarters_are_the_whole():
