@@ -3,10 +3,10 @@
 See handbook 10.1.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 from math import inf
 from threading import Lock
 
@@ -104,49 +104,55 @@ def form_image(
     RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is
     cancelled.
     """
-    watch, stack = watch or Progress(), None
-    if np.ndim(values) == LAYERS_NDIM:
-        stack = _check_layers(planned.scene, values, depth_mm)
-        planned = replace(planned, vergences=stack.vergences)
-        picture: np.ndarray = stack.colours[0]
-        _check_light(planned.scene, stack.colours)
+    watch = watch or Progress()
+    layered = np.ndim(values) == LAYERS_NDIM
+    _check_halos(planned, how, layered)
+    depths: DepthMap | LayerStack | None = None
+    if layered:
+        depths = _check_layers(planned.scene, values, depth_mm)
+        planned = replace(planned, vergences=depths.vergences)
+        picture: np.ndarray = depths.colours[0]
+        _check_light(planned.scene, depths.colours)
     else:
         picture = check_picture(planned.scene, values)
         _check_light(planned.scene, picture)
-    if how.method != "patches" and has_halos(planned):
-        raise RequestError(
-            "a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches",
-            parameter="tail_error",
-            method=ParameterName("method"),
-        )
-    if stack is not None and has_halos(planned):
-        raise RequestError(
-            "halos are those of one picture, not of layers; leave {parameter} out, or give one picture and its depths",
-            parameter="tail_error",
-        )
-    depths: DepthMap | LayerStack | None = stack
     kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)
     if depth_mm is None:
         halves = [kernels.over(0, whole(picture.shape)).half]
     else:
         halves = _largest_halves(planned)
-    if depth_mm is not None and stack is None:
+    if depth_mm is not None and depths is None:
         planned.scene.check_depths(np.asarray(depth_mm))
         nodes = np.array(planned.vergences)
         depths = map_depths(np.asarray(depth_mm), nodes, picture.shape[:2], max(halves), least_fold(halves))
-    former = _Former(planned, picture, depths, how, max(halves), kernels, watch)
-    out, parts, bright = np.empty_like(picture), list(tiles(picture.shape, TILE)), []
-    watch.expect(TILE_STEPS * len(parts))
+    least = _dimmest(planned, picture, kernels)
+    return _form_tiles(_Former(planned, picture, depths, how, max(halves), kernels, watch, least))
+
+
+def _form_tiles(former: "_Former") -> np.ndarray:
+    """Return the formed picture, tile by tile, with its halos."""
+    out, bright = np.empty_like(former.picture), []
+    parts = list(tiles(out.shape, TILE))
+    former.watch.expect(TILE_STEPS * len(parts))
 
     def take(formed: tuple[Region, np.ndarray, BrightLight]) -> None:
         region, light, highlights = formed
         out[region.within(whole(out.shape))] = light
         bright.append(highlights)
-        watch.advance(TILE_STEPS)
+        former.watch.advance(TILE_STEPS)
 
     for_each(lambda region: (region, *former.form(region)), parts, take)
     _add_halos(out, gather(bright), former)
     return out
+
+
+def _dimmest(planned: Plan, picture: np.ndarray, kernels: "DepthKernels") -> float:
+    """Return the light above which a pixel has a halo that counts."""
+    if not has_halos(planned):
+        return inf
+    row, column = (n // 2 for n in picture.shape[:2])
+    full = FullKernels(planned).at(row, column, planned.vergences[0])
+    return dimmest(full, kernels.at(0, row, column), float(picture.max()))
 
 
 def _add_halos(out: np.ndarray, bright: BrightLight, former: "_Former") -> None:
@@ -161,7 +167,7 @@ def _add_halos(out: np.ndarray, bright: BrightLight, former: "_Former") -> None:
         wide = full.at(row, column, float(np.interp(place, np.arange(len(vergences)), vergences)))
         near = int(min(place, max(len(vergences) - 2, 0)))
         parts = [(part, n) for n, part in ((near, near + 1 - place), (near + 1, place - near)) if part]
-        blurs = [part * former.kernel_at(number, row, column) for part, number in parts]
+        blurs = [part * former.kernels.at(number, row, column) for part, number in parts]
         wide, *blurs = pad_to_largest([wide, *blurs])  # beside another node or depth a blur may be wider
         return group, wide - sum(blurs)
 
@@ -179,6 +185,7 @@ class DepthKernels:
         """Take the ``lattice`` of the far end, if it is known; else measure how many nodes must be computed."""
         self._planned, self._watch, self._step = planned, watch, 1
         self._lock, self._landings = Lock(), dict[int, PupilLandings]()
+        self._decomposing, self._low_ranks = Lock(), dict[tuple[int, bool], list[LowRank]]()
         if lattice is not None:
             self._nodes = {0: known_kernels(lattice)}
             return
@@ -197,6 +204,26 @@ class DepthKernels:
                 del self._nodes[next(iter(self._nodes))]
         return nodes.over(region, self._watch)
 
+    def at(self, number: int, row: float, column: float) -> np.ndarray:
+        """Return the kernels of a pixel at a depth node, (channels, size, size)."""
+        top, left = int(row), int(column)
+        return self.over(number, Region(top, top + 2, left, left + 2)).at(row - top, column - left)
+
+    def low_rank(self, number: int, moments: bool) -> list[LowRank]:
+        """Return the low rank of each channel over the whole picture, or of the channels of `first_moments`.
+
+        One thread at a time finds them, since all need the same.
+        """
+        with self._decomposing:
+            if (number, moments) not in self._low_ranks:
+                sensor, tolerance = self._planned.scene.sensor, RANK_TOLERANCE * self._planned.allowed_error
+                kernels = self.first_moments if moments else self.over
+                lattice = kernels(number, whole((sensor.rows, sensor.columns)))
+                self._low_ranks[number, moments] = map_threads(
+                    lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels)
+                )
+            return self._low_ranks[number, moments]
+
     def first_moments(self, number: int, region: Region) -> Lattice:
         """Return the first moments over the pupil of these kernels, of all channels twice, see `first_moments`."""
         with self._lock:
@@ -207,7 +234,10 @@ class DepthKernels:
 
 @dataclass(frozen=True, eq=False)
 class _Former:
-    """What forms tiles of a picture; ``half``: the largest half width of a kernel, pixels."""
+    """What forms tiles of a picture; ``half``: the largest half width of a kernel, pixels.
+
+    ``dimmest``: the light above which a pixel has a halo that counts.
+    """
 
     planned: Plan
     picture: np.ndarray
@@ -216,6 +246,7 @@ class _Former:
     half: int
     kernels: DepthKernels
     watch: Progress
+    dimmest: float
 
     def form(self, tile: Region) -> tuple[np.ndarray, BrightLight]:
         """Return a tile of the formed picture without halos, and its light that has some.
@@ -256,21 +287,6 @@ class _Former:
         light, covered = self._add_layers(part, reach, placed.layers(self.depths))
         light /= np.maximum(covered, LEAST_COVERAGE)
         return light
-
-    def kernel_at(self, number: int, row: float, column: float) -> np.ndarray:
-        """Return the kernels of a pixel at a depth node, (channels, size, size)."""
-        top, left = int(row), int(column)
-        lattice = self.kernels.over(number, Region(top, top + 2, left, left + 2))
-        return lattice.at(row - top, column - left)
-
-    @cached_property
-    def dimmest(self) -> float:
-        """Return the light above which a pixel has a halo that counts."""
-        if not has_halos(self.planned):
-            return inf
-        row, column = (n // 2 for n in self.picture.shape[:2])
-        full = FullKernels(self.planned).at(row, column, self.planned.vergences[0])
-        return dimmest(full, self.kernel_at(0, row, column), float(self.picture.max()))
 
     def _add_layers(
         self, tile: Region, reach: Region, layers: Iterator[tuple[int, np.ndarray, Region]]
@@ -320,7 +336,7 @@ class _Former:
         ``moments``: by the first moments of the kernels, whose channels these are then.
         """
         if self.how.method == "lowrank":
-            parts = self._low_rank(number, moments)
+            parts = self.kernels.low_rank(number, moments)
             blurred = low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
             return blurred, box.grown(parts[0].mean.shape[0] // 2)
         lattice = (self.kernels.first_moments if moments else self.kernels.over)(number, box)
@@ -339,19 +355,6 @@ class _Former:
         both = (*channels, *[every + channel for channel in channels])
         moments, _ = self._blur(number, np.concatenate([planes, planes], axis=-1), box, both, moments=True)
         return np.stack(np.split(moments, 2, axis=-1))
-
-    @cached_property
-    def _low_rank(self) -> Callable[[int, bool], list[LowRank]]:
-        """Return the function from a depth node to the low ranks of its channels, or of their first moments."""
-        tolerance = RANK_TOLERANCE * self.planned.allowed_error
-
-        @cache
-        def parts_of(number: int, moments: bool) -> list[LowRank]:
-            kernels = self.kernels.first_moments if moments else self.kernels.over
-            lattice = kernels(number, whole(self.picture.shape))
-            return map_threads(lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels))
-
-        return parts_of
 
 
 class _Placing:
@@ -477,6 +480,21 @@ def _largest_halves(planned: Plan) -> list[int]:
         return int(planned.kernels(channel, node).points(0 * heights, heights).half_widths().max())
 
     return [max(half(channel, node) for channel in channels) for node in planned.vergences]
+
+
+def _check_halos(planned: Plan, how: Forming, layered: bool) -> None:
+    """Raise RequestError where a scene with halos is to be formed as none can be."""
+    if how.method != "patches" and has_halos(planned):
+        raise RequestError(
+            "a scene with {parameter} has halos fainter than the error of a low rank; choose {method} patches",
+            parameter="tail_error",
+            method=ParameterName("method"),
+        )
+    if layered and has_halos(planned):
+        raise RequestError(
+            "halos are those of one picture, not of layers; leave {parameter} out, or give one picture and its depths",
+            parameter="tail_error",
+        )
 
 
 def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:

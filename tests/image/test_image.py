@@ -19,6 +19,7 @@ from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.psf.huygens import huygens_psf
 from p2sf.scene import Channel, Scene, Sensor
+from p2sf.threads import using_threads
 from tests.support.direct_sum import direct_sum
 
 SIDE, HALF = 128, 7
@@ -228,6 +229,15 @@ def test_tiles_join_without_a_seam(monkeypatch, method, depth):
         monkeypatch.setattr(form, "TILE", side)
         made.append(form_image(planned, picture, depths[depth], Forming(method)))
     np.testing.assert_allclose(made[1], made[0], atol=3e-6)  # some tens of roundings of white
+
+
+def test_tiles_in_several_threads_share_one_low_rank(monkeypatch):
+    planned, calls = quick(Sensor(40, 50, 10.0)), []
+    monkeypatch.setattr(form, "TILE", 16)
+    monkeypatch.setattr(form, "decompose", lambda *rest: calls.append(rest) or decompose(*rest))
+    with using_threads(4):
+        form_image(planned, np.random.default_rng(6).random((40, 50, 1)), None, Forming("lowrank"))
+    assert len(calls) == 1
 
 
 def test_a_preview_shows_the_same_picture():
