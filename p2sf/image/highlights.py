@@ -15,7 +15,7 @@ from p2sf.image.region import Region, whole
 from p2sf.metrics.tails import FAINTEST, FARTHEST
 from p2sf.pixel_kernels import RAYS, Colour, Kernels
 from p2sf.pixel_kernels.channel import Points
-from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, rim_gain, samples_each
+from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pupil.mask_cells import wings
 from p2sf.scene.planning.plan import Plan
@@ -65,7 +65,7 @@ class FullKernels:
         x, y = float(sensor.x_mm(column)), float(sensor.y_mm(row))
         points = [self._point(number, x, y, vergence) for number in range(len(self.planned.colours))]
         half = max(map(self._half, points))
-        return np.stack([self._with_rim(point, half) for point in points])
+        return np.stack([point.kernels(np.array([half]))[0] for point in points])
 
     def _point(self, channel: int, x_mm: float, y_mm: float, vergence: float) -> Points:
         own, recipe = self.planned.scene.channels[channel], self.planned.recipe
@@ -86,15 +86,6 @@ class FullKernels:
         most = int(LARGEST_WINDOW / samples_each(pupils, pixel, FINENESS).max() / 2 - 1) // 2
         sensor = self.planned.scene.sensor
         return max(own, min(own + ceil(reach / pixel), most, max(sensor.rows, sensor.columns)))
-
-    def _with_rim(self, point: Points, half: int) -> np.ndarray:
-        """Return a point's kernel with all the light that its pupil's edges diffract far out (`rim_gain`)."""
-        kernel, pixel = point.kernels(np.array([half]))[0].astype(float), point.pixel_um
-        period = (2 * (max(half, int(point.half_widths()[0])) + ceil(MARGIN * half)) + 1) * pixel
-        geometric = float((_pupils(point).reach_um + np.hypot(*point.lights.shifts_um.T)).max()) + pixel
-        kernel *= rim_gain(half, pixel, period, geometric)
-        brightened: np.ndarray = kernel / kernel.sum()
-        return brightened
 
 
 def _pupils(point: Points) -> PupilStack:

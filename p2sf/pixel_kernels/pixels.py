@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import sqrt
 
 import numpy as np
 
@@ -9,7 +10,6 @@ from p2sf.conventions import FloatOrArray
 from p2sf.errors import SamplingError
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stack_pupils, turn_pupils
 from p2sf.pixel_kernels.ray_spread import RaySpread
-from p2sf.pupil.binning import bin_samples
 from p2sf.pupil.mask_cells import inside_share, open_share, turned_back, wings
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
@@ -48,16 +48,17 @@ def half_widths(pupils: Light, pixel_um: float, shifts_um: FloatOrArray = 0.0) -
 
 
 def samples_across(pupil: PixelPupil | RaySpread, pixel_um: float, finest: float = 1.0) -> int:
-    """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 every fringe.
+    """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 all detail.
 
-    At least three, so that pixel edges are resolved well enough.
+    At least three, unless fewer hold all detail.
     """
     return int(samples_each(pupil, pixel_um, finest))
 
 
 def samples_each(pupils: Light, pixel_um: float, finest: float = 1.0) -> np.ndarray:
     """Return `samples_across` of pupils, (pupils,)."""
-    return np.maximum(3, np.ceil(2 * pupils.radius * (pixel_um * finest))).astype(int)
+    lines = 2 * pupils.radius * pixel_um
+    return np.maximum(np.ceil(lines * finest), np.minimum(3, np.ceil(2 * lines))).astype(int)
 
 
 def pixel_kernel(
@@ -72,50 +73,64 @@ def pixel_kernel(
     return kernel
 
 
-def pixel_kernels(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, shifts_um: np.ndarray) -> np.ndarray:
-    """Return `pixel_kernel` of several pupils, (pupils, size, size), with ``angles`` and ``shifts_um`` (pupils, 2)."""
+def pixel_kernels(
+    pupils: PupilStack, angles: np.ndarray, window: PixelWindow, shifts_um: np.ndarray, fill_factor: float = 1.0
+) -> np.ndarray:
+    """Return `pixel_kernel` of several pupils, (pupils, size, size), with ``angles`` and ``shifts_um`` (pupils, 2).
+
+    ``fill_factor``: the part of a pixel's area, a square in its middle, that is sensitive; kernels are shares of all
+    light in the window then.
+    """
     kernels = np.empty((len(pupils), window.size, window.size), np.float32)
-    together = max(1, TOGETHER // (window.size * window.samples) ** 2)
+    whole, sensitive = (_sums_over_pixels(window, width) for width in (1.0, sqrt(fill_factor)))
+    together = max(1, TOGETHER // transform_side(window) ** 2)
     for start in range(0, len(pupils), together):
         part = slice(start, start + together)
         light = sampled_light(pupils.some(part), angles[part], window, shifts_um[part])
-        pixels = bin_samples(light, window.size, window.samples)
-        total = pixels.sum((1, 2), dtype=float, keepdims=True).astype(np.float32)
+        gain = _rim_gains(pupils.some(part), window, shifts_um[part])
+        pixels = all_light = np.maximum(whole @ light @ whole.T, 0) * gain
+        if fill_factor < 1:
+            pixels = np.maximum(sensitive @ light @ sensitive.T, 0) * gain
+        total = all_light.sum((1, 2), dtype=float, keepdims=True).astype(np.float32)
         np.divide(pixels[:, ::-1], total, out=kernels[part])
     return kernels
+
+
+@lru_cache(maxsize=16)
+def _sums_over_pixels(window: PixelWindow, width: float) -> np.ndarray:
+    """Return the matrix from the samples of a period, `transform_side`, to the light of pixels, (size, samples).
+
+    Frequencies up to half of the samples' own are integrated exactly over the middle of each pixel, ``width`` of it
+    wide: a box multiplies the spectrum by a sinc.
+    """
+    side, across = transform_side(window), width * window.samples
+    frequencies = np.fft.fftfreq(side)
+    to_the_middle = np.exp(1j * np.pi * (window.samples - 1) * frequencies)
+    weights = np.fft.ifft(across * np.sinc(across * frequencies) * to_the_middle).real  # of samples back from the first
+    first = np.arange(window.size)[:, None] * window.samples
+    sums: np.ndarray = weights[(first - np.arange(side)) % side].astype(np.float32)
+    return sums
 
 
 def part_filled_kernel(pupil: PixelPupil, window: PixelWindow, fill_factor: float) -> np.ndarray:
     """Return the share of a point's light that each pixel's sensitive square receives, (size, size) float32, row 0 top.
 
-    The square, ``fill_factor`` of the pixel's area, lies in its middle; the field is along +y, the chief ray in the
-    middle pixel's centre. The light is convolved with the square by its transform, sinc·sinc, which is exact for
-    samples finer than λ/4NA, where every spatial frequency of the light is below theirs: ``window.samples`` from
-    `samples_across` at a fineness of 2, and odd, so that one lies in each pixel's centre. Raises SamplingError.
+    The field is along +y, the chief ray in the middle pixel's centre; the rest as in `pixel_kernels`.
     """
-    import scipy.fft
-
-    light = sampled_light(stack_pupils([pupil]), np.zeros(1), window, np.zeros((1, 2)))[0]
-    wide = window.samples * fill_factor**0.5  # of the square, in samples
-    count = len(light)
-    down, across = (np.sinc(wide * f).astype(np.float32) for f in (np.fft.fftfreq(count), np.fft.rfftfreq(count)))
-    spectrum = scipy.fft.rfft2(light)
-    spectrum *= down[:, None] * across
-    spread = scipy.fft.irfft2(spectrum, light.shape, overwrite_x=True)
-    centres = slice(window.samples // 2, None, window.samples)
-    kernel: np.ndarray = spread[centres, centres][::-1] * np.float32(wide**2 / light.sum(dtype=float))
+    one = stack_pupils([pupil])
+    kernel: np.ndarray = pixel_kernels(one, np.zeros(1), window, np.zeros((1, 2)), fill_factor)[0]
     return kernel
 
 
 def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, shifts_um: np.ndarray) -> np.ndarray:
     """Return the light at ``window.samples``² points of every pixel, (pupils, n, n) float32, row 0 at the bottom.
 
-    n = size·samples; the rest as in `pixel_kernels`. Raises SamplingError for a window too large.
+    n is `transform_side`, a period: the pixels are its first size·samples; the rest as in `pixel_kernels`. Raises
+    SamplingError for a window too large.
     """
     import scipy.fft
 
-    count, pitch = window.size * window.samples, window.pixel_um / window.samples
-    side = scipy.fft.next_fast_len(count)
+    count, pitch, side = window.size * window.samples, window.pixel_um / window.samples, transform_side(window)
     if side > LARGEST_WINDOW:
         raise SamplingError(
             "a blur of {size} pixels with {samples} samples each needs a {side}² transform; "
@@ -127,25 +142,40 @@ def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
     # Sample 0 of the transform is the window's lower left one; the samples of a pixel lie symmetrically in it.
     origin = -(count - 1) / 2 * pitch - shifts_um
     field = _field(turn_pupils(pupils, angles), side, 1 / (side * pitch), origin)
-    plane = scipy.fft.ifft2(field, overwrite_x=True)[:, :count, :count]
+    plane = scipy.fft.ifft2(field, overwrite_x=True)
     light: np.ndarray = plane.real**2
     light += plane.imag**2
     return light
 
 
-def rim_gain(half: int, pitch_um: float, period_um: float, reach_um: float) -> np.ndarray:
+def _rim_gains(pupils: PupilStack, window: PixelWindow, shifts_um: np.ndarray) -> np.ndarray:
+    """Return `rim_gain` of the pixels of several pupils, (pupils, size, size)."""
+    period = transform_side(window) * window.pixel_um / window.samples
+    reach = pupils.reach_um + np.hypot(*shifts_um.T)
+    return rim_gain(window.half, window.pixel_um, period, reach[:, None, None])
+
+
+def transform_side(window: PixelWindow) -> int:
+    """Return the samples along a side of the transform that fills a window."""
+    import scipy.fft
+
+    return int(scipy.fft.next_fast_len(window.size * window.samples))
+
+
+def rim_gain(half: int, pitch_um: float, period_um: float, reach_um: FloatOrArray) -> np.ndarray:
     """Return what the light of samples at most ``half`` from the middle is to be multiplied by, (2·half + 1,)² float32.
 
     A cell that an edge of the pupil cuts counts by its open part, a mean over a cell across the edge. So the waves that
-    an edge sends to r are too weak by sinc(r/``period_um``), that of the transform; the light within ``reach_um``
-    comes from rays, which are not. The gain is 1/sinc², to 1e-3 up to half a period, as
-    (1 − t²)⁻²(1 + at² + bt⁴)⁻² of t = r/period.
+    an edge sends r beyond where its rays land are too weak by sinc(r/``period_um``), that of the transform; rays land
+    within ``reach_um``. The gain is 1/sinc², to 1e-3 up to half a period, as (1 − t²)⁻²(1 + at² + bt⁴)⁻² of
+    t = r/period; farther out, where the next period is as near, it stays as it is.
     """
-    square = (np.arange(-half, half + 1) * np.float32(pitch_um / period_um)) ** 2
-    t = square + square[:, None]
+    across = np.square(np.arange(-half, half + 1) * np.float32(pitch_um))
+    beyond = np.sqrt(across + across[:, None]) - np.asarray(reach_um, np.float32)
+    t = np.square(np.clip(beyond / np.float32(period_um), 0, np.float32(0.5)))
     root = (1 - t) * (1 + t * (SINC[0] + t * SINC[1]))
     gain: np.ndarray = 1 / (root * root)
-    return np.where(t > np.float32((reach_um / period_um) ** 2), gain, np.float32(1))
+    return gain
 
 
 def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.ndarray:

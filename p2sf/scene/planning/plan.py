@@ -54,7 +54,7 @@ from p2sf.threads import one_blas_thread
 # The share of the tolerance that each kind of decision may use, see `predicted_error`.
 SHARES = {"method": 0.4, "sampling": 0.2, "field": 0.38, "depth": 0.42, "colour": 0.3, "pupils": 0.14}
 FIELD_ALONE = 0.46  # the share of the field in a scene of one depth
-FINE_ENOUGH, FINE_ENOUGH_ERROR = 4, 2.5e-3  # an entry of SAMPLINGS, and its largest error in a kernel, as measured
+FINE_ENOUGH, FINE_ENOUGH_ERROR = 2, 2.5e-3  # an entry of SAMPLINGS, and its largest error in a kernel, as measured
 SHARPER = 1.1  # factor by which kernels between those examined may be sharper
 SAFETY = 1.3  # for points between those where an error was measured
 

@@ -29,10 +29,9 @@ from p2sf.scene.planning.field_points import scene_maps
 from p2sf.scene.planning.lens_pupils import lens_pupils
 from p2sf.scene.scene import Scene
 
-# Fineness and margin of `Recipe`, cheapest first.
-SAMPLINGS = (1.0, 0.0), (1.25, 0.0), (1.5, 0.0), (2.0, 0.0), (2.0, 0.5), (3.0, 0.5), (4.0, 1.0)
+SAMPLINGS = (1.25, 0.0), (1.5, 0.0), (1.5, 0.5), (2.0, 1.0)  # fineness and margin of `Recipe`, cheapest first
 # The first for errors that change a kernel as a whole, the second for those that only affect its fringes.
-COARSE_SAMPLING, FINE_SAMPLING = SAMPLINGS[0], SAMPLINGS[3]
+COARSE_SAMPLING, FINE_SAMPLING = (1.0, 0.0), SAMPLINGS[1]
 CONVERGED_WAVES = 3e-4
 AGREES = 0.07  # of the tolerance: the largest error of a kernel by pupils that were kept
 COARSE_REACH = 8, 16  # nodes at which the windows of kernels are found, which are then widened
@@ -277,7 +276,8 @@ class Study:
             window = PixelWindow(half + around, pixel, across)
             made = pixel_kernels(pupils.some(chosen), angles[chosen], window, shifts[chosen])
             for k, kernel in zip(chosen.tolist(), made, strict=True):
-                kernels[k] = kernel[around : around + 2 * half + 1, around : around + 2 * half + 1]
+                inner = kernel[around : around + 2 * half + 1, around : around + 2 * half + 1]
+                kernels[k] = inner / inner.sum() if around else inner
         return kernels
 
 
