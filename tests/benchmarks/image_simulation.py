@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 from itertools import product
 from math import inf
 from multiprocessing import get_context
@@ -27,7 +27,8 @@ from statistics import median
 from time import process_time
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import gaussian_filter, shift
+from scipy.optimize import least_squares
 
 from p2sf import write_lens
 from p2sf.image import Forming, form_image
@@ -44,12 +45,18 @@ from tests.support.per_pixel import per_pixel_picture, widest_half
 
 SHAPE = 120, 180
 REGION = slice(20, 40), slice(24, 52)
+SHIFTED = 4  # pixels about REGION that are kept, so that a picture may be shifted onto the reference
+WIDER = tuple(slice(part.start - SHIFTED, part.stop + SHIFTED) for part in REGION)
+INNER = (slice(SHIFTED, -SHIFTED),) * 2
 COLOURS = tuple(Channel(name, (nm,), (1.0,)) for name, nm in (("red", 620.0), ("green", 540.0), ("blue", 465.0)))
 GREEN, GREEN_UM = 1, 0.54
 WAVES = 1.0  # of defocus at either end of the depths
 BLUR = Forming(geometry=False)
 SLICES = 9  # depths of PSFs on a grid
+TIGHTEST = 0.003  # the least tolerance of a scene: a fifth of it is the error of kernels between computed nodes
 FINE, FINEST = (4.0, 1.0), (5.0, 1.5)  # samples per λ/(2 NA) and margins of kernels on grids, and of the reference's
+QUANTILES = 0.5, 0.95, 1.0
+COLUMNS = 5  # of the figure
 FARTHEST = 1e5  # focal lengths: what programs that need a finite depth take for infinity
 
 
@@ -75,8 +82,10 @@ class BenchCamera:
         sensor = Sensor(*shape, self.pixel_um)
         return Scene(sensor, COLOURS, 1 / (2 * self.middle), inf, rtol, focus_mm=1 / self.middle)
 
-    def plan(self, rtol: float, shape: tuple[int, int] = SHAPE) -> Plan:
-        return plan(find_lens(self.lens), self.scene(rtol, shape))
+    def plan(self, rtol: float, shape: tuple[int, int] = SHAPE, depth: np.ndarray | None = None) -> Plan:
+        """Return the plan of the whole range of depths, or of those of a map alone."""
+        scene = self.scene(rtol, shape)
+        return plan(find_lens(self.lens), scene if depth is None else scene.at_depths(depth))
 
     def exact(self, shape: tuple[int, int] = SHAPE) -> Plan:
         """Return kernels in every wavelength, as finely sampled as any plan's; its nodes are not used."""
@@ -101,12 +110,15 @@ def picture_of(
 
 
 def by_plan(rtol: float, camera: BenchCamera, values: np.ndarray, depth: np.ndarray) -> np.ndarray:
-    return form_image(camera.plan(rtol), values, depth, BLUR)
+    return form_image(camera.plan(rtol, depth=depth), values, depth, BLUR)
 
 
 def by_grid(count: int, camera: BenchCamera, values: np.ndarray, depth: np.ndarray) -> np.ndarray:
-    """Return the picture by ``count``² PSFs at each of SLICES depths, bilinear between them, without symmetry."""
-    made, scene = camera.exact(), camera.scene()
+    """Return the picture by ``count``² PSFs at each of SLICES depths, bilinear between them, without symmetry.
+
+    Of close nodes only some are computed, from which the others follow to a fifth of TIGHTEST.
+    """
+    made, scene = camera.exact(), camera.scene(TIGHTEST)
     beside = replace(scene, sensor=replace(scene.sensor, centre_mm=(1e-9, 0.0)))  # so that no quarter is mirrored
     nodes = tuple(scene.vergences(SLICES).tolist())
     return form_image(replace(made, scene=beside, counts=(count, count), vergences=nodes), values, depth, BLUR)
@@ -160,26 +172,30 @@ def by_peer(program: str, python: str, camera: BenchCamera, values: np.ndarray, 
             return found["picture"], float(found["seconds"])
 
 
+PLANS = {f"plan, ε = {rtol}": rtol for rtol in (0.1, 0.02, 0.005)}
 OURS = {
     "one PSF": by_one_psf,
     "Gaussian of the depth": by_gaussian,
     "9 × 9 PSFs": partial(by_grid, 9),
     "33 × 33 PSFs": partial(by_grid, 33),
-    **{f"plan, ε = {rtol}": partial(by_plan, rtol) for rtol in (0.1, 0.02, 0.005)},
+    **{name: partial(by_plan, rtol) for name, rtol in PLANS.items()},
 }
 
 PEERS = "optiland", "deeplens"
 
 
 def timed_picture(program: str, python: str | None, camera: BenchCamera, scene: str) -> tuple[np.ndarray, float, float]:
-    """Return REGION of a program's picture, CPU seconds, and MiB beyond the start of the process."""
+    """Return WIDER of a program's picture, CPU seconds, and MiB beyond the start of the process.
+
+    Of the reference, REGION; of another program, all MiB that its process took.
+    """
     values, depth = picture_of(camera, scene)
     if python is not None:
         found, seconds = by_peer(program, python, camera, values, depth)
-        return found[REGION], seconds, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+        return found[WIDER], seconds, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     before, started = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, process_time()
     with using_threads(1):
-        found = reference(camera, scene) if program == "reference" else OURS[program](camera, values, depth)[REGION]
+        found = reference(camera, scene) if program == "reference" else OURS[program](camera, values, depth)[WIDER]
     return found, process_time() - started, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
 
 
@@ -189,6 +205,7 @@ def reference(camera: BenchCamera, scene: str) -> np.ndarray:
     return per_pixel_picture(for_reference(camera), values[..., GREEN], depth, REGION, GREEN)
 
 
+@cache
 def for_reference(camera: BenchCamera, shape: tuple[int, int] = SHAPE) -> Plan:
     made = camera.exact(shape)
     return replace(made, recipe=replace(made.recipe, fineness=FINEST[0], margin=FINEST[1]))
@@ -252,38 +269,71 @@ def stored_pictures(folder: Path) -> dict[tuple[str, str, str], dict[str, np.nda
 def relative_error(found: dict, program: str, lens: str, scene: str) -> float:
     """Return the error of green in a picture over its reference, both as root sums of squares."""
     truth, green = found["reference", lens, scene]["picture"], found[program, lens, scene]["picture"][..., GREEN]
-    return float(np.linalg.norm(green - truth) / np.linalg.norm(truth))
+    return float(np.linalg.norm(green[INNER] - truth) / np.linalg.norm(truth))
+
+
+def shifted_error(found: dict, program: str, lens: str, scene: str) -> float:
+    """Return `relative_error` of the picture in the place where it fits best, up to SHIFTED - 1 pixels away."""
+    truth, green = found["reference", lens, scene]["picture"], found[program, lens, scene]["picture"][..., GREEN]
+    most = SHIFTED - 1
+
+    def off(places: Sequence[float]) -> np.ndarray:
+        return np.ravel(shift(green, places, order=3, mode="nearest")[INNER] - truth)
+
+    start = min(product(range(-most, most + 1), repeat=2), key=lambda places: float(np.linalg.norm(off(places))))
+    fitted = least_squares(off, start, bounds=(-most - 0.5, most + 0.5), diff_step=0.01)
+    return float(np.linalg.norm(fitted.fun) / np.linalg.norm(truth))
 
 
 def print_table(found: dict) -> None:
-    print("| program | pictures | error, median | worst | CPU, median | most | memory, most |\n" + "|---" * 7 + "|")
+    print(
+        "| program | pictures | error, median | worst | shifted to fit, median | CPU, median | most | memory, most |\n"
+        + "|---" * 8
+        + "|"
+    )
     for program in dict.fromkeys(name for name, *_ in found if name != "reference"):
         mine = {tuple(where): each for (name, *where), each in found.items() if name == program}
-        errors = [relative_error(found, program, *where) for where in mine if ("reference", *where) in found]
-        seconds, mib = (
-            [float(each["seconds"]) for each in mine.values()],
-            max(float(each["mib"]) for each in mine.values()),
+        compared = [where for where in mine if ("reference", *where) in found]
+        errors, fitted = (
+            [100 * measure(found, program, *where) for where in compared] for measure in (relative_error, shifted_error)
         )
+        seconds, mib = ([float(each[key]) for each in mine.values()] for key in ("seconds", "mib"))
         print(
-            f"| {program} | {len(errors)} | {100 * median(errors):.2g} % | {100 * max(errors):.2g} % | "
-            f"{median(seconds):.2g} s | {max(seconds):.2g} s | {mib:.0f} MiB |"
+            f"| {program} | {len(errors)} | {median(errors):.2g} % | {max(errors):.2g} % | {median(fitted):.2g} % | "
+            f"{median(seconds):.2g} s | {max(seconds):.2g} s | {max(mib):.0f} MiB |"
         )
+
+
+def print_plans(found: dict) -> None:
+    """Print the plans' errors over ε, and how many pictures other programs make better, and sooner too."""
+    errors = {each: relative_error(found, *each) for each in found if ("reference", *each[1:]) in found}
+    shares = [error / PLANS[name] for (name, *_), error in errors.items() if name in PLANS]
+    text = ", ".join(f"{q:.0%} {share:.2f}" for q, share in zip(QUANTILES, np.quantile(shares, QUANTILES), strict=True))
+    print(f"{len(shares)} pictures by plans, error / ε: {text}")
+    for ours, other in product(PLANS, [name for name in (*OURS, *PEERS) if name not in PLANS]):
+        pairs = [((ours, *at), (other, *at)) for name, *at in errors if name == ours and (other, *at) in errors]
+        better = [(mine, theirs) for mine, theirs in pairs if errors[theirs] < errors[mine]]
+        sooner = sum(float(found[theirs]["seconds"]) < float(found[mine]["seconds"]) for mine, theirs in better)
+        print(f"{ours}: {other} better in {len(better)} of {len(pairs)} pictures, in {sooner} of these sooner too")
 
 
 def save_figure(found: dict, path: Path, lens: str = "achromat_f6", scene: str = "posts") -> None:
-    """Save one picture by every program, and below each its error, five times as large, about grey."""
+    """Save one picture by every program with its error, and below each five times its difference, about grey."""
     import matplotlib.pyplot as plt
 
     pictures = {name: each["picture"] for (name, *where), each in found.items() if tuple(where) == (lens, scene)}
     truth = pictures.pop("reference")
-    shown = {"reference": truth, **{name: picture[..., GREEN] for name, picture in pictures.items()}}
-    figure, axes = plt.subplots(2, len(shown), figsize=(1.5 * len(shown), 2.4), layout="constrained")
-    for (above, below), (name, picture) in zip(axes.T, shown.items(), strict=True):
+    shown = {"every pixel's kernel": truth}
+    for name, picture in pictures.items():
+        shown[f"{name}: {100 * relative_error(found, name, lens, scene):.2g} %"] = picture[*INNER, GREEN]
+    figure, axes = plt.subplots(4, COLUMNS, figsize=(2.4 * COLUMNS, 7.2), layout="constrained")
+    places = [(axes[row, column], axes[row + 1, column]) for row in (0, 2) for column in range(COLUMNS)]
+    for axis in axes.flat:
+        axis.set_axis_off()
+    for (above, below), (name, picture) in zip(places, shown.items(), strict=False):
         above.imshow(np.clip(picture, 0, 1) ** (1 / 2.2), cmap="gray", vmin=0, vmax=1, interpolation="nearest")
         below.imshow(5 * (picture - truth), cmap="gray", vmin=-0.5, vmax=0.5, interpolation="nearest")
-        above.set_title(name, fontsize=7)
-        for axis in (above, below):
-            axis.set_axis_off()
+        above.set_title(name, fontsize=9)
     figure.savefig(path, dpi=110)
 
 
@@ -312,6 +362,7 @@ def main() -> None:
         make_pictures(asked.keep, dict.fromkeys(("reference", *OURS)) | peers, cameras)
     found = stored_pictures(asked.keep)
     print_table(found)
+    print_plans(found)
     print_cameras()
     if asked.figure:
         save_figure(found, asked.figure)

@@ -11,7 +11,7 @@ from p2sf.scene.planning.study import distance
 from p2sf.scene.planning.verify import planned_kernel
 from tests.benchmarks.image_simulation import BLUR, CAMERAS, for_reference
 from tests.long.depth_edges import GOAL, PANE, configurations, edge_errors
-from tests.long.picture_crops import crop_errors
+from tests.long.picture_crops import PLANS, crop_errors
 from tests.support.depth_scenes import SCENES
 from tests.support.per_pixel import per_pixel_picture, widest_half
 
@@ -34,9 +34,10 @@ def test_edges_are_right_to_a_hundredth_where_coverage_was_far_off(shape, focus,
     assert len(configurations()) == 20
 
 
-def test_a_picture_with_edges_keeps_its_tolerance():
-    found = crop_errors(0, (60, 80), (6, 8))
-    assert found["light"] <= 1
+@pytest.mark.parametrize("number", range(len(PLANS)))
+def test_a_picture_with_edges_keeps_its_tolerance(number):
+    found = crop_errors(number, (60, 80), (6, 8))
+    assert found["plan"] == PLANS[number] and found["light"] <= 1
 
 
 def test_the_error_of_a_picture_is_what_the_error_of_its_kernels_allows():

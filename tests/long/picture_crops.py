@@ -2,16 +2,17 @@
 
 Pictures of 200 × 300 pixels with edges of depth, highlights of fifty times white and colour, random scenes of
 `tests.support.depth_scenes` through the lenses of `tests.benchmarks.image_simulation`, are formed by plans of a random
-tolerance. One channel of 12 × 16 pixels somewhere in each, about an edge of depth where it can be, is compared with the
-sum over single pixels, whose own kernels are right to some 0.002 (the benchmark prints it). The error is the L2
-difference, and the allowed one the tolerance times the L2 norm of: the part's *light*; the contrast of the *object*
-about its mean, in the part and as far around as kernels reach, which is what bounds the error (handbook, *Plans*, *What
-this means for a picture*); the *contrast* of the part, which blur may leave little of and no tolerance of kernels
-bounds. Pictures in FILE, JSON lines, are not made again.
+tolerance, every other one for the depths of its map alone. One channel of 12 × 16 pixels somewhere in each,
+about an edge of depth where it can be, is compared with the sum over single pixels, whose own kernels are right to some
+0.002 (the benchmark prints it). The error is the L2 difference, and the allowed one the tolerance times the L2 norm of:
+the part's *light*; the contrast of the *object* about its mean, in the part and as far around as kernels reach, which
+is what bounds the error (handbook, *Plans*, *What ε means for a picture*); the *contrast* of the part, of which blur
+may leave little and which no tolerance of kernels bounds. Pictures in FILE, JSON lines, are not made again.
 """
 
 import argparse
 import json
+from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -26,28 +27,29 @@ SHAPE, PART = (200, 300), (12, 16)
 TOLERANCES = 0.2, 0.1, 0.05, 0.02
 QUANTILES = 0.5, 0.95, 1.0
 MEASURES = "light", "object", "contrast"
+PLANS = "a range of depths", "the map's depths"
 
 
 def crop_errors(number: int, shape: tuple[int, int] = SHAPE, part: tuple[int, int] = PART) -> dict[str, object]:
-    """Return one picture's error over what is allowed of each of MEASURES, and what picture it is."""
+    """Return which picture this is, and its error over what is allowed of each of MEASURES."""
     random = np.random.default_rng(number)
     camera = CAMERAS[int(random.integers(len(CAMERAS)))]
     scene, rtol = str(random.choice(list(SCENES))), float(random.choice(TOLERANCES))
     channel = int(random.integers(3))
     values, depth = picture_of(camera, scene, shape, number)
-    made, exact = camera.plan(rtol, shape), for_reference(camera, shape)
-    half = widest_half(exact, made.scene.vergences(2))
+    exact, name = for_reference(camera, shape), PLANS[number % len(PLANS)]
+    made = camera.plan(rtol, shape, depth if name == PLANS[1] else None)
+    half = widest_half(exact, exact.scene.vergences(2))
     region = _region(depth, part, 2 * half, random)
     truth = per_pixel_picture(exact, values[..., channel], depth, region, channel)
     off = form_image(made, values, depth, BLUR)[region][..., channel] - truth
     around = tuple(slice(side.start - half, side.stop + half) for side in region)
-    spread = float(values[*around, channel].std()) * np.sqrt(truth.size)
-    norms = np.linalg.norm(truth), spread, np.linalg.norm(truth - truth.mean())
+    contrast = float(values[..., channel][around].std()) * np.sqrt(truth.size)
+    norms = np.linalg.norm(truth), contrast, np.linalg.norm(truth - truth.mean())
+    errors = {name: float(np.linalg.norm(off) / norm / rtol) for name, norm in zip(MEASURES, norms, strict=True)}
     return {
         **{"number": number, "lens": camera.lens, "scene": scene, "rtol": rtol, "channel": channel},
-        **{name: float(np.linalg.norm(off) / norm / rtol) for name, norm in zip(MEASURES, norms, strict=True)},
-        "largest": float(np.abs(off).max()),
-        "edge": _jumps(depth[region]),
+        **{"plan": name, **errors, "largest": float(np.abs(off).max()), "edge": _jumps(depth[region])},
     }
 
 
@@ -77,15 +79,17 @@ def main() -> None:
         with asked.keep.open("a", encoding="utf-8") as file:
             file.write(json.dumps(found[-1]) + "\n")
         print(json.dumps(found[-1]), flush=True)
-    parts = {
-        "all": found,
-        "with an edge of depth": [each for each in found if each["edge"]],
-        "without": [each for each in found if not each["edge"]],
+    kinds = {
+        "all": lambda each: True,
+        **{f"plans of {name}": partial(lambda name, each: each["plan"] == name, name) for name in PLANS},
+        "with an edge of depth": lambda each: each["edge"],
+        "without": lambda each: not each["edge"],
     }
-    for (words, some), measure in product(parts.items(), MEASURES):
-        shares = np.quantile([each[measure] for each in some], QUANTILES) if some else []
-        text = ", ".join(f"{q:.0%} {s:.2f}" for q, s in zip(QUANTILES, shares, strict=False))
-        print(f"{len(some)} pictures, {words}: error / allowed of {measure}: {text}")
+    for (words, holds), measure in product(kinds.items(), MEASURES):
+        shares = [each[measure] for each in found if holds(each)]
+        if shares:
+            text = ", ".join(f"{q:.0%} {s:.2f}" for q, s in zip(QUANTILES, np.quantile(shares, QUANTILES), strict=True))
+            print(f"{words}, {len(shares)} parts: error / allowed of {measure}: {text}")
 
 
 if __name__ == "__main__":
