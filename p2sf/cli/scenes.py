@@ -28,6 +28,7 @@ from p2sf.files.writing import write_beside
 from p2sf.image.charts import CHARTS, draw_chart
 from p2sf.image.deblur import photo_noise
 from p2sf.image.exposure import check_seed, expose, raw_numbers
+from p2sf.io.depth_files import read_scene_depths
 from p2sf.io.photo_files import WRITABLE, check_ending, keeps_light, read_photo, stored_as, write_photo
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
@@ -48,8 +49,8 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IE
 SCENE_HELP = (
     "A scene as TOML: rtol = 0.05 (or min_r2, mtf_error, min_psnr_db, tail_error), f_number, zoom, focus_position, "
     "focus_mm, aim, clip, brightest; [sensor] rows, columns, pixel_um, centre_mm, full_well, read_noise, bits, "
-    "black_level, mosaic, fill_factor; [depth] near_mm, far_mm, gaps_mm or map; [[channel]] name, wavelengths_nm, "
-    "weights, or [filters] curves, light, by default red, green and blue."
+    "black_level, mosaic, fill_factor; [depth] near_mm, far_mm, gaps_mm, map, map_meaning; [[channel]] name, "
+    "wavelengths_nm, weights, or [filters] curves, light, by default red, green and blue."
 )
 TOO_TIGHT = Message("the plan cannot keep the tolerance; loosen it or reduce the scene")
 SceneFile = Annotated[Path, Parameter(help=SCENE_HELP)]
@@ -377,16 +378,10 @@ def sharpen(
 
 
 def depth_map(scene: Scene) -> np.ndarray | None:
-    """Return the scene's depth map in mm, None where it has none; a float TIFF, where zero means infinity."""
+    """Return the depths of the scene's map, (rows, columns) mm; None where it has none."""
     if scene.depth_map is None:
         return None
-    photo = read_photo(scene.depth_map, "linear")
-    if photo.depth != "float":
-        raise RequestError(
-            "{path} holds whole numbers; give depths in mm as a float TIFF, 0 for infinity", path=scene.depth_map
-        )
-    values = photo.values[..., 0].astype(float)
-    return np.where(values == 0, inf, values)
+    return read_scene_depths(scene.depth_map, scene.near_mm, scene.far_mm, scene.map_meaning)
 
 
 def _for_file(values: np.ndarray, scene: Scene) -> np.ndarray:

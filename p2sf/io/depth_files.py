@@ -63,7 +63,26 @@ def read_depths(path: str | os.PathLike[str], scale: DepthScale) -> np.ndarray:
     and more than FARTHEST_MM, as renderers write of the sky, are infinity. Raises RequestError for colours, numbers
     that are NaN, negative or beyond 1, and a map without any depth.
     """
+    return _scaled(read_samples(Path(path)), scale, path)
+
+
+def read_scene_depths(
+    path: str | os.PathLike[str], near_mm: float, far_mm: float, meaning: str | None = None
+) -> np.ndarray:
+    """Return the depths of a scene's map as `read_depths` does, or those that a HEIF photo brings with it.
+
+    ``meaning``: as in `DepthScale`; by default floats are mm and whole numbers reach from far, black, to near, white.
+    """
+    own = own_depths(path)
+    if own is not None:
+        return own
     raw = read_samples(Path(path))
+    usual = "mm" if raw.dtype.kind == "f" else USUAL_SCALE.meaning
+    return _scaled(raw, DepthScale(usual if meaning is None else meaning, near_mm, far_mm), path)
+
+
+def _scaled(raw: np.ndarray, scale: DepthScale, path: str | os.PathLike[str]) -> np.ndarray:
+    """Return the depths that samples of a file stand for, see `read_depths`."""
     if raw.ndim == 3 and raw.shape[2] in (3, 4) and (raw[..., :1] == raw[..., :3]).all():
         raw = raw[..., 0]  # grey, saved in colours
     raw = raw[..., 0] if raw.ndim == 3 and raw.shape[2] in (1, 2) else raw

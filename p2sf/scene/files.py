@@ -28,7 +28,7 @@ KEYS = {
         "channel",
     },
     "sensor": {each.name for each in fields(Sensor)},
-    "depth": {"near_mm", "far_mm", "gaps_mm", "map"},
+    "depth": {"near_mm", "far_mm", "gaps_mm", "map", "map_meaning"},
     "filters": {"curves", "light"},
     "channel": {"name", "wavelengths_nm", "weights"},
 }
@@ -91,6 +91,7 @@ def scene_from(table: dict, path: Path) -> Scene:
         far_mm=far,
         gaps_mm=tuple(map(_gap, depth.get("gaps_mm", []))),
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
+        map_meaning=depth.get("map_meaning"),
         **given,
     )
 

@@ -95,9 +95,10 @@ class Scene:
     peak within 200 Airy radii (`p2sf.metrics.tails`), which pictures of very bright points need.
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
-    the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths,
-    mm. ``brightest``: the most light in the picture, 1 being white, see `noise_floor`. ``gaps_mm``: between which
-    depths, from near to far, nothing is, so that no kernels are needed there.
+    the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths;
+    ``map_meaning``: what its numbers mean (`p2sf.io.depth_files`). ``brightest``: the most light in the picture, 1
+    being white, see `noise_floor`. ``gaps_mm``: between which depths, from near to far, nothing is, so that no kernels
+    are needed there.
     """
 
     sensor: Sensor
@@ -119,6 +120,7 @@ class Scene:
     name: str = "scene"
     gaps_mm: Gaps = ()
     brightest: float = 1.0
+    map_meaning: str | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)

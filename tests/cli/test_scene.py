@@ -1,12 +1,16 @@
 """`p2sf plan` and `p2sf image`, run as a user runs them."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from p2sf.cli import main
+from p2sf.cli.scenes import depth_map
+from p2sf.errors import RequestError
 from p2sf.io.photo_files import read_photo, write_photo
+from p2sf.scene import read_scene
 
 SCENE = """
 rtol = 0.1
@@ -81,9 +85,21 @@ def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):
     rough = SCENE.replace("rtol = 0.1", "rtol = 0.4")  # its plan is made in a few seconds
     scene.write_text(rough + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\nfar_mm = inf\n')
     assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 0
-    write_photo(tmp_path / "depth.tif", depth, "linear", "8")
-    assert main(["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]) == 2
-    assert "whole numbers" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("bits", "meaning"), [("8", None), ("16", "near_black"), ("float", "m")])
+def test_depths_of_whole_numbers_reach_from_far_to_near(scene, tmp_path, bits, meaning):
+    """White is near and black far, or what the scene says of the numbers."""
+    near_white = np.linspace(0, 1, 256)[None].repeat(2, 0)
+    numbers = {"near_black": 1 - near_white, "m": 1 / (0.1 + 0.4 * near_white)}.get(meaning, near_white)
+    write_photo(tmp_path / "depth.tif", numbers.astype(np.float32), "linear", bits)
+    said = f'map_meaning = "{meaning}"' if meaning else ""
+    scene.write_text(SCENE + f'[depth]\nnear_mm = 2000\nfar_mm = 10000\nmap = "depth.tif"\n{said}\n')
+    asked = read_scene(scene)
+    assert 1000 / depth_map(asked) == pytest.approx(0.1 + 0.4 * near_white, rel=1e-5)
+    with pytest.raises(RequestError) as refused:
+        depth_map(replace(asked, map_meaning="feet"))
+    assert refused.value.message.values["meaning"] == "feet"
 
 
 def test_a_missing_depth_map_is_told_before_the_plan(scene, tmp_path, capsys, monkeypatch):
