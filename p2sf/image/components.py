@@ -52,15 +52,15 @@ def components(nodes: KernelNodes, tolerance: float, most: int) -> KernelCompone
     )
 
 
-def octave_responses(nodes: KernelNodes) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean response of kernels in the finest octave, and its error, (channels, depths, rows, columns) each.
+def octave_responses(kernels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the mean response of kernels, (…, size, size), in the finest octave, and its error, (…) each.
 
     The error is the mean square of the difference, in noise or in what most pictures have, whichever is more.
     """
     import scipy.fft
 
-    usual, noise = (octave_weights(nodes.kernels.shape[-1], falloff) for falloff in (2.0, 0.0))
-    spectra = scipy.fft.fft2(scipy.fft.ifftshift(nodes.kernels, (-2, -1)))
+    usual, noise = (octave_weights(kernels.shape[-1], falloff) for falloff in (2.0, 0.0))
+    spectra = scipy.fft.fft2(scipy.fft.ifftshift(kernels, (-2, -1)))
     gains = np.tensordot(spectra.real, usual, 2)
     power = spectra.real**2 + spectra.imag**2
     off = [
@@ -123,7 +123,8 @@ def blur(planes: np.ndarray, level: np.ndarray, part: KernelComponents, corner: 
         table, kernels = pair
         strength = over_picture(table[None], nodes, deep, first)
         spectra: np.ndarray = scipy.fft.rfft2(strength * padded, shape, overwrite_x=True)
-        spectra *= scipy.fft.rfft2(kernels, shape)[chosen]
+        rows = scipy.fft.rfft(kernels, shape[1])  # of the few rows of kernels only
+        spectra *= scipy.fft.fft(rows, shape[0], axis=-2, overwrite_x=True)[chosen]
         return spectra
 
     for_each(of_component, zip(part.tables, part.kernels, strict=True), lambda found: np.add(total, found, out=total))

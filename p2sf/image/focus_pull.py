@@ -6,66 +6,25 @@ the slabs, adds each octave times the mean response of the kernels there, and pu
 """
 
 from dataclasses import dataclass, replace
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
-from p2sf.conventions import UM_PER_MM, vergence
-from p2sf.image.components import (
-    KernelComponents,
-    KernelNodes,
-    blur,
-    components,
-    octave_responses,
-    over_levels,
-    over_picture,
-)
+from p2sf.conventions import vergence
+from p2sf.image.components import KernelComponents, KernelNodes, blur, components, over_levels, over_picture
 from p2sf.image.geometry import distort, illumination
+from p2sf.image.kernel_octaves import Effort, coarser, octave_kernels, setting
 from p2sf.image.octaves import enlarge
-from p2sf.image.slabs import LEVELS, Slab, cut_into_slabs, depth_levels, octave_powers
+from p2sf.image.slabs import Slab, cut_into_slabs, depth_levels, octave_powers
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import Recipe, SensorMap
-from p2sf.pixel_kernels.channel import Colour, PointLights
-from p2sf.pixel_kernels.landing_light import landing_kernels
-from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.pixel_kernels.pixels import samples_each
-from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
-from p2sf.scene.planning.adaptive_table import PupilAt
-from p2sf.scene.planning.pricing import computed_counts, mirrored
-from p2sf.scene.planning.study import Study, pad_kernel
+from p2sf.pixel_kernels import SensorMap
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
-from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import map_threads, one_blas_thread
 
-FITS = 5, 3, 3  # along a side of the field, depths, and colours, from which the pupils of all others follow
-SCAN = 65  # depths at which the blur's width is found
-SHARP_PX = 4.0  # a blur of a larger radius leaves nothing of the finest octave
-LIGHT_HEIGHTS = 4
-MOST_SAMPLES = 8  # of λ/2NA across a pixel: it hides what diffraction adds to more
+LIGHT_HEIGHTS = 3
 MARGIN, LEAST_ERROR = 1.6, 2e-3  # of what is expected; edges of depth, rounding
-
-
-@dataclass(frozen=True)
-class Effort:
-    """How finely a picture is made: ``halvings`` of its pixels before the blur; kernels at ``places``, and at depths.
-
-    From one depth node to the next, ``nodes`` at most, the radius of the blur changes by ``step`` pixels, or by a
-    ``growth`` of itself. ``waves``: wavelengths a channel. ``tolerance``: what is left of the kernels by their
-    components, ``rank`` at most.
-    """
-
-    halvings: int
-    step: float
-    growth: float
-    nodes: int
-    places: tuple[int, int]
-    waves: int
-    tolerance: float
-    rank: int
-
-
+ROWS_AT_ONCE = 16  # coarse rows, of which enlarged planes stay in the processor's cache
 MOVING = Effort(2, 0.5, 0.6, 20, (3, 3), 1, 0.03, 8)
 
 
@@ -108,11 +67,6 @@ class KeptPicture:
         return coarser(self.scene.sensor, self.times)
 
 
-def coarser(sensor: Sensor, times: int) -> Sensor:
-    """Return a sensor of pixels ``times`` as wide."""
-    return replace(sensor, rows=sensor.rows // times, columns=sensor.columns // times, pixel_um=sensor.pixel_um * times)
-
-
 def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: SensorMap, effort: Effort) -> KeptPicture:
     """Return what is kept of a picture, (rows, columns, channels), and of its depths, (rows, columns) mm.
 
@@ -148,117 +102,6 @@ def _grown(sensor: Sensor, rows: int, columns: int) -> Sensor:
     return Sensor(sensor.rows + rows, sensor.columns + columns, sensor.pixel_um, centre)
 
 
-class Setting(NamedTuple):
-    """The pupils of a lens as it is set, and the depths of its kernels, in levels, with the radii of their blur."""
-
-    study: Study
-    table: PupilTable
-    colours: tuple[Colour, ...]
-    depths: np.ndarray
-    radii_um: np.ndarray
-
-
-def setting(camera: Lens, kept: KeptPicture) -> Setting:
-    """Return the pupils of a lens over field, depths and colours, and the depths at which kernels are made.
-
-    Raises GeometryError where rays of the field do not reach the sensor.
-    """
-    scene, effort = kept.scene, kept.effort
-    study = Study(camera, scene)
-    colours = tuple(reduce_spectrum(channel, effort.waves) for channel in scene.channels)
-    waves = sorted({wave for colour in colours for wave in colour.wavelengths_um})
-    area, (along, depths, count) = study.area, FITS
-    far, near = (float(v) for v in scene.vergences(2))
-    axes = (
-        _axis(*area.x_mm, 3),
-        _axis(*area.y_mm, along),
-        _axis(far, near, depths),
-        waves if len(waves) <= count else _axis(waves[0], waves[-1], count),
-    )
-    table = pupil_table(axes, *study.fitted([PupilAt(*at) for at in product(*axes)]))
-    scan = np.linspace(0, 1, SCAN if near > far else 1)
-    middle = colours[len(colours) // 2].wavelengths_um[0]
-    reach = [table.at(*point, far + scan * (near - far), middle)[0].reach_um for point in (area.near, area.far)]
-    radii = np.min(reach, axis=0)
-    nodes = _depth_nodes(radii / scene.sensor.pixel_um, effort)
-    return Setting(study, table, colours, nodes * (LEVELS - 1), np.interp(nodes, scan, radii))
-
-
-def _axis(low: float, high: float, count: int) -> list[float]:
-    return [float(v) for v in chebyshev(low, high, count if high > low else 1)]
-
-
-def _depth_nodes(radii: np.ndarray, effort: Effort) -> np.ndarray:
-    """Return the depths of kernels, 0 to 1, between which blur of these radii, pixels, changes by equal steps."""
-    if len(radii) == 1:
-        return np.zeros(1)
-    middles = (radii[1:] + radii[:-1]) / 2
-    steps = np.abs(np.diff(radii)) / np.maximum(effort.step, effort.growth * middles)
-    along = np.append(0, np.cumsum(steps + 1e-9))
-    count = int(np.clip(np.ceil(along[-1]) + 1, 2, effort.nodes))
-    found: np.ndarray = np.interp(np.linspace(0, along[-1], count), along, np.linspace(0, 1, len(radii)))
-    return found
-
-
-def kernel_nodes(made: Setting, pitch_um: float, kept: KeptPicture) -> KernelNodes:
-    """Return the kernels of every channel at depths and places, with this pitch; places in coarse pixels."""
-    scene, sensor = made.study.scene, kept.coarse
-    rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), kept.effort.places, strict=True))
-    down, across = computed_counts((len(rows), len(columns)), mirrored(made.study.lens, scene))
-    far, near = scene.vergences(2)
-    depths = far + made.depths / (LEVELS - 1) * (near - far)
-    grid = np.array(list(product(depths, sensor.y_mm(rows[:down]), sensor.x_mm(columns[:across]))))
-    of_colours = map_threads(lambda colour: _mixed(made, grid, colour, pitch_um), made.colours)
-    size = max(len(kernel) for kernels in of_colours for kernel in kernels)
-    quarter = np.stack([pad_kernel(kernel, size) for kernels in of_colours for kernel in kernels])
-    quarter = quarter.reshape(len(of_colours), len(depths), down, across, size, size)
-    return KernelNodes(_with_mirror_images(quarter, len(rows), len(columns)), made.depths, rows, columns)
-
-
-def _mixed(made: Setting, grid: np.ndarray, colour: Colour, pitch_um: float) -> list[np.ndarray]:
-    """Return the kernels of a channel at vergences, y and x, (points, 3)."""
-    depths, y, x = grid.T
-    across, up, angles = made.study.area.fields.orient(x, y)
-    waves = len(colour.wavelengths_um)
-    across, up, depths, angles = (np.tile(v, waves) for v in (across, up, depths, angles))
-    pupils, shifts = made.table.at(across, up, depths, np.repeat(colour.wavelengths_um, len(grid)))
-    lights = PointLights(pupils, 0 * angles, shifts * UM_PER_MM).turned(angles)
-    halves = np.tile(lights.half_widths(pitch_um).reshape(waves, -1).max(0), waves)
-    if pupils.mask.clear and samples_each(pupils, pitch_um).max() > MOST_SAMPLES:
-        kernels = landing_kernels(pupils, lights.angles, lights.shifts_um, halves, pitch_um)
-    else:
-        kernels = lights.kernels(halves, pitch_um, Recipe())
-    totals = [np.zeros_like(kernel) for kernel in kernels[: len(grid)]]
-    for k, kernel in enumerate(kernels):
-        totals[k % len(grid)] += np.float32(colour.weights[k // len(grid)]) * kernel
-    return totals
-
-
-def _with_mirror_images(quarter: np.ndarray, rows: int, columns: int) -> np.ndarray:
-    """Return kernels at all places, (channels, depths, rows, columns, size, size), of which a quarter may be given."""
-    down, across = quarter.shape[2:4]
-    if down < rows:
-        quarter = np.concatenate([quarter, quarter[:, :, : rows - down][:, :, ::-1, :, ::-1]], axis=2)
-    if across < columns:
-        quarter = np.concatenate([quarter, quarter[:, :, :, : columns - across][:, :, :, ::-1, :, ::-1]], axis=3)
-    return quarter
-
-
-def halved_kernels(nodes: KernelNodes) -> KernelNodes:
-    """Return kernels for pixels of twice the width: the lower half of their spatial frequencies."""
-    import scipy.fft
-
-    size = nodes.kernels.shape[-1]
-    side = (size // 2 + 4) // 2 * 2 + 1
-    start, low = side - size // 2, side - side // 2
-    wide = np.zeros((*nodes.kernels.shape[:-2], 2 * side, 2 * side), np.float32)
-    wide[..., start : start + size, start : start + size] = nodes.kernels
-    spectra = scipy.fft.fftshift(scipy.fft.fft2(scipy.fft.ifftshift(wide, (-2, -1))), (-2, -1))
-    inner = spectra[..., low : low + side, low : low + side]
-    few = scipy.fft.fftshift(scipy.fft.ifft2(scipy.fft.ifftshift(inner, (-2, -1))).real, (-2, -1))
-    return replace(nodes, kernels=np.ascontiguousarray(few, np.float32))
-
-
 class FocusedPicture(NamedTuple):
     """Linear light, (rows, columns, channels) float32, the RMS error expected of it, of white, and its ``kernels``.
 
@@ -276,38 +119,46 @@ def focused_picture(kept: KeptPicture, camera: Lens) -> FocusedPicture:
 
     Raises GeometryError where rays of the field do not reach the sensor.
     """
-    made, effort, pixel = setting(camera, kept), kept.effort, kept.scene.sensor.pixel_um
-    nodes = shown = kernel_nodes(made, pixel * max(1, kept.times // 2), kept)
-    responses = [_fine_responses(made, pixel * 2**number, kept) for number in range(effort.halvings - 1)]
-    if effort.halvings:
-        responses.append(octave_responses(nodes))
-        nodes = halved_kernels(nodes)
-    gains = [over_levels(gain, nodes.depths) for gain, _ in responses]
-    part = components(nodes, effort.tolerance, effort.rank)
-    error = expected_error(kept, part, [over_levels(spread, nodes.depths) for _, spread in responses])
-    shade = illumination(made.study.sensor_map(made.study.ends[0]), kept.coarse, LIGHT_HEIGHTS)
-    out: np.ndarray | None = None
-    for slab in kept.slabs:
-        (down, across), planes = _blurred(slab, part, gains, shade)
-        if out is None:
-            out = planes
-            continue
+    made = setting(camera, kept.scene, kept.effort)
+    kernels = octave_kernels(made)
+    gains, spreads = (
+        [over_levels(each, made.depths) for each in octaves] for octaves in (kernels.gains, kernels.spreads)
+    )
+    parts = [_slab_components(slab, kernels.nodes, kept.effort) for slab in kept.slabs]
+    error = expected_error(kept, max(part.left for part in parts), spreads)
+    shade = illumination(made.study.sensor_map(made.study.ends[0]), made.coarse, LIGHT_HEIGHTS)
+    border = max(part.kernels.shape[-1] // 2 for part in parts)
+    out = np.zeros((len(made.colours), *kept.whole_shape), np.float32)
+    for slab, part in zip(kept.slabs, parts, strict=True):
+        # What is nearer spreads over its own edge by a border, and what is seen there comes from another one beside it.
+        (down, across), planes = _blurred(slab.about_seen(2 * border), part, gains, shade)
         behind = out[:, down, across]
-        behind *= 1 - planes[len(behind) :]
+        if len(planes) > len(behind):
+            behind *= 1 - planes[len(behind) :]
         behind += planes[: len(behind)]
-    assert out is not None
-    return FocusedPicture(np.moveaxis(out[:, : kept.shape[0], : kept.shape[1]], 0, -1), error, shown)
+    return FocusedPicture(np.moveaxis(out[:, : kept.shape[0], : kept.shape[1]], 0, -1), error, kernels.finer)
 
 
-def expected_error(kept: KeptPicture, part: KernelComponents, spreads: list[np.ndarray]) -> float:
+def _slab_components(slab: Slab, nodes: KernelNodes, effort: Effort) -> KernelComponents:
+    """Return the components of the kernels between which the depths of a slab lie."""
+    first = np.searchsorted(nodes.depths, slab.level.min(), "right") - 1
+    last = np.searchsorted(nodes.depths, slab.level.max())
+    its = slice(max(0, int(first)), int(last) + 1)
+    return components(
+        replace(nodes, kernels=nodes.kernels[:, its], depths=nodes.depths[its]), effort.tolerance, effort.rank
+    )
+
+
+def expected_error(kept: KeptPicture, left: float, spreads: list[np.ndarray]) -> float:
     """Return the RMS error expected of a picture, of white, times a margin.
 
     An octave is off by what the kernels' response varies within it (``spreads``, its variance, as `over_levels` has
-    it); the coarse picture by what the components leave of the kernels, of its contrast; all of it where it has moved.
+    it); the coarse picture by what is ``left`` of the kernels by their components, of its contrast; all of it where it
+    has moved.
     """
     moved = (kept.moved_px * kept.gradient) ** 2
     octaves = sum(float(power @ spread.mean((0, 1, 2))) for power, spread in zip(kept.powers, spreads, strict=True))
-    return float(MARGIN * np.sqrt(octaves + (part.left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
+    return float(MARGIN * np.sqrt(octaves + (left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
 
 
 def _blurred(
@@ -324,14 +175,11 @@ def _blurred(
     planes = blur(planes, level, part, (box[0].start, box[1].start))
     if sloping:  # where the blur changes from place to place, points do not lose light to others
         planes = planes[:channels] / planes[channels:]
-    light = shade[slab.box]
+    gain = over_picture(np.concatenate(gains), (part.row_nodes, part.column_nodes), slab.level, _corner(slab))
+    gain = gain.reshape(len(gains), channels, *slab.level.shape)
+    gain = np.concatenate([gain * shade[slab.box], gain], axis=1)
     for number in range(len(gains) - 1, -1, -1):
-        finer = 2 ** (len(gains) - 1 - number)
-        nodes = tuple((n + 0.5) * finer - 0.5 for n in (part.row_nodes, part.column_nodes))
-        corner = slab.box[0].start * finer, slab.box[1].start * finer
-        gain = over_picture(gains[number], nodes, slab.levels[number], corner)
-        gain = np.concatenate([gain * light, gain])
-        planes, light = _with_octave(planes, inside, slab.octaves[number], gain), enlarge(light)
+        planes = _with_octave(planes, inside, slab.octaves[number], gain[number])
         inside = [slice(2 * side.start, 2 * side.stop) for side in inside]
     down, across = (slice(side.start * times, side.stop * times) for side in box)
     return (down, across), planes
@@ -353,28 +201,30 @@ def _spread(
     return (slice(starts[0], stops[0]), slice(starts[1], stops[1])), planes, inside
 
 
+def _corner(slab: Slab) -> tuple[int, int]:
+    return slab.box[0].start, slab.box[1].start
+
+
 def _with_octave(planes: np.ndarray, inside: list[slice], octave: np.ndarray, gain: np.ndarray) -> np.ndarray:
-    """Return planes of twice as many pixels, with an octave times its gain, which four pixels share, where it lies."""
-    top, bottom, left, right = (2 * end for side in inside for end in (side.start, side.stop))
+    """Return planes of twice as many pixels, with an octave times its gain, which some pixels share, where it lies.
+
+    A few rows at a time, so that what is between stays in the processor's cache.
+    """
     out = np.empty((len(planes), *(2 * n for n in planes.shape[1:])), np.float32)
+    (top, bottom), (left, right) = ((2 * side.start, 2 * side.stop) for side in inside)
+    share, step = octave.shape[1] // gain.shape[1], 2 * ROWS_AT_ONCE
 
     def fill(k: int) -> None:
-        out[k] = enlarge(planes[k])
+        for start in range(0, out.shape[1], step):
+            first, last = max(0, start // 2 - 1), start // 2 + ROWS_AT_ONCE + 1
+            rows = out[k, start : start + step]
+            rows[:] = enlarge(planes[k, first:last])[start - 2 * first :][: len(rows)]
         own, fine = out[k, top:bottom, left:right], octave[min(k, len(octave) - 1)]
-        for row in (0, 1):
-            for column in (0, 1):
-                own[row::2, column::2] += fine[row::2, column::2] * gain[k]
+        for start in range(0, len(own), step):
+            row = slice(start, start + step)
+            times = gain[k, start // share : (start + step) // share].repeat(share, 1)
+            added = fine[row].reshape(-1, share, fine.shape[1]) * times[:, None]
+            own[row] += added.reshape(-1, fine.shape[1])
 
     map_threads(fill, range(len(planes)))
     return out
-
-
-def _fine_responses(made: Setting, pitch_um: float, kept: KeptPicture) -> tuple[np.ndarray, np.ndarray]:
-    """Return `octave_responses` at this pitch of kernels that are narrow enough for its octave, 0 of others."""
-    near, sensor = made.radii_um < SHARP_PX * pitch_um, kept.coarse
-    shape = [len(nodes_along(n, c)) for n, c in zip((sensor.rows, sensor.columns), kept.effort.places, strict=True)]
-    gains, spreads = np.zeros((2, len(made.colours), len(made.depths), *shape))
-    if near.any():
-        sharp = kernel_nodes(made._replace(depths=made.depths[near]), pitch_um, kept)
-        gains[:, near], spreads[:, near] = octave_responses(sharp)
-    return gains, spreads

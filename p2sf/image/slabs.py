@@ -25,14 +25,36 @@ class Slab:
 
     ``planes``, (channels + 1, rows, columns): the colours times the opacity, and this, which is left out of the
     farthest slab, opaque everywhere. ``level``, (rows, columns): of depth, from far. ``octaves``: what the planes lack
-    of finer pixels, the finest first, and ``levels`` the depth of each four of their pixels.
+    of finer pixels, the finest first, and ``levels`` the depth of each four of their pixels. ``seen``: the rows and
+    columns that are not behind nearer slabs.
     """
 
     box: tuple[slice, slice]
+    seen: tuple[slice, slice]
     planes: np.ndarray
     level: np.ndarray
     octaves: list[np.ndarray]
     levels: list[np.ndarray]
+
+    def about_seen(self, more: int) -> "Slab":
+        """Return what lies in the rows and columns that are seen, and ``more`` on every side."""
+        box = tuple(
+            slice(max(own.start, side.start - more), min(own.stop, side.stop + more))
+            for own, side in zip(self.box, self.seen, strict=True)
+        )
+
+        def part(values: np.ndarray) -> np.ndarray:
+            times = values.shape[-1] // (self.box[1].stop - self.box[1].start)
+            inner = (
+                slice(times * (side.start - own.start), times * (side.stop - own.start))
+                for own, side in zip(self.box, box, strict=True)
+            )
+            return values[..., *inner]
+
+        planes, level = part(self.planes), part(self.level)
+        return Slab(
+            (box[0], box[1]), self.seen, planes, level, *(list(map(part, x)) for x in (self.octaves, self.levels))
+        )
 
 
 def depth_levels(vergences: np.ndarray, far: float, near: float) -> np.ndarray:
@@ -73,7 +95,7 @@ def cut_into_slabs(values: np.ndarray, levels: np.ndarray, halvings: int) -> lis
 def _slab(values: np.ndarray, levels: np.ndarray, start: int, end: int, halvings: int) -> Slab:
     """Return the slab of levels from ``start`` to below ``end``."""
     times, own = 2**halvings, (levels >= start) & (levels < end)
-    box = _box_of(levels >= start, times)
+    box, seen = _box_of(levels >= start, times), _box_of(own, times)
     fine = tuple(slice(side.start * times, side.stop * times) for side in box)
     values, levels, own = values[:, *fine], levels[fine], own[fine]
     share = block_means(own, times)
@@ -94,7 +116,7 @@ def _slab(values: np.ndarray, levels: np.ndarray, start: int, end: int, halvings
         step = 2 ** (number + 1)
         octaves.append(octave)
         each.append(whole[step // 2 :: step, step // 2 :: step])
-    return Slab(box, np.asarray(planes, np.float32), level, octaves, each)
+    return Slab(box, seen, np.asarray(planes, np.float32), level, octaves, each)
 
 
 def octave_powers(slab: Slab, number: int) -> np.ndarray:

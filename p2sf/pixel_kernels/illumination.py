@@ -13,7 +13,7 @@ from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.clear_pieces import holes_of
 from p2sf.raytrace.clear_rim import clear_rim
 from p2sf.raytrace.pencil import pencil, rays_through
-from p2sf.raytrace.vignetting import clear_nodes, pupil_nodes
+from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import map_threads
 
 NODES = 12, 32
@@ -50,10 +50,8 @@ def light_passed(lens: Lens, source: Source, clip: bool = False) -> float:
 
 def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
     """Return nodes over what mask, rims and lost rays leave open."""
-    if lens.mask.clear and not (clip and holes_of(lens)):
-        if clip:
-            return clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
-        return clear_nodes(lens, source, NODES, clip)
+    if lens.mask.clear and clip and not holes_of(lens):
+        return clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
     nodes = pupil_nodes(lens, source, NODES, clip)
     if pencil(lens, source, nodes.xi, nodes.eta).passed.all():
         return nodes

@@ -7,8 +7,9 @@ import pytest
 
 from p2sf.image import form_image
 from p2sf.image.components import KernelNodes, blur, components, over_picture
-from p2sf.image.focus_pull import MOVING, focused_picture, halved_kernels, keep, kernel_nodes, setting
+from p2sf.image.focus_pull import MOVING, focused_picture, keep
 from p2sf.image.geometry import illumination
+from p2sf.image.kernel_octaves import halved, octave_kernels, setting
 from p2sf.image.octaves import block_means, enlarge, finest_octave, octave_weights
 from p2sf.image.slabs import LEVELS, cut_into_slabs, cuts, depth_levels
 from p2sf.lensfile.library import find_lens
@@ -50,8 +51,7 @@ def setting_map(scene):
 
 @pytest.fixture(scope="module")
 def nodes():
-    made = setting(CAMERA, kept_of(smooth_noise(SHAPE), TWO))
-    return kernel_nodes(made, 24.0, kept_of(smooth_noise(SHAPE), TWO))
+    return octave_kernels(setting(CAMERA, SCENE, MOVING)).finer
 
 
 def test_an_octave_and_what_is_coarser_are_the_picture():
@@ -83,8 +83,8 @@ def test_what_is_hidden_takes_colour_and_depth_of_what_is_beside_it():
 
 
 def test_halved_kernels_have_the_light_and_the_low_frequencies_of_the_others(nodes):
-    half = halved_kernels(nodes)
-    for fine, coarse in zip(nodes.kernels[1, ::3, 0, 0], half.kernels[1, ::3, 0, 0], strict=True):
+    half = halved(nodes.kernels)
+    for fine, coarse in zip(nodes.kernels[1, ::3, 0, 0], half[1, ::3, 0, 0], strict=True):
         at, wide = (np.arange(len(k)) - len(k) // 2 for k in (coarse, fine))
         for f in (0.0, 0.1, 0.2):  # cycles per coarse pixel
             one, two = coarse.sum(0) @ np.cos(2 * np.pi * f * at), fine.sum(0) @ np.cos(np.pi * f * wide)
@@ -156,7 +156,7 @@ def test_a_sharp_object_hides_what_is_behind_it():
 
 
 def test_rays_of_pupils_land_as_widely_as_their_waves(nodes):
-    made = setting(CAMERA, kept_of(smooth_noise(SHAPE), TWO))
+    made = setting(CAMERA, SCENE, MOVING)
     y = made.study.area.y_mm[1]
     pupils, shifts = made.table.at(0.0, y, 1 / 1500, 0.54)
     (kernel,) = landing_kernels(pupils, np.zeros(1), 1e3 * shifts, np.array([90]), 4.0)

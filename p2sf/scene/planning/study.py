@@ -181,11 +181,11 @@ class Study:
         missing = self._fits.missing(pupils)
         if missing:
             self.check()
-            made, landed = (self._from_lens or self._from_rays)(missing)
+            made, landed = (self._from_lens or self.from_rays)(missing)
             self._fits.add(missing, made, landed - np.array(missing)[:, :2])
         return self._fits.of(pupils)
 
-    def _from_rays(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
+    def from_rays(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
         """Return pupils from their own rays, and where their chief rays land, (pupils, 2) mm."""
         known, sources = pupils == self.corners, self._sources(pupils)
         fits, landed = self._corner_fits(self.level) if known else fitted_forms(self.lens, sources, self.level)
@@ -208,7 +208,7 @@ class Study:
             slopes, waves = np.array([(source.field_slope, source.wavelength_um) for source in sources]).T
             return kept.at(slopes, np.array([at.vergence for at in pupils]), waves)
 
-        (true, landed), (found, there) = self._from_rays(self.corners), fit(self.corners)
+        (true, landed), (found, there) = self.from_rays(self.corners), fit(self.corners)
         error = float(kernel_errors(found, true, UM_PER_MM * (there - landed)).max())
         if error > AGREES * self.scene.relative_tolerance:
             return None
