@@ -45,11 +45,11 @@ class Slab:
 
         def part(values: np.ndarray) -> np.ndarray:
             times = values.shape[-1] // (self.box[1].stop - self.box[1].start)
-            inner = (
+            rows, columns = (
                 slice(times * (side.start - own.start), times * (side.stop - own.start))
                 for own, side in zip(self.box, box, strict=True)
             )
-            return values[..., *inner]
+            return values[..., rows, columns]
 
         planes, level = part(self.planes), part(self.level)
         return Slab(

@@ -11,7 +11,7 @@ from p2sf.image.focus_pull import MOVING, focused_picture, keep
 from p2sf.image.geometry import illumination
 from p2sf.image.kernel_octaves import halved, octave_kernels, setting
 from p2sf.image.octaves import block_means, enlarge, finest_octave, octave_weights
-from p2sf.image.slabs import LEVELS, cut_into_slabs, cuts, depth_levels
+from p2sf.image.slabs import LEVELS, Slab, cut_into_slabs, cuts, depth_levels
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.landing_light import landing_kernels
 from p2sf.scene import Scene, Sensor, plan
@@ -153,6 +153,16 @@ def test_a_sharp_object_hides_what_is_behind_it():
     near, behind = (focused_picture(kept_of(v, TWO), CAMERA).values for v in (one, two))
     inside = disc(radius=12)
     assert np.abs(near - behind)[inside].max() < 0.02 < np.abs(near - behind)[~disc()].max()
+
+
+def test_a_slab_is_blurred_only_about_what_is_seen_of_it(monkeypatch):
+    steps = np.repeat([[1500.0, 1200.0, 900.0]], SHAPE[0], 0).repeat(SHAPE[1] // 3, 1)
+    kept = kept_of(smooth_noise(SHAPE), steps)
+    # A third of 36 coarse pixels, two on either side that edges reach, and two more where the slab goes on.
+    assert [slab.about_seen(2).level.shape[1] for slab in kept.slabs] == [12 + 2 + 2, 2 + 12 + 2 + 2, 2 + 12]
+    found = focused_picture(kept, CAMERA).values
+    monkeypatch.setattr(Slab, "about_seen", lambda slab, more: slab)
+    assert np.abs(focused_picture(kept, CAMERA).values - found).max() < 1e-4  # transforms in float32
 
 
 def test_rays_of_pupils_land_as_widely_as_their_waves(nodes):

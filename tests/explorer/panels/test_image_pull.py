@@ -153,5 +153,5 @@ def test_the_badge_says_no_less_than_the_error_of_the_benchmark(tmp_path):
     """The short form of ``python -m tests.benchmarks.focus_pull``."""
     scenes = focus_pull.SCENES | {"star before a landscape": focus_pull.star_before_a_landscape(tmp_path, (208, 312))}
     for scene in scenes.items():
-        found = focus_pull.row("cooke_triplet", scene, (230, 330), 0.05, False)
+        found = focus_pull.row("focus", "cooke_triplet", scene, (230, 330), 0.05, False)
         assert found.shape == (208, 312) and 0 < found.true <= found.stated
