@@ -36,6 +36,7 @@ from p2sf.messages import Message, ParameterName
 from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
 from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB
+from p2sf.scene.sensor import LARGEST_SIDE
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
@@ -148,6 +149,10 @@ class Shown:
         Bits of whole numbers written, or floats of 16 (half) or 32 bits (float), which keep light above white.
     preview
         A coarse picture at once, without a plan.
+    longest
+        Pixels along the longer side at most, as of a screen; so many pixels of the sensor are joined to one.
+    region
+        The part to form: top, bottom, left and right in pixels from 0, the ends excluded.
     """
 
     method: Literal["patches", "lowrank"] = "patches"
@@ -158,9 +163,25 @@ class Shown:
     encoding: Literal["srgb", "linear"] | None = None
     depth: Literal["8", "16", "half", "float"] | None = None
     preview: bool = False
+    longest: Whole | None = None
+    region: Annotated[tuple[Whole, Whole, Whole, Whole] | None, Parameter(negative="")] = None
 
     def __post_init__(self) -> None:
         check_seed(self.seed)
+        if self.longest is not None:
+            check_whole("longest", self.longest, 1, LARGEST_SIDE)
+        for first, other in (
+            ("region", "preview"),
+            ("region", "deblur"),
+            ("region", "longest"),
+            ("longest", "preview"),
+        ):
+            if getattr(self, first) and getattr(self, other):
+                raise RequestError(
+                    "{parameter} and {other} are both given; keep one of them",
+                    parameter=first,
+                    other=ParameterName(other),
+                )
         if not 0 <= self.noise < inf:
             raise RequestError(
                 "{parameter} is {value:g}; give a standard deviation of 0 or more", parameter="noise", value=self.noise
@@ -236,6 +257,7 @@ def _check_reading(output: Path, scene: Scene, shown: Shown) -> None:
         ("preview", Message("a preview does not count light as the sensor does") if raw or sensor.mosaic else None),
         ("deblur", Message("a mosaic has no colours to sharpen") if sensor.mosaic else None),
         ("noise", Message("the sensor has noise of its own") if sensor.full_well else None),
+        ("longest", Message("raw numbers and mosaics are of single pixels") if raw or sensor.mosaic else None),
     ):
         if reason and getattr(shown, flag):
             raise RequestError("{reason}; leave {parameter} out", reason=reason, parameter=flag)
@@ -298,14 +320,19 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray
 
 def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
     from p2sf.image import Forming, form_image, plan_lattice, preview
+    from p2sf.image.binning import fit_screen
+    from p2sf.image.picture import region_of_sensor
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
+    region = None if shown.region is None else region_of_sensor(scene.sensor, shown.region)
+    if shown.longest is not None:
+        scene, values, depth = fit_screen(scene, values, depth, shown.longest)
     scene = replace(scene, brightest=float(np.clip(values.max(), DIMMEST, MOST_LIGHT)))
     planned = _make_plan(glass, scene if depth is None else scene.at_depths(depth))
     warn(None if planned.meets else TOO_TIGHT)
-    light = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround)), shown)
+    light = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround), region=region), shown)
     formed = expose(scene.sensor, light, shown.seed)
     facts = {"method": shown.method, "predicted_error": planned.predicted_error}
     if not shown.deblur:

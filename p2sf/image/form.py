@@ -31,7 +31,7 @@ from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, least_fold, map_d
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.pupil_moments import Passing, PupilLandings, first_moments, pupil_landings
-from p2sf.image.region import Region, tiles, whole
+from p2sf.image.region import Region, check_region, tiles, whole
 from p2sf.image.structure import FLAT, steepest, structured_parts
 from p2sf.messages import Alternatives, ParameterName
 from p2sf.pixel_kernels.nodes import nodes_along
@@ -94,15 +94,16 @@ def form_image(
     how: Forming = DEFAULT,
     watch: Progress | None = None,
     lattice: Lattice | None = None,
+    region: Region | None = None,
 ) -> np.ndarray:
     """Return the image of a picture on the sensor in linear light, (rows, columns, channels) float32.
 
     ``values``: the paraxial image, (rows, columns, channels) on the scene's sensor, one channel for each of the
     scene's; ``depth_mm``: (rows, columns), by default the scene's far end, whose ``lattice`` may be given if it is
     known. Or layers: (layers, rows, columns, channels + 1), colours premultiplied by the alpha behind them, and the
-    depth of each, (layers,). Threads (`p2sf.threads`) share tiles of the picture, which bound the memory. Raises
-    RequestError for shapes that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is
-    cancelled.
+    depth of each, (layers,). Threads (`p2sf.threads`) share tiles of the picture, which bound the memory. ``region``:
+    the part of the image that is returned, by the kernels and the light that reach it. Raises RequestError for shapes
+    that do not fit, depths outside the scene's and whole numbers, Cancelled when ``watch`` is cancelled.
     """
     watch = watch or Progress()
     layered = np.ndim(values) == LAYERS_NDIM
@@ -126,24 +127,27 @@ def form_image(
         nodes = np.array(planned.vergences)
         depths = map_depths(np.asarray(depth_mm), nodes, picture.shape[:2], max(halves), least_fold(halves))
     least = _dimmest(planned, picture, kernels)
-    return _form_tiles(_Former(planned, picture, depths, how, max(halves), kernels, watch, least))
+    every = whole(picture.shape)
+    former = _Former(planned, picture, depths, how, max(halves), kernels, watch, least)
+    return _form_tiles(former, check_region(region, every) if region else every)
 
 
-def _form_tiles(former: "_Former") -> np.ndarray:
-    """Return the formed picture, tile by tile, with its halos."""
-    out, bright = np.empty_like(former.picture), []
-    parts = list(tiles(out.shape, TILE))
+def _form_tiles(former: "_Former", wanted: Region) -> np.ndarray:
+    """Return a region of the formed picture, tile by tile, with its halos."""
+    shape = former.picture.shape
+    area = whole(shape) if has_halos(former.planned) else wanted  # light beyond the region has halos in it
+    out, parts, bright = np.empty((*area.shape, shape[-1]), np.float32), list(tiles(area, TILE)), []
     former.watch.expect(TILE_STEPS * len(parts))
 
     def take(formed: tuple[Region, np.ndarray, BrightLight]) -> None:
-        region, light, highlights = formed
-        out[region.within(whole(out.shape))] = light
+        part, light, highlights = formed
+        out[part.within(area)] = light
         bright.append(highlights)
         former.watch.advance(TILE_STEPS)
 
-    for_each(lambda region: (region, *former.form(region)), parts, take)
+    for_each(lambda part: (part, *former.form(part)), parts, take)
     _add_halos(out, gather(bright), former)
-    return out
+    return out[wanted.within(area)]
 
 
 def _dimmest(planned: Plan, picture: np.ndarray, kernels: "DepthKernels") -> float:

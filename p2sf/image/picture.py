@@ -1,16 +1,20 @@
 """The pictures that a script forms and sharpens: `p2sf.form_image` and `p2sf.sharpen_image`."""
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
+from p2sf.errors import RequestError
 from p2sf.image.deblur import photo_noise, wiener
 from p2sf.image.exposure import expose
 from p2sf.image.form import Forming, check_picture, plan_lattice
 from p2sf.image.form import form_image as form
+from p2sf.image.region import Region, check_region, whole
 from p2sf.scene.planning.plan import Plan
+from p2sf.scene.sensor import Sensor
 from p2sf.threads import using_threads
 
 
@@ -23,6 +27,7 @@ def form_image(
     method: Literal["patches", "lowrank"] = "patches",
     surround: Literal["edge", "black"] = "edge",
     seed: int = 0,
+    region: tuple[int, int, int, int] | None = None,
     threads: int | None = None,
 ) -> np.ndarray:
     """Form the picture that the sensor reads through the lens, with distortion, illumination, blur and pixels.
@@ -44,6 +49,9 @@ def form_image(
         What surrounds the picture: its outermost pixels repeated, or darkness.
     seed : int, optional
         Of the sensor's noise: the same one gives the same picture.
+    region : tuple of int, optional
+        The part to form: top, bottom, left, right, counted from 0 and the ends excluded, as in
+        ``picture[top:bottom, left:right]``. It takes only the kernels that reach it.
     threads : int, optional
         As for `render`.
 
@@ -67,8 +75,29 @@ def form_image(
     (20, 30, 3)
     """
     depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
+    part = None if region is None else region_of_sensor(planned.scene.sensor, region)
     with using_threads(threads):
-        return expose(planned.scene.sensor, form(planned, values, depths, Forming(method, surround)), seed)
+        light = form(planned, values, depths, Forming(method, surround), region=part)
+        return expose(planned.scene.sensor, light, seed)
+
+
+def region_of_sensor(sensor: Sensor, region: Sequence[int]) -> Region:
+    """Return the region of top, bottom, left and right; RequestError for one that is no part of it."""
+    if len(region) != 4 or any(end % 1 for end in region):
+        raise RequestError(
+            "{parameter} is {given}; give four whole numbers: top, bottom, left, right",
+            parameter="region",
+            given=str(tuple(region)),
+        )
+    top, bottom, left, right = map(int, region)
+    if sensor.mosaic is not None and (top % 2 or left % 2):
+        raise RequestError(
+            "{parameter} begins at row {top} and column {left}, amid a block of the mosaic; give even numbers",
+            parameter="region",
+            top=top,
+            left=left,
+        )
+    return check_region(Region(top, bottom, left, right), whole((sensor.rows, sensor.columns)))
 
 
 @check_arguments

@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 
 from p2sf.errors import GeometryError
+from p2sf.image.binning import block_means, times_to_fit
 from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.progress import Progress
@@ -20,7 +21,6 @@ from p2sf.scene.planning.bounds import check_colours
 from p2sf.scene.planning.cost import Cost
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
-from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import one_blas_thread
 
@@ -41,8 +41,8 @@ def preview(lens: Lens, scene: Scene, values: np.ndarray, depth_mm: float | None
     """
     camera = scene.camera(lens)
     check_colours(camera, scene)
-    times = -(-max(scene.sensor.rows, scene.sensor.columns) // LONGEST)
-    coarse = replace(scene, sensor=_coarser(scene.sensor, times), depth_map=None)
+    times, ideal = times_to_fit(scene.sensor, LONGEST), replace(scene.sensor, mosaic=None, full_well=None, read_noise=0)
+    coarse = replace(scene, sensor=ideal.bin_pixels(times), depth_map=None)
     if depth_mm is not None:
         coarse = replace(coarse, near_mm=depth_mm, far_mm=depth_mm, gaps_mm=())
     planned = preview_plan(camera, coarse)
@@ -94,23 +94,3 @@ def _edge_half(planned: Plan) -> tuple[Light, int]:
     kernels = planned.kernels(len(planned.colours) // 2, planned.vergences[0])
     x, y = field_area(kernels.seen.fields, planned.scene.sensor).far
     return kernels.lights(x, y)[0][0], int(kernels.points([x], [y]).half_widths()[0])
-
-
-def _coarser(sensor: Sensor, times: int) -> Sensor:
-    return replace(
-        sensor,
-        rows=max(1, sensor.rows // times),
-        columns=max(1, sensor.columns // times),
-        pixel_um=sensor.pixel_um * times,
-    )
-
-
-def block_means(values: np.ndarray, times: int) -> np.ndarray:
-    """Return a picture averaged over blocks of ``times``² pixels; pixels that do not fill a block are dropped."""
-    rows, columns = (n // times for n in values.shape[:2])
-    cut = np.asarray(values, np.float32)[: rows * times, : columns * times]
-    total: np.ndarray = np.zeros_like(cut[::times, ::times])
-    for i in range(times):
-        for j in range(times):
-            total += cut[i::times, j::times]
-    return total / np.float32(times * times)

@@ -6,6 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from p2sf.errors import RequestError
+
 
 @dataclass(frozen=True)
 class Region:
@@ -63,9 +65,24 @@ def whole(shape: tuple[int, ...]) -> Region:
     return Region(0, shape[0], 0, shape[1])
 
 
-def tiles(shape: tuple[int, ...], side: int) -> Iterator[Region]:
-    """Yield regions of nearly equal size, at most ``side`` pixels a side, that cover a picture row by row."""
-    rows, columns = (np.linspace(0, n, -(-n // side) + 1).round().astype(int).tolist() for n in shape[:2])
+def check_region(region: Region, every: Region) -> Region:
+    """Return a region; RequestError unless it is a part of the picture."""
+    if region.empty or region.meet(every) != region:
+        raise RequestError(
+            "{parameter} has the rows {top} to {bottom} and the columns {left} to {right}, but the picture {rows} rows "
+            "and {columns} columns; give a part of it",
+            parameter="region",
+            rows=every.bottom,
+            columns=every.right,
+            **vars(region),
+        )
+    return region
+
+
+def tiles(area: Region, side: int) -> Iterator[Region]:
+    """Yield regions of nearly equal size, at most ``side`` pixels a side, that cover an area row by row."""
+    ends = (area.top, area.bottom), (area.left, area.right)
+    rows, columns = (np.linspace(*end, -(-(end[1] - end[0]) // side) + 1).round().astype(int).tolist() for end in ends)
     for top, bottom in pairwise(rows):
         for left, right in pairwise(columns):
             yield Region(top, bottom, left, right)

@@ -1,6 +1,6 @@
 """The rectangle of the sensor, the positions of its pixels, and how they count light."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot
 
 import numpy as np
@@ -102,6 +102,26 @@ class Sensor:
             variance = variance + 1 / (12 * self.steps**2)
         deviation: np.ndarray = np.sqrt(variance)
         return deviation
+
+    def bin_pixels(self, times: int) -> "Sensor":
+        """Return the sensor with ``times``² pixels joined to one; those left over are dropped at both ends.
+
+        Electrons add up, and their read noise in squares. Raw numbers are those of single pixels: there are none, and
+        RequestError for a mosaic.
+        """
+        if self.mosaic is not None:
+            raise RequestError("the pixels of a mosaic have different colours and cannot be joined; leave it out")
+        well = None if self.full_well is None else min(self.full_well * times**2, LARGEST_WELL)
+        return replace(
+            self,
+            rows=max(1, self.rows // times),
+            columns=max(1, self.columns // times),
+            pixel_um=self.pixel_um * times,
+            full_well=well,
+            read_noise=self.read_noise * times,
+            bits=None,
+            black_level=0,
+        )
 
     @property
     def pixel_mm(self) -> float:

@@ -61,6 +61,26 @@ def test_a_picture_goes_through_the_lens(scene, tmp_path, capsys):
     assert main([*arguments, "--preview"]) == 0
 
 
+def test_a_region_and_a_screen_take_fewer_pixels(scene, tmp_path, capsys):
+    out = tmp_path / "out.tif"
+    given = ["image", "double_gauss_28", str(scene), "chart:text", "-o", str(out), "--json"]
+    for flags, shape in ((["--longest", "25"], (13, 20)), (["--region", "4", "20", "10", "30"], (16, 20))):
+        assert main([*given, *flags]) == 0
+        facts = json.loads(capsys.readouterr().out)
+        assert (facts["rows"], facts["columns"]) == shape == read_photo(out, "srgb").values.shape[:2]
+
+
+def test_a_plan_has_the_depths_of_its_map_alone(scene, tmp_path, capsys):
+    depth = np.where(np.arange(60) < 30, 20000.0, 0.0) * np.ones((40, 1))
+    write_photo(tmp_path / "depth.tif", depth.astype(np.float32), "linear", "float")
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nfar_mm = inf\nmap = "depth.tif"\n')
+    assert main(["plan", "double_gauss_28", str(scene), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["nodes"]["depths"] <= 2
+    scene.write_text(SCENE + "[depth]\nnear_mm = 20000\nfar_mm = inf\ngaps_mm = [[20000, inf]]\n")
+    assert main(["plan", "double_gauss_28", str(scene), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["nodes"]["depths"] <= 2
+
+
 def test_a_photo_is_sharpened(tmp_path, capsys):
     photo, out = tmp_path / "photo.tif", tmp_path / "sharp.tif"
     write_photo(photo, np.full((30, 40), 0.25, np.float32), "linear")
@@ -146,6 +166,12 @@ def test_a_scene_the_lens_cannot_take_is_told_in_the_scenes_words(scene, capsys,
         (
             ["image", "double_gauss_28", "SCENE", "chart:text", "-o", "a.png", "--preview", "--deblur", "wiener"],
             "--deblur",
+        ),
+        (["image", "tessar", "SCENE", "chart:text", "-o", "a.png", "--longest", "0"], "--longest"),
+        (["image", "tessar", "SCENE", "chart:text", "-o", "a.png", "--region", "0", "41", "0", "9"], "--region"),
+        (
+            ["image", "tessar", "SCENE", "chart:text", "-o", "a.png", "--region", "0", "4", "0", "9", "--preview"],
+            "--preview",
         ),
     ],
 )

@@ -9,6 +9,7 @@ from p2sf.image.region import Region, whole
 from p2sf.image.structure import steepest, structured_parts
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan
+from tests.benchmarks.content import CASES, run
 from tests.support.per_pixel import per_pixel_picture
 
 HALF = 5
@@ -122,3 +123,12 @@ def test_a_studio_keeps_its_tolerance_against_the_kernel_of_every_pixel(planned,
     for region in ((slice(60, 72), slice(80, 96)), (slice(60, 72), slice(130, 146))):
         true = per_pixel_picture(planned, values[..., CHANNEL], depth, region, CHANNEL)
         assert np.linalg.norm(found[region] - true) <= planned.allowed_error * np.linalg.norm(true)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [CASES[0], CASES[5]], ids=lambda case: case.name)
+def test_content_saves_depth_nodes_and_changes_the_picture_by_no_more_than_two_tolerances(case):
+    """Both pictures keep the tolerance, so that they differ by twice that at most."""
+    (rote, every), (held, few) = (run(case, (160, 240), content) for content in (False, True))
+    assert held.nodes < rote.nodes and held.kernels <= rote.kernels
+    assert np.linalg.norm(few - every) < 2 * case.rtol * np.linalg.norm(every)

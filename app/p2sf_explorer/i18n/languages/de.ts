@@ -4,7 +4,10 @@
 <context>
 <name>p2sf</name>
 <message><source>{error:.2g} allowed</source><translation>{error:.2g} erlaubt</translation></message>
+<message><source>{parameter} begins at row {top} and column {left}, amid a block of the mosaic; give even numbers</source><translation>{parameter} beginnt in Zeile {top} und Spalte {left}, mitten in einem Block des Mosaiks; gerade Zahlen angeben</translation></message>
+<message><source>{parameter} has the rows {top} to {bottom} and the columns {left} to {right}, but the picture {rows} rows and {columns} columns; give a part of it</source><translation>{parameter} hat die Zeilen {top} bis {bottom} und die Spalten {left} bis {right}, das Bild aber {rows} Zeilen und {columns} Spalten; einen Teil davon angeben</translation></message>
 <message><source>{parameter} is {gaps}; give pairs of depths in mm between {near:g} mm and {far:g} mm, from near to far, of which none overlap</source><translation>{parameter} ist {gaps}; Paare von Tiefen in mm zwischen {near:g} mm und {far:g} mm angeben, von nah nach fern, von denen sich keine überlappen</translation></message>
+<message><source>{parameter} is {given}; give four whole numbers: top, bottom, left, right</source><translation>{parameter} ist {given}; vier ganze Zahlen angeben: oben, unten, links, rechts</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths × {depths} depths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen × {depths} Entfernungen</translation></message>
 <message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
 <message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
@@ -29,6 +32,7 @@
 <message><source>nearest depth of the photo</source><translation>kleinste Entfernung des Fotos</translation></message>
 <message><source>nodes stand at equal steps of 1/distance, and none in {count} gaps</source><translation>die Knoten stehen in gleichen Schritten von 1/Abstand, und keine in {count} Lücken</translation></message>
 <message><source>noise</source><translation>Rauschen</translation></message>
+<message><source>raw numbers and mosaics are of single pixels</source><translation>Rohwerte und Mosaike gehören zu einzelnen Pixeln</translation></message>
 <message><source>the depth map holds {depth:g} mm, which lies in a gap of the scene; leave {parameter} out, or plan for the depths of this map</source><translation>die Tiefenkarte enthält {depth:g} mm, was in einer Lücke der Szene liegt; {parameter} weglassen oder für die Tiefen dieser Karte planen</translation></message>
 <message><source>the map reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Karte reicht von {near:g} mm bis {far:g} mm; positive Entfernungen angeben, die nahe zuerst</translation></message>
 <message><source>{path} does not state how far away its depths are; save them as a PNG and give near and far</source><translation>{path} sagt nicht, wie groß seine Entfernungen sind; als PNG speichern und nah und fern angeben</translation></message>
@@ -41,6 +45,7 @@
 <message><source>one distance</source><translation>eine Entfernung</translation></message>
 <message><source>sloping</source><translation>geneigt</translation></message>
 <message><source>the picture has light up to {most:g}, but the noise that the plan allows for is that of light up to {brightest:g}; plan with {parameter} {most:g}</source><translation>das Bild hat Licht bis {most:g}, doch der Plan rechnet mit dem Rauschen von Licht bis {brightest:g}; mit {parameter} {most:g} planen</translation></message>
+<message><source>the pixels of a mosaic have different colours and cannot be joined; leave it out</source><translation>die Pixel eines Mosaiks haben verschiedene Farben und lassen sich nicht zusammenfassen; das Mosaik weglassen</translation></message>
 <message><source>the scene has these depths alone</source><translation>die Szene hat nur diese Abstände</translation></message>
 <message><source>three steps</source><translation>drei Stufen</translation></message>
 <message><source>its own depths</source><translation>eigene Entfernungen</translation></message>
