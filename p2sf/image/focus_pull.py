@@ -12,14 +12,11 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.image.components import KernelComponents, KernelNodes, blur, components, over_levels, over_picture
-from p2sf.image.geometry import distort, illumination
-from p2sf.image.kernel_octaves import Effort, coarser, octave_kernels, setting
+from p2sf.image.geometry import illumination, resample, source_places
+from p2sf.image.kernel_octaves import Effort, Setting, octave_kernels
 from p2sf.image.octaves import enlarge
+from p2sf.image.region import whole
 from p2sf.image.slabs import Slab, cut_into_slabs, depth_levels, octave_powers
-from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import SensorMap
-from p2sf.scene.scene import Scene
-from p2sf.scene.sensor import Sensor
 from p2sf.threads import map_threads, one_blas_thread
 
 LIGHT_HEIGHTS = 3
@@ -32,74 +29,44 @@ MOVING = Effort(2, 0.5, 0.6, 20, (3, 3), 1, 0.03, 8)
 class KeptPicture:
     """What of a picture with depth does not depend on the setting of the lens: its slabs, from far to near.
 
-    ``scene`` has the sensor, grown to whole coarse pixels; ``shape`` is the picture's own. ``powers``: the mean square
-    of each octave by level of depth, (LEVELS,); ``contrast``: the standard deviation of the picture; ``gradient``: the
-    RMS step from pixel to pixel. ``moved_px``: how far the distortion of the lens is from that of the picture.
+    ``shape`` is the picture's own; slabs have whole coarse pixels. ``powers``: the mean square of each octave by level
+    of depth, (LEVELS,); ``contrast``: the standard deviation of the picture; ``gradient``: the RMS step from pixel to
+    pixel.
     """
 
-    scene: Scene
     shape: tuple[int, int]
     slabs: list[Slab]
-    effort: Effort
     powers: list[np.ndarray]
     contrast: float
     gradient: float
-    moved_px: float = 0.0
-
-    def in_scene(self, scene: Scene, moved_px: float) -> "KeptPicture":
-        """Return the same for another setting of the lens, whose distortion moves pixels so far from where they are."""
-        rows, columns = (n - own for n, own in zip(self.whole_shape, self.shape, strict=True))
-        return replace(self, scene=replace(scene, sensor=_grown(scene.sensor, rows, columns)), moved_px=moved_px)
-
-    @property
-    def whole_shape(self) -> tuple[int, int]:
-        """Return the rows and columns of whole coarse pixels."""
-        return self.scene.sensor.rows, self.scene.sensor.columns
-
-    @property
-    def times(self) -> int:
-        """Return how many pixels a coarse one is wide."""
-        return int(2**self.effort.halvings)
-
-    @property
-    def coarse(self) -> Sensor:
-        """Return the sensor of coarse pixels."""
-        return coarser(self.scene.sensor, self.times)
 
 
-def keep(values: np.ndarray, depth_mm: np.ndarray | None, scene: Scene, seen: SensorMap, effort: Effort) -> KeptPicture:
+def keep(values: np.ndarray, depth_mm: np.ndarray | None, made: Setting) -> KeptPicture:
     """Return what is kept of a picture, (rows, columns, channels), and of its depths, (rows, columns) mm.
 
-    It is distorted as ``seen`` has it, the lens as it was set then. Without depths all of it is at the far end.
+    It is distorted as a lens has it that is set so. Without depths all of it is at the far end.
     """
+    scene, halvings, shape = made.study.scene, made.effort.halvings, values.shape[:2]
     far, near = (float(v) for v in scene.vergences(2))
-    shape = values.shape[:2]
     levels = np.zeros(shape, np.int16)
     if depth_mm is not None and near > far:
         levels = depth_levels(vergence(depth_mm), far, near)
-        levels = distort(levels[..., None].astype(np.float32), seen, scene.sensor, 0)[..., 0].astype(np.int16)
-    placed = np.moveaxis(distort(values, seen, scene.sensor), -1, 0)
-    more = [(0, -n % 2**effort.halvings) for n in shape]
+    places = source_places(made.seen, scene.sensor, whole(shape))
+    if places is not None:
+        values = resample(values, places, 3, whole(shape))
+        levels = resample(levels[..., None].astype(np.float32), places, 0, whole(shape))[..., 0].astype(np.int16)
+    placed = np.moveaxis(values, -1, 0)
+    more = [(0, count - own) for count, own in zip((scene.sensor.rows, scene.sensor.columns), shape, strict=True)]
     placed, levels = np.pad(placed, [(0, 0), *more], mode="edge"), np.pad(levels, more, mode="edge")
-    grown = replace(scene, sensor=_grown(scene.sensor, more[0][1], more[1][1]))
-    cut = cut_into_slabs(placed, levels, effort.halvings)
-    by_slab = [np.sum([octave_powers(slab, number) for slab in cut], axis=0) for number in range(effort.halvings)]
+    cut = cut_into_slabs(placed, levels, halvings)
+    by_slab = [np.sum([octave_powers(slab, number) for slab in cut], axis=0) for number in range(halvings)]
     powers = [4.0**number * power / levels.size for number, power in enumerate(by_slab)]
-    return KeptPicture(grown, shape, cut, effort, powers, float(placed.std()), _gradient(placed))
+    return KeptPicture(shape, cut, powers, float(placed.std()), _gradient(placed))
 
 
 def _gradient(planes: np.ndarray) -> float:
     """Return the RMS step from pixel to pixel, down and across together."""
     return float(np.sqrt(sum(np.mean(np.square(np.diff(planes, axis=axis))) for axis in (-1, -2))))
-
-
-def _grown(sensor: Sensor, rows: int, columns: int) -> Sensor:
-    """Return a sensor with more rows below and columns at the right."""
-    if not rows and not columns:
-        return sensor
-    x, y = sensor.centre_mm
-    centre = x + columns * sensor.pixel_mm / 2, y - rows * sensor.pixel_mm / 2
-    return Sensor(sensor.rows + rows, sensor.columns + columns, sensor.pixel_um, centre)
 
 
 class FocusedPicture(NamedTuple):
@@ -114,21 +81,18 @@ class FocusedPicture(NamedTuple):
 
 
 @one_blas_thread
-def focused_picture(kept: KeptPicture, camera: Lens) -> FocusedPicture:
-    """Return the picture through a lens as it is set.
-
-    Raises GeometryError where rays of the field do not reach the sensor.
-    """
-    made = setting(camera, kept.scene, kept.effort)
+def focused_picture(kept: KeptPicture, made: Setting, moved_px: float = 0.0) -> FocusedPicture:
+    """Return the picture through a lens as it is set; its distortion moves pixels so far from where they are kept."""
     kernels = octave_kernels(made)
     gains, spreads = (
         [over_levels(each, made.depths) for each in octaves] for octaves in (kernels.gains, kernels.spreads)
     )
-    parts = [_slab_components(slab, kernels.nodes, kept.effort) for slab in kept.slabs]
-    error = expected_error(kept, max(part.left for part in parts), spreads)
-    shade = illumination(made.study.sensor_map(made.study.ends[0]), made.coarse, LIGHT_HEIGHTS)
+    parts = [_slab_components(slab, kernels.nodes, made.effort) for slab in kept.slabs]
+    error = expected_error(kept, moved_px, max(part.left for part in parts), spreads)
+    shade = illumination(made.seen, made.coarse, LIGHT_HEIGHTS)
     border = max(part.kernels.shape[-1] // 2 for part in parts)
-    out = np.zeros((len(made.colours), *kept.whole_shape), np.float32)
+    sensor = made.study.scene.sensor
+    out = np.zeros((len(made.colours), sensor.rows, sensor.columns), np.float32)
     for slab, part in zip(kept.slabs, parts, strict=True):
         # What is nearer spreads over its own edge by a border, and what is seen there comes from another one beside it.
         (down, across), planes = _blurred(slab.about_seen(2 * border), part, gains, shade)
@@ -149,14 +113,14 @@ def _slab_components(slab: Slab, nodes: KernelNodes, effort: Effort) -> KernelCo
     )
 
 
-def expected_error(kept: KeptPicture, left: float, spreads: list[np.ndarray]) -> float:
+def expected_error(kept: KeptPicture, moved_px: float, left: float, spreads: list[np.ndarray]) -> float:
     """Return the RMS error expected of a picture, of white, times a margin.
 
     An octave is off by what the kernels' response varies within it (``spreads``, its variance, as `over_levels` has
     it); the coarse picture by what is ``left`` of the kernels by their components, of its contrast; all of it where it
     has moved.
     """
-    moved = (kept.moved_px * kept.gradient) ** 2
+    moved = (moved_px * kept.gradient) ** 2
     octaves = sum(float(power @ spread.mean((0, 1, 2))) for power, spread in zip(kept.powers, spreads, strict=True))
     return float(MARGIN * np.sqrt(octaves + (left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
 

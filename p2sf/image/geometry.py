@@ -11,6 +11,7 @@ from p2sf.threads import map_threads
 TRIED = 33  # points along each axis at which distortion is evaluated
 MORE = 4  # heights, or places along each axis, where rims clip, whose vignetting begins and ends suddenly
 SPLINE_REACH = 16  # pixels: a cubic spline's dependence on its samples falls by 3.7 from one to the next
+EVERY_PX = 8  # pixels between places at which distortion is evaluated: between them it bends by some 1e-3 of a pixel
 VISIBLE_PX = 0.05  # distortion is ignored if it moves no pixel farther than this
 
 
@@ -57,11 +58,26 @@ def source_places(seen: SensorMap, sensor: Sensor, region: Region) -> np.ndarray
     """
     if distortion_px(seen, sensor) <= VISIBLE_PX:
         return None
-    x, y = sensor.x_mm(region.columns), sensor.y_mm(region.rows)[:, None]
-    across, up = seen.ideal_mm(x, y)
+    rows, columns = (np.linspace(n[0], n[-1], -(-len(n) // EVERY_PX) + 1) for n in (region.rows, region.columns))
+    across, up = seen.ideal_mm(sensor.x_mm(columns), sensor.y_mm(rows)[:, None])
     column = (across - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
     row = (sensor.rows - 1) / 2 - (up - sensor.centre_mm[1]) / sensor.pixel_mm
-    return np.stack([row, column]).astype(np.float32)
+    return np.stack([_between(each.astype(np.float32), *region.shape) for each in (row, column)])
+
+
+def _between(grid: np.ndarray, rows: int, columns: int) -> np.ndarray:
+    """Return values on an even grid from the first pixel to the last, linear between, (rows, columns)."""
+    return _lines_between(np.ascontiguousarray(_lines_between(grid.T, columns).T), rows)
+
+
+def _lines_between(lines: np.ndarray, count: int) -> np.ndarray:
+    """Return ``count`` lines from the first to the last, linear between those that are given."""
+    place = np.linspace(0, len(lines) - 1, count, dtype=np.float32)
+    first = np.minimum(place.astype(int), max(len(lines) - 2, 0))
+    found: np.ndarray = np.diff(lines, axis=0, append=lines[-1:])[first]
+    found *= (place - first)[:, None]
+    found += lines[first]
+    return found
 
 
 def region_of(places: np.ndarray, given: Region, more: int = 1) -> Region:

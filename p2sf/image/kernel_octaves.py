@@ -14,7 +14,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.image.components import KernelNodes, octave_responses
 from p2sf.image.slabs import LEVELS
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import Recipe
+from p2sf.pixel_kernels import Recipe, SensorMap
 from p2sf.pixel_kernels.channel import Colour, PointLights
 from p2sf.pixel_kernels.landing_light import landing_kernels
 from p2sf.pixel_kernels.nodes import nodes_along
@@ -27,9 +27,10 @@ from p2sf.scene.planning.study import Study, pad_kernel
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduce_spectrum
-from p2sf.threads import map_threads
+from p2sf.threads import map_threads, one_blas_thread
 
-FITS = 5, 3, 3  # along a side of the field, depths, and colours, from which the pupils of all others follow
+# Along the height or either side of the field, depths, and colours, from which the pupils of all others follow.
+FITS, SIDES = (5, 3, 3), 3
 SCAN = 65  # depths at which the blur's width is found
 SHARP_PX = 4.0  # a blur of a larger radius leaves nothing of the finest octave
 MOST_SAMPLES = 8  # of λ/2NA across a pixel: it hides what diffraction adds to more
@@ -56,9 +57,14 @@ class Effort:
     rank: int
 
 
-def coarser(sensor: Sensor, times: int) -> Sensor:
-    """Return a sensor of pixels ``times`` as wide."""
-    return replace(sensor, rows=sensor.rows // times, columns=sensor.columns // times, pixel_um=sensor.pixel_um * times)
+def _whole(sensor: Sensor, times: int) -> Sensor:
+    """Return a sensor with more rows below and columns at the right, to whole pixels ``times`` as wide."""
+    rows, columns = -sensor.rows % times, -sensor.columns % times
+    if not rows and not columns:
+        return sensor
+    x, y = sensor.centre_mm
+    centre = x + columns * sensor.pixel_mm / 2, y - rows * sensor.pixel_mm / 2
+    return Sensor(sensor.rows + rows, sensor.columns + columns, sensor.pixel_um, centre)
 
 
 class Setting(NamedTuple):
@@ -81,24 +87,40 @@ class Setting(NamedTuple):
         return rows, columns
 
     @property
+    def times(self) -> int:
+        """Return how many pixels a coarse one is wide."""
+        return int(2**self.effort.halvings)
+
+    @property
     def coarse(self) -> Sensor:
         """Return the sensor of coarse pixels."""
-        return coarser(self.study.scene.sensor, 2**self.effort.halvings)
+        sensor, times = self.study.scene.sensor, self.times
+        return replace(
+            sensor, rows=sensor.rows // times, columns=sensor.columns // times, pixel_um=sensor.pixel_um * times
+        )
+
+    @property
+    def seen(self) -> SensorMap:
+        """Return the map from fields to the sensor at the farthest depth."""
+        return self.study.sensor_map(self.study.ends[0])
 
 
+@one_blas_thread
 def setting(camera: Lens, scene: Scene, effort: Effort) -> Setting:
     """Return the pupils of a lens over field, depths and colours, and the depths at which kernels are made.
 
-    Raises GeometryError where rays of the field do not reach the sensor.
+    The sensor grows below and at the right to whole coarse pixels. Raises GeometryError where rays of the field do not
+    reach it.
     """
+    scene = replace(scene, sensor=_whole(scene.sensor, 2**effort.halvings))
     study = Study(camera, scene)
     colours = tuple(reduce_spectrum(channel, effort.waves) for channel in scene.channels)
     waves = sorted({wave for colour in colours for wave in colour.wavelengths_um})
     area, (along, depths, count) = study.area, FITS
     far, near = (float(v) for v in scene.vergences(2))
     axes = (
-        _axis(*area.x_mm, 3),
-        _axis(*area.y_mm, along),
+        _axis(*area.x_mm, SIDES),
+        _axis(*area.y_mm, SIDES if area.x_mm[0] < area.x_mm[1] else along),
         _axis(far, near, depths),
         waves if len(waves) <= count else _axis(waves[0], waves[-1], count),
     )

@@ -56,11 +56,7 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     One wavelength a channel, 3 × 3 places or fewer where kernels are wide, the smallest fit; rays in place of waves
     where the sum would take seconds, and where that fit does not describe the pencil.
     """
-    colours = tuple(reduce_spectrum(channel, 1) for channel in scene.channels)
-    middle = colours[len(colours) // 2].wavelengths_um[0]
-    vergence = float(scene.vergences(2)[0])
-    recipe, counts = Recipe("fitted", levels_for(camera)[0].numbers), WAVE_COUNTS[0][1]
-    planned = Plan(camera, scene, middle, recipe, colours, counts, (vergence,), (), float("nan"), UNKNOWN, UNKNOWN)
+    planned = plan_by_waves(camera, scene)
     side = wave_side(planned)
     for most, fewer in WAVE_COUNTS:
         if side <= most:
@@ -70,6 +66,15 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     by_rays = replace(planned, recipe=BY_RAYS)
     size = 2 * _edge_half(by_rays)[1] + 1
     return replace(by_rays, counts=next((fewer for most, fewer in RAY_COUNTS if size <= most), (1, 1)))
+
+
+def plan_by_waves(camera: Lens, scene: Scene) -> Plan:
+    """Return `preview_plan` by waves at 3 × 3 places, however long it may take."""
+    colours = tuple(reduce_spectrum(channel, 1) for channel in scene.channels)
+    middle = colours[len(colours) // 2].wavelengths_um[0]
+    recipe, counts = Recipe("fitted", levels_for(camera)[0].numbers), WAVE_COUNTS[0][1]
+    depth = (float(scene.vergences(2)[0]),)
+    return Plan(camera, scene, middle, recipe, colours, counts, depth, (), float("nan"), UNKNOWN, UNKNOWN)
 
 
 def wave_side(planned: Plan) -> float:

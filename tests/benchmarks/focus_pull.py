@@ -28,13 +28,12 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.depths import depth_map
 from p2sf_explorer.compute.views.image import (
     ImageRequest,
-    Keeper,
-    moving,
     on_stage,
     planned_picture,
     question,
     scene_of,
 )
+from p2sf_explorer.compute.views.moving_image import Keeper, moving
 from p2sf_explorer.state.state import change, new_state
 
 DRAGS = "focus", "f-number", "zoom", "tilt"

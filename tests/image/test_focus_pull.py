@@ -20,7 +20,6 @@ SHAPE = 96, 144
 RNG = np.random.default_rng(5)
 LENS = find_lens("cooke_triplet")
 SCENE = Scene(Sensor(*SHAPE, 12.0), near_mm=900.0, far_mm=1500.0, rtol=0.05, focus_mm=1000.0)
-CAMERA = SCENE.camera(LENS)
 
 
 def smooth_noise(shape, seed=1):
@@ -38,20 +37,22 @@ TWO = np.where(disc(), 900.0, 1500.0)
 SLOPE = 1 / np.repeat(np.linspace(1 / 1500, 1 / 900, SHAPE[0])[:, None], SHAPE[1], 1)
 
 
-def kept_of(values, depth_mm, effort=MOVING, scene=SCENE):
-    seen = setting_map(scene)
-    return keep(values, depth_mm, scene, seen, effort)
+def set_for(scene):
+    return setting(scene.camera(LENS), scene, MOVING)
 
 
-def setting_map(scene):
-    from p2sf.scene.planning.study import Study
+def kept_of(values, depth_mm, scene=SCENE):
+    return keep(values, depth_mm, set_for(scene))
 
-    return Study(scene.camera(LENS), scene).sensor_map(float(scene.vergences(2)[0]))
+
+def pulled(values, depth_mm, scene=SCENE):
+    made = set_for(scene)
+    return focused_picture(keep(values, depth_mm, made), made)
 
 
 @pytest.fixture(scope="module")
 def nodes():
-    return octave_kernels(setting(CAMERA, SCENE, MOVING)).finer
+    return octave_kernels(set_for(SCENE)).finer
 
 
 def test_an_octave_and_what_is_coarser_are_the_picture():
@@ -131,8 +132,8 @@ def test_quantities_over_the_picture_are_linear_between_nodes():
 
 @pytest.mark.parametrize("depth", [TWO, SLOPE], ids=["two planes", "slope"])
 def test_an_even_scene_has_the_illumination_alone_whatever_its_depths(depth):
-    found = focused_picture(kept_of(np.full((*SHAPE, 3), 0.6, np.float32), depth), CAMERA)
-    light = 0.6 * illumination(setting_map(SCENE), SCENE.sensor)
+    found = pulled(np.full((*SHAPE, 3), 0.6, np.float32), depth)
+    light = 0.6 * illumination(set_for(SCENE).seen, SCENE.sensor)
     assert np.abs(found.values - light[..., None]).max() < 2e-3  # coverage is that of one colour
 
 
@@ -143,14 +144,14 @@ def test_an_even_scene_has_the_illumination_alone_whatever_its_depths(depth):
 def test_the_moving_picture_is_as_near_the_exact_one_as_it_says(depth, focus_mm):
     scene, values = replace(SCENE, focus_mm=focus_mm), smooth_noise(SHAPE)
     exact = form_image(plan(LENS, scene), values, depth)
-    found = focused_picture(kept_of(values, depth, MOVING, scene), scene.camera(LENS))
+    found = pulled(values, depth, scene)
     assert float(np.sqrt(np.mean((found.values - exact) ** 2))) <= found.error < 0.1
 
 
 def test_a_sharp_object_hides_what_is_behind_it():
     one, two = smooth_noise(SHAPE, 1), smooth_noise(SHAPE, 2)
     two[disc()] = one[disc()]
-    near, behind = (focused_picture(kept_of(v, TWO), CAMERA).values for v in (one, two))
+    near, behind = (pulled(v, TWO).values for v in (one, two))
     inside = disc(radius=12)
     assert np.abs(near - behind)[inside].max() < 0.02 < np.abs(near - behind)[~disc()].max()
 
@@ -160,13 +161,13 @@ def test_a_slab_is_blurred_only_about_what_is_seen_of_it(monkeypatch):
     kept = kept_of(smooth_noise(SHAPE), steps)
     # A third of 36 coarse pixels, two on either side that edges reach, and two more where the slab goes on.
     assert [slab.about_seen(2).level.shape[1] for slab in kept.slabs] == [12 + 2 + 2, 2 + 12 + 2 + 2, 2 + 12]
-    found = focused_picture(kept, CAMERA).values
+    found = focused_picture(kept, set_for(SCENE)).values
     monkeypatch.setattr(Slab, "about_seen", lambda slab, more: slab)
-    assert np.abs(focused_picture(kept, CAMERA).values - found).max() < 1e-4  # transforms in float32
+    assert np.abs(focused_picture(kept, set_for(SCENE)).values - found).max() < 1e-4  # transforms in float32
 
 
 def test_rays_of_pupils_land_as_widely_as_their_waves(nodes):
-    made = setting(CAMERA, SCENE, MOVING)
+    made = set_for(SCENE)
     y = made.study.area.y_mm[1]
     pupils, shifts = made.table.at(0.0, y, 1 / 1500, 0.54)
     (kernel,) = landing_kernels(pupils, np.zeros(1), 1e3 * shifts, np.array([90]), 4.0)
@@ -184,5 +185,5 @@ def test_rays_of_pupils_land_as_widely_as_their_waves(nodes):
 def test_pixels_that_are_no_whole_coarse_ones_are_kept():
     values = smooth_noise((50, 71))
     scene = replace(SCENE, sensor=Sensor(50, 71, 12.0))
-    found = focused_picture(kept_of(values, None, MOVING, scene), CAMERA)
+    found = pulled(values, None, scene)
     assert found.values.shape == values.shape and isinstance(found.error, float)

@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, RequestError
+from p2sf.image.focus_pull import MOVING
+from p2sf.image.kernel_octaves import setting
 from p2sf.io.photo_files import write_photo
 from p2sf.io.transfer import srgb_from_linear
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.views import depths, image
+from p2sf_explorer.compute.views import depths, moving_image
 from p2sf_explorer.compute.views.depths import DepthChoice, depth_map
-from p2sf_explorer.compute.views.image import Keeper, local_psf, moving, pixels, question, scene_of
+from p2sf_explorer.compute.views.image import local_psf, no_plan, pixels, question, scene_of, unmeasured_plan
+from p2sf_explorer.compute.views.moving_image import Keeper, moved_px, moving, no_plan_of
 from p2sf_explorer.state.state import change, new_state
 from tests.benchmarks import focus_pull
 
@@ -50,13 +53,21 @@ def test_another_photo_or_another_distortion_is_kept_anew(keeper):
     moving(asked(), keeper=keeper)
     kept = keeper._kept
     moving(asked(photo_source="checkerboard"), keeper=keeper)
-    assert keeper._kept is not kept and keeper._kept.moved_px == 0
-    kept = keeper._kept
-    far_off = replace(keeper._seen, scale_mm=1.01 * keeper._seen.scale_mm)
-    sensor = kept.scene.sensor
-    assert image.moved_px(keeper._seen, sensor, keeper._seen, sensor) == 0
-    moved = image.moved_px(keeper._seen, sensor, far_off, sensor)
-    assert moved == pytest.approx(0.01 * np.hypot(*np.subtract(kept.shape, 1)) / 2, rel=0.1)
+    assert keeper._kept is not kept
+    seen, sensor = keeper._seen
+    far_off = replace(seen, scale_mm=1.01 * seen.scale_mm)
+    assert moved_px(seen, sensor, seen, sensor) == 0
+    moved = moved_px(seen, sensor, far_off, sensor)
+    assert moved == pytest.approx(0.01 * np.hypot(*np.subtract(keeper._kept.shape, 1)) / 2, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"photo_pixel_um": 64.0}, {"photo_near_mm": 120.0, "photo_depths": "", "depth_mm": 120.0}]
+)
+def test_a_plan_follows_a_moving_picture_where_it_follows_a_coarse_one(changes):
+    request = asked(focus_mm=1000.0, **changes)
+    made = setting(scene_of(request).camera(request.lens), scene_of(request), MOVING)
+    assert no_plan_of(made) == no_plan(unmeasured_plan(request))
 
 
 def test_the_psf_of_a_place_is_that_of_its_depth(near):
@@ -76,10 +87,10 @@ def test_the_psf_of_a_place_needs_no_map_once_the_picture_is_made(tmp_path):
 
 
 def test_the_picture_by_rays_answers_what_was_asked(monkeypatch):
-    def fail(kept, camera):
+    def fail(kept, made, moved_px):
         raise GeometryError("no polynomials")
 
-    monkeypatch.setattr(image, "focused_picture", fail)
+    monkeypatch.setattr(moving_image, "focused_picture", fail)
     assert moving(asked()).question == asked()
 
 

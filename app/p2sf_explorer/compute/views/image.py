@@ -19,20 +19,17 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_fro
 from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
-from p2sf.image.components import KernelNodes
 from p2sf.image.deblur import photo_noise, psnr, wiener, with_one_kernel
-from p2sf.image.focus_pull import MOVING, KeptPicture, focused_picture, keep
 from p2sf.image.lattice import Lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
-from p2sf.image.slabs import LEVELS
 from p2sf.io.depth_files import DepthScale
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_image_height
-from p2sf.pixel_kernels import RAYS, Recipe, SensorMap
+from p2sf.pixel_kernels import RAYS, Recipe
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
@@ -42,7 +39,6 @@ from p2sf_explorer.compute.views.depths import FLAT, ONE_DISTANCE, OWN, DepthCho
 from p2sf_explorer.compute.views.photos import (
     MOST_PIXELS,
     NOISE,
-    change_time,
     channels_of,
     cut_away,
     full_shape,
@@ -328,98 +324,6 @@ def coarse(request: ImageRequest, watch: Progress | None = None) -> ImageResult:
     notes = ((Message("Coarse"), UNMEASURED[why_not]), *rays)
     lattice = preview_lattice(coarse_plan, watch)
     return replace(_answer(small, coarse_plan, watch, begun, notes, lattice), question=request, no_plan=why_not)
-
-
-MOST_MOVED_PX = 1.0  # of a kept picture, before it is made anew
-
-
-class Keeper:
-    """The picture that is kept from one setting of a lens to the next, one at a time; for one thread.
-
-    Nothing of a lens is kept, but for its distortion, which is compared with that of the next.
-    """
-
-    def __init__(self) -> None:
-        self._key: tuple[object, ...] = ()
-        self._kept: KeptPicture | None = None
-        self._seen: SensorMap | None = None
-
-    def kept(self, request: ImageRequest, values: np.ndarray, scene: Scene, seen: SensorMap) -> KeptPicture:
-        """Return what is kept of a picture, made anew where it is another, or distorted otherwise."""
-        stamps = change_time(request.photo), change_time(request.depths.source)
-        key = (request.photo, request.depths, *stamps, request.shape, scene.near_mm, scene.far_mm)
-        if self._kept is not None and self._seen is not None and key == self._key:
-            moved = moved_px(self._seen, self._kept.scene.sensor, seen, scene.sensor)
-            if moved <= MOST_MOVED_PX:
-                return self._kept.in_scene(scene, moved)
-        self._kept = None  # before the next is made: one is kept
-        self._kept = keep(values, depth_map(request.depths, request.photo, request.shape), scene, seen, MOVING)
-        self._key, self._seen = key, seen
-        return self._kept
-
-
-def moved_px(before: SensorMap, its: Sensor, now: SensorMap, sensor: Sensor) -> float:
-    """Return how far apart two settings of a lens put any part of a picture, pixels at most."""
-    places = [
-        seen.ideal_mm(
-            *np.meshgrid(own.x_mm(np.linspace(0, own.columns - 1, 9)), own.y_mm(np.linspace(0, own.rows - 1, 9)))
-        )
-        for seen, own in ((before, its), (now, sensor))
-    ]
-    (x, y), (across, up) = (
-        [(axis - centre) / own.pixel_mm for axis, centre in zip(at, own.centre_mm, strict=True)]
-        for at, own in zip(places, (its, sensor), strict=True)
-    )
-    return float(np.hypot(across - x, up - y).max())
-
-
-def moving(request: ImageRequest, watch: Progress | None = None, keeper: Keeper | None = None) -> ImageResult:
-    """Return the picture with all of its pixels and depths, as a lens that moves shows it, with the error expected.
-
-    What need not be made anew is in the ``keeper``. Where pupils have no polynomials, the coarse picture by rays.
-    """
-    begun = perf_counter()
-    values, scene = scene_values(request.photo, request.shape), scene_of(request)
-    camera = scene.camera(request.lens)
-    try:
-        plan = preview_plan(camera, scene)
-        kept = (keeper or Keeper()).kept(request, values, scene, plan.sensor_map(float(scene.vergences(2)[0])))
-        found = focused_picture(kept, camera)
-    except GeometryError:
-        return replace(coarse(replace(request, depths=ONE_DISTANCE), watch), question=request)
-    lattices, vergences = psfs_by_depth(found.kernels, kept)
-    depths = depth_map(request.depths, request.photo, request.shape)
-    count = Message("{count} PSFs", count=int(np.prod(found.kernels.kernels.shape[:4])))
-    cut = frame_notes(request.photo, request.shape)
-    why_not = no_plan(plan)
-    frame = ((Message("Frame"), cut[1]),) if cut else ()
-    off = Message("RMS at most {error:.2g} of white, as expected from the response of its PSFs", error=found.error)
-    return ImageResult(
-        question=request,
-        before=values,
-        after=found.values,
-        quality="coarse",
-        plan=plan,
-        lattice=lattices[0],
-        seconds=perf_counter() - begun,
-        headline=count,
-        notes=(*frame, *moved_in(request, plan), (Message("Coarse"), UNMEASURED[why_not]), (Message("Error"), off)),
-        cut=cut[0] if cut else None,
-        no_plan=why_not,
-        error=found.error,
-        psfs=None if depths is None else PsfsByDepth(lattices, vergences, depths),
-    )
-
-
-def psfs_by_depth(nodes: KernelNodes, kept: KeptPicture) -> tuple[tuple[Lattice, ...], np.ndarray]:
-    """Return the PSFs of a moving picture, at its own pixels, and their vergences, 1/mm."""
-    times = kept.times
-    rows, columns = ((n + 0.5) * times - 0.5 for n in (nodes.row_nodes, nodes.column_nodes))
-    far, near = kept.scene.vergences(2)
-    depths = far + nodes.depths / (LEVELS - 1) * (near - far)
-    by_depth = np.moveaxis(nodes.kernels, 0, 3)
-    lattices = tuple(Lattice(rows, columns, [list(line) for line in at]) for at in by_depth)
-    return lattices, depths
 
 
 def unmeasured_plan(request: ImageRequest) -> Plan:

@@ -20,11 +20,9 @@ from p2sf_explorer.compute.views.image import (
     TAKEN,
     ImageRequest,
     ImageResult,
-    Keeper,
     coarse,
     fine_enough,
     local_psf,
-    moving,
     on_stage,
     pixels,
     planned_picture,
@@ -32,6 +30,7 @@ from p2sf_explorer.compute.views.image import (
     save_picture,
     work,
 )
+from p2sf_explorer.compute.views.moving_image import Keeper, moving
 from p2sf_explorer.compute.views.photos import CHART_WORDS
 from p2sf_explorer.files.snapshot import side_car, write_state
 from p2sf_explorer.i18n.messages import said
