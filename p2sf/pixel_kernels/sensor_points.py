@@ -167,6 +167,14 @@ class SensorMap:
         slope *= slope_ratio(self.lens, self.depth_mm, self.wavelength_um, wavelength_um)
         return Source(self.depth_mm, slope, float(wavelength_um), azimuth_deg=azimuth)
 
+    def field_slopes(self, x_mm: np.ndarray, y_mm: np.ndarray, waves_um: np.ndarray) -> np.ndarray:
+        """Return the field slopes of `source` at several places in wavelengths, (n,) each."""
+        slopes, _ = self.fields.polar(x_mm, y_mm)
+        waves, each = np.unique(waves_um, return_inverse=True)
+        ratios = [slope_ratio(self.lens, self.depth_mm, self.wavelength_um, wave) for wave in waves.tolist()]
+        found: np.ndarray = slopes * np.array(ratios)[each]
+        return found
+
     def shift_mm(self, x_mm: float, y_mm: float, wavelength_um: float) -> tuple[float, float]:
         """Return lateral colour: how far from its place, along x and y, another wavelength lands, mm."""
         across, up = landing_mm(self.lens, self.source(x_mm, y_mm, wavelength_um))

@@ -42,7 +42,7 @@ def test_kernels_from_kept_pupils_are_those_of_own_rays(f_number, mask):
     """By pixels, which share nothing with the comparison of polynomials; both within the tables' 1e-3 an axis."""
     lens = with_mask(with_f_number(find_lens("double_gauss_28"), f_number), mask)
     slopes, vergences, waves = np.array([0.0, 0.05, 0.11]), np.array([0.0, 1e-5, 2e-5]), np.array([0.5, 0.55, 0.6])
-    found, there = kept.lens_pupils(lens, 0.12, (0.0, 2e-5), (0.5, 0.6)).at(slopes, vergences, waves)
+    found, there = kept.lens_pupils(lens, 0.12, (0.0, 2e-5), (0.5, 0.6)).between(slopes, vergences, waves)
     true, landed = rays(lens, slopes, vergences, waves)
     window, angles = PixelWindow(40, 2.0, 6), np.zeros(3)
     kernels = [pixel_kernels(pupils, angles, window, np.zeros((3, 2))) for pupils in (found, true)]
@@ -97,7 +97,7 @@ def test_what_is_not_a_table_of_this_lens_is_not_used(tmp_path, monkeypatch, dam
     """Whole archives with other contents: of another size, without an axis, and one that rays at the corners refute."""
     monkeypatch.setenv(cache.VARIABLE, str(tmp_path))
     lens, fresh = find_lens("double_gauss_28"), Study(SCENE.camera(find_lens("double_gauss_28")), SCENE)
-    assert fresh._from_lens is not None and fresh.kept_error < 5e-3
+    assert fresh.kept is not None and fresh.kept.error < 5e-3
     (path,) = tmp_path.iterdir()
     arrays = cache.read_cached(path.stem)
     if damage == "rows":
@@ -109,7 +109,7 @@ def test_what_is_not_a_table_of_this_lens_is_not_used(tmp_path, monkeypatch, dam
     cache.write_cached(path.stem, arrays)
     kept._table.cache_clear()
     study = Study(SCENE.camera(lens), SCENE)
-    assert (study._from_lens is None) == (damage == "number")
+    assert (study.kept is None) == (damage == "number")
     assert plan(lens, SCENE).meets
 
 
@@ -119,4 +119,4 @@ def test_light_that_is_not_visible_and_fields_that_no_ray_reaches_are_not_kept()
     assert kept.lens_pupils(lens, 50.0, (0.0, 1e-6), (0.5, 0.6)) is None
     narrow = kept.lens_pupils(lens, 0.1, (0.0, 1e-6), (0.5, 0.6))
     with pytest.raises(GeometryError):
-        narrow.at(np.array([5.0]), np.array([0.0]), np.array([0.55]))
+        narrow.between(np.array([5.0]), np.array([0.0]), np.array([0.55]))

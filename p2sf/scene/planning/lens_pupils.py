@@ -23,7 +23,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.pupils import stop_rim
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.frequency_grid import NODES, ORDERS, PHASE_RESIDUAL, POINT_RESIDUAL, fitted_forms, pupils_of
-from p2sf.pixel_kernels.pupil_stack import FORMS, PupilStack, frequency_basis, terms_of, with_reach
+from p2sf.pixel_kernels.pupil_stack import FORMS, PupilStack, frequency_basis, terms_of
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pupil.basis import PupilBasis, at_nodes
 from p2sf.pupil.domain import PupilDomain
@@ -62,7 +62,7 @@ class LensPupils:
     """Pupils of a lens, behind a stop of ``part`` of the rim they were fitted to, described up to ``order``.
 
     ``table`` is over field slopes in place of y, and landing points in place of shifts; ``radius`` is the part of the
-    fitted pupils' radius that is needed.
+    fitted pupils' radius that is needed. ``error``: the relative error that interpolation adds to a kernel.
     """
 
     table: PupilTable
@@ -70,12 +70,15 @@ class LensPupils:
     radius: float
     order: int
     mask: PupilMask
+    error: float
 
-    def at(self, slopes: np.ndarray, vergences: np.ndarray, waves_um: np.ndarray) -> tuple[PupilStack, np.ndarray]:
-        """Return pupils, and where their chief rays land, (pupils, 2) mm; GeometryError outside the table."""
+    def between(self, slopes: np.ndarray, vergences: np.ndarray, waves_um: np.ndarray) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils, whose reach is not known, and where their chief rays land, (pupils, 2) mm.
+
+        Raises GeometryError outside the table.
+        """
         wide, landed = self.table.between(0.0, slopes, vergences, waves_um)
-        narrow = _stopped_down(wide, self.part, self.radius, self.order)
-        return with_reach(replace(narrow, mask=self.mask)), landed
+        return replace(_stopped_down(wide, self.part, self.radius, self.order), mask=self.mask), landed
 
 
 def lens_pupils(lens: Lens, slope: float, ends: tuple[float, float], waves: tuple[float, float]) -> LensPupils | None:
@@ -88,9 +91,9 @@ def lens_pupils(lens: Lens, slope: float, ends: tuple[float, float], waves: tupl
     if covered is None:
         return None
     wide = replace(lens, aperture=Aperture("stop_semi_diameter", covered.rim), mask=CLEAR)
-    table = _table(wide, covered)
+    table, error = _table(wide, covered)
     mask = mask_seen(lens, Source(wavelength_um=waves[0]))
-    return _behind_stop(table, stop_rim(lens) / covered.rim, slope, mask) if table else None
+    return _behind_stop(table, stop_rim(lens) / covered.rim, slope, mask, error) if table else None
 
 
 def _covered(lens: Lens, slope: float, ends: tuple[float, float], waves: tuple[float, float]) -> TableRange | None:
@@ -123,24 +126,24 @@ def _window(lens: Lens, vergence: float) -> float:
 
 
 @lru_cache(maxsize=32)
-def _table(lens: Lens, covered: TableRange) -> PupilTable | None:
-    """Return the table of a lens with a stop of the covered rim: as kept, else fitted."""
+def _table(lens: Lens, covered: TableRange) -> tuple[PupilTable | None, float]:
+    """Return the table of a lens with a stop of the covered rim, as kept, else fitted; and its error."""
     media = [medium.index(np.array(covered.waves_um)).tolist() for medium in lens.media]
     name = "pupils-" + sha256(repr((__version__, lens_to_toml(lens), media, covered)).encode()).hexdigest()[:40]
     kept = read_cached(name)
-    table = _from_arrays(kept, lens.pupil_domain) if kept else None
+    table, error = _from_arrays(kept, lens.pupil_domain) if kept else (None, 0.0)
     if table is None:
         try:
-            table = _fit(lens, covered)
+            table, error = _fit(lens, covered)
         except P2SFError:  # rays that do not arrive, or pupils too distorted
-            return None
+            return None, 0.0
         if table:
-            write_cached(name, _as_arrays(table))
-    return table
+            write_cached(name, _as_arrays(table, error))
+    return table, error
 
 
-def _fit(lens: Lens, covered: TableRange) -> PupilTable | None:
-    """Return the table from exact rays; None if kernels would change by more than LARGEST_ERROR between its nodes."""
+def _fit(lens: Lens, covered: TableRange) -> tuple[PupilTable | None, float]:
+    """Return `adaptive_table` from exact rays."""
     known = KnownPupils()
 
     def sources(pupils: Sequence[PupilAt]) -> list[Source]:
@@ -159,11 +162,11 @@ def _fit(lens: Lens, covered: TableRange) -> PupilTable | None:
             known.add(missing, pupils_of(lens, sources(missing), forms, level, order=known.order), landed)
         return known.of(pupils)
 
-    return adaptive_table(covered.ends, fit, TARGET_ERROR)[0]
+    return adaptive_table(covered.ends, fit, TARGET_ERROR)
 
 
 @lru_cache(maxsize=64)
-def _behind_stop(table: PupilTable, part: float, slope: float, mask: PupilMask) -> LensPupils:
+def _behind_stop(table: PupilTable, part: float, slope: float, mask: PupilMask, error: float) -> LensPupils:
     """Return the pupils behind a stop of this part of the rim, of as few terms as fields out to a slope need."""
     _, _, vergences, waves = table.axes
     probes = np.array(list(product((0.0, slope / 2, slope), (vergences[0], vergences[-1]), (waves[0], waves[-1]))))
@@ -171,7 +174,7 @@ def _behind_stop(table: PupilTable, part: float, slope: float, mask: PupilMask) 
     radius = min(1.0, ceil(RADII * BEYOND * _rim_radius(wide, part)) / RADII)
     narrow = _stopped_down(wide, part, radius, wide.order)
     order = next(k for k in range(ORDERS[0], wide.order + 1, 2) if _describes(k, narrow))
-    return LensPupils(table, part, radius, order, mask)
+    return LensPupils(table, part, radius, order, mask, error)
 
 
 def _describes(order: int, pupils: PupilStack) -> bool:
@@ -219,22 +222,22 @@ def _scales(basis: PupilBasis, radius: float) -> dict[str, np.ndarray]:
     return {"eta": inner.fy @ (share * at.values.fy).T, "xi": inner.fx @ (share * at.values.fx).T}
 
 
-def _as_arrays(table: PupilTable) -> Arrays:
-    """Return a table as arrays, for `_from_arrays`."""
+def _as_arrays(table: PupilTable, error: float) -> Arrays:
+    """Return a table and its error as arrays, for `_from_arrays`."""
     like = table.like
     sizes = np.array(
-        [like.order, like.numbers, like.weight.shape[-1], like.residual_waves.max(), like.wavelength_um[0]]
+        [like.order, like.numbers, like.weight.shape[-1], like.residual_waves.max(), like.wavelength_um[0], error]
     )
     return {**{f"axis_{k}": np.array(axis) for k, axis in enumerate(table.axes)}, "rows": table.rows, "sizes": sizes}
 
 
-def _from_arrays(kept: Arrays, domain: PupilDomain) -> PupilTable | None:
-    """Return the table of what was kept, None if it is something else."""
+def _from_arrays(kept: Arrays, domain: PupilDomain) -> tuple[PupilTable | None, float]:
+    """Return the table of what was kept, None if it is something else, and its error."""
     try:
         axes: list[Any] = [tuple(kept[f"axis_{k}"].tolist()) for k in range(4)]
-        rows, (order, numbers, weights, residual, sign) = kept["rows"], kept["sizes"].tolist()
+        rows, (order, numbers, weights, residual, sign, error) = kept["rows"], kept["sizes"].tolist()
     except (KeyError, ValueError):
-        return None
+        return None, 0.0
     basis = frequency_basis(int(order), domain)
     counts = {
         "phase": basis.phase.count,
@@ -244,7 +247,7 @@ def _from_arrays(kept: Arrays, domain: PupilDomain) -> PupilTable | None:
         "rims": 0,
     }
     if rows.shape != (prod(map(len, axes)), sum(counts.values()) + 4) or not np.isfinite(rows).all():
-        return None
+        return None, 0.0
     forms: dict[str, Any] = dict(
         zip(FORMS, np.split(rows, np.cumsum([counts[name] for name in FORMS]), 1), strict=False)
     )
@@ -255,4 +258,4 @@ def _from_arrays(kept: Arrays, domain: PupilDomain) -> PupilTable | None:
         basis, radius, **forms, energy=energy, reach_um=np.nan * radius, **known, method="fitted", numbers=int(numbers)
     )
     x, y, vergences, waves = axes
-    return PupilTable(x, y, vergences, waves, rows, like)
+    return PupilTable(x, y, vergences, waves, rows, like), error

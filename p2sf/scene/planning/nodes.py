@@ -65,11 +65,16 @@ FieldPlace = tuple[Colour, float, int]  # channel, vergence, cell
 
 
 def field_places(study: Study, colours: Sequence[Colour]) -> list[FieldPlace]:
-    """Return where field nodes are tried: at all depths in the bluest channel, at the sharpest and midway in others."""
+    """Return where field nodes are tried: at all depths in the bluest channel, at the sharpest and midway in others.
+
+    First where blurs are widest: there they change most from field to field.
+    """
     blue, *others = sorted(colours, key=lambda colour: min(colour.wavelengths_um))
     axis, _, corner = study.sharpest(blue.wavelengths_um[0])
     far, middle, near = study.scan[0], study.scan[len(study.scan) // 2], study.scan[-1]
-    places = [(blue, v, FAR) for v in (corner, *study.scan)] + [(blue, v, NEAR) for v in (axis, far, middle, near)]
+    widest = study.ends[int(study.of_corner[0].reach_um[: len(study.ends)].argmax())]
+    places = [(blue, v, FAR) for v in (widest, corner, *study.scan)]
+    places += [(blue, v, NEAR) for v in (axis, far, middle, near)]
     if not study.sensor_map(study.ends[0]).about_axis:
         places += [(blue, corner, FAR + 1 + quarter) for quarter in range(4)]
     for colour in others:

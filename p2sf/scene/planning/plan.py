@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
-from math import hypot, inf
+from math import hypot
+from operator import attrgetter
 from os import PathLike
 
 import numpy as np
@@ -11,11 +12,9 @@ import numpy as np
 from p2sf.arguments import check_arguments
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.paraxial.seidel import reason_against_coefficients
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
 from p2sf.pixel_kernels.pupil_stack import with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable
-from p2sf.psf.methods import by_six
 from p2sf.scene.field_area import Point
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.adaptive_table import from_phase
@@ -35,7 +34,7 @@ from p2sf.scene.planning.nodes import (
     worst_errors,
 )
 from p2sf.scene.planning.pricing import mirrored, naive_work, plan_work
-from p2sf.scene.planning.sharing import seidel_table, share_pupils
+from p2sf.scene.planning.sharing import share_pupils
 from p2sf.scene.planning.study import (
     FINE_SAMPLING,
     SAMPLINGS,
@@ -52,9 +51,10 @@ from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import one_blas_thread
 
 # The share of the tolerance that each kind of decision may use, see `predicted_error`.
-SHARES = {"method": 0.4, "sampling": 0.2, "field": 0.38, "depth": 0.42, "colour": 0.3, "pupils": 0.14}
-FIELD_ALONE = 0.46  # the share of the field in a scene of one depth
+SHARES = {"method": 0.1, "sampling": 0.2, "field": 0.43, "depth": 0.48, "colour": 0.3, "pupils": 0.14}
+FIELD_ALONE = 0.5  # the share of the field in a scene of one depth
 FINE_ENOUGH, FINE_ENOUGH_ERROR = 2, 2.5e-3  # an entry of SAMPLINGS, and its largest error in a kernel, as measured
+TYPICAL_SAMPLING_ERRORS = 0.012, 0.008  # in a kernel, of the entries before it: trials begin there
 SHARPER = 1.1  # factor by which kernels between those examined may be sharper
 SAFETY = 1.3  # for points between those where an error was measured
 
@@ -177,14 +177,11 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     norm = _norm(study)
     budget = scene.relative_error(norm)
     recipe, method = _method(study, budget)
-    (fineness, margin), sampled = _sampling(study, budget, recipe.method)
+    (fineness, margin), sampled = _sampling(study, budget)
     recipe = replace(recipe, fineness=fineness, margin=margin)
     colours, colour = _colours(study, budget)
     counts, field = _field(study, budget, colours)
     vergences, depth = _depths(study, budget, colours)
-    table = study.table
-    if table and by_six(recipe.method):
-        table = seidel_table(study, table)
     decisions = (method, sampled, field, depth, *colour, _pupils(study), *_noise(scene))
     error = predicted_error(decisions)
     cost = predicted_cost(plan_work(study, recipe, colours, counts, len(vergences)))
@@ -201,7 +198,7 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
         error,
         cost,
         naive,
-        table,
+        study.table,
         norm,
     )
 
@@ -233,36 +230,16 @@ def _first(
 
 
 def _method(study: Study, budget: float) -> tuple[Recipe, Decision]:
-    """Return the cheapest description of a pupil: six Seidel coefficients, else the fewest fitted numbers."""
-    allowed, error = SHARES["method"] * budget, 0.0
-    for wave in dict.fromkeys((study.waves_um[0], study.waves_um[-1])):
-        if error <= allowed:
-            error = max(error, SAFETY * _seidel_error(study, study.places(wave)))
-    what = Message("method")
-    if error <= allowed:
-        why = Message("the six Seidel coefficients keep the pixels' error here")
-        return Recipe("seidel"), Decision(what, Message("{method}", method="seidel"), why, error, "method")
-    sizes = [level for level in study.levels if level.numbers < study.level.numbers]
-    held = (level for level in sizes if SAFETY * from_phase(study.residual(level)) <= allowed)
-    level = next(held, study.level)
-    error = SAFETY * from_phase(study.residual(level))
-    why = Message(
-        "{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not", numbers=level.numbers
-    )
-    choice = Message("{method}", method="fitted")
-    return Recipe("fitted", level.numbers), Decision(what, choice, why, error, "method")
+    """Return the fewest fitted numbers that describe a pupil; those of the table, if there is one, at no further cost.
 
-
-def _seidel_error(study: Study, places: Sequence[Place]) -> float:
-    """Return the worst error of kernels by Seidel coefficients; infinite if the lens has none.
-
-    Those of a misaligned lens are of the aligned one, at the places where its own rays land.
+    Six Seidel coefficients would make neither a kernel nor a table cheaper, only less accurate.
     """
-    if reason_against_coefficients(study.lens):
-        return inf
-    pupils = study.pupils_at(places)
-    made = study.rendered(places, study.by_seidel(pupils), study.lights(pupils)[1], FINE_SAMPLING)
-    return max(map(distance, made, study.kernels(places, FINE_SAMPLING)))
+    held = (level for level in study.levels if SAFETY * from_phase(study.residual(level)) <= SHARES["method"] * budget)
+    level = study.level if study.table else min(next(held, study.level), study.level, key=attrgetter("numbers"))
+    error = SAFETY * from_phase(study.residual(level))
+    why = Message("the phase that {numbers} numbers leave over is that small", numbers=level.numbers)
+    choice = Message("{method}, {count} numbers", method="fitted", count=level.numbers)
+    return Recipe("fitted", level.numbers), Decision(Message("method"), choice, why, error, "method")
 
 
 def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Decision]]:
@@ -270,12 +247,12 @@ def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Deci
     colours, decisions = [], []
     for channel in study.scene.channels:
         axis, _, corner = study.sharpest(float(channel.wavelengths_um @ channel.shares))
-        places = [(study.area.far, v) for v in dict.fromkeys((corner, *study.scan))]
+        places = [(study.area.far, v) for v in dict.fromkeys((corner, *study.ends))]
         places += [(study.area.near, v) for v in dict.fromkeys((axis, study.scan[-1]))]
-        every = len(channel.wavelengths_nm)
-        number, error = _first(
-            range(1, every + 1), partial(_colour_errors, study, channel, places), len(places), SHARES["colour"] * budget
-        )
+        every, number, error = len(channel.wavelengths_nm), 0, 0.0
+        if every > 1:
+            measure = partial(_colour_errors, study, channel, places)
+            number, error = _first(range(1, every + 1), measure, len(places), SHARES["colour"] * budget)
         colours.append(reduce_spectrum(channel, number + 1))
         choice = Message("{waves:.0f} nm", waves=tuple(1000 * w for w in colours[-1].wavelengths_um))
         why = Message(
@@ -299,33 +276,41 @@ def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point,
     return [distance(mixed(few, place), mixed(every, place)) for few, place in pairs]
 
 
-def _sampling(study: Study, budget: float, method: str) -> tuple[Sampling, Decision]:
+def _sampling(study: Study, budget: float) -> tuple[Sampling, Decision]:
     """Return the coarsest entry of SAMPLINGS within its share of the tolerance, and the decision.
 
     By the pupils and in the windows of the picture, on which errors of sampling depend.
     """
-    places = list(dict.fromkeys(place for wave in study.waves_um[::-1] for place in study.places(wave)))
+    places = study.places(study.waves_um[0])
     pupils = study.pupils_at(places)
     found, shifts = study.lights(pupils)
-    light = study.by_seidel(pupils) if by_six(method) else with_reach(found)
+    light = with_reach(found)
     kernels: dict[tuple[int, int], np.ndarray] = {}
 
+    def finer(number: int) -> int:
+        return FINE_ENOUGH if number <= FINE_ENOUGH else len(SAMPLINGS) - 1
+
     def errors(tries: Tries) -> list[float]:
-        finest = [FINE_ENOUGH if number < FINE_ENOUGH else len(SAMPLINGS) - 1 for number, _ in tries]
-        asked = {*tries, *zip(finest, (k for _, k in tries), strict=True)} - kernels.keys()
+        asked = {
+            (n, k) for number, k in tries if number != FINE_ENOUGH for n in (number, finer(number))
+        } - kernels.keys()
         for number in {number for number, _ in asked}:
             here = np.array(sorted(k for n, k in asked if n == number))
             some = [places[k] for k in here.tolist()]
             made = study.rendered(some, light.some(here), shifts[here], SAMPLINGS[number], widen=False)
             kernels.update(zip(((number, k) for k in here.tolist()), made, strict=True))
-        left = {FINE_ENOUGH: FINE_ENOUGH_ERROR}  # by the finer kernels themselves
         return [
-            hypot(distance(kernels[number, k], kernels[finer, k]), left.get(finer, 0.0))
-            for (number, k), finer in zip(tries, finest, strict=True)
+            hypot(
+                distance(kernels[number, k], kernels[finer(number), k]) if number != FINE_ENOUGH else 0.0,
+                FINE_ENOUGH_ERROR if number <= FINE_ENOUGH else 0.0,
+            )
+            for number, k in tries
         ]
 
     steps = [4.0**number for number in range(len(SAMPLINGS))]  # errors fall by more than ten from each to the next
-    number, worst = _first(steps, errors, len(places), SHARES["sampling"] * budget)
+    allowed = SHARES["sampling"] * budget
+    likely = next((k for k, error in enumerate(TYPICAL_SAMPLING_ERRORS) if SAFETY * error <= allowed), FINE_ENOUGH)
+    number, worst = _first(steps, errors, len(places), allowed, likely)
     fineness, margin = SAMPLINGS[number]
     why = Message(
         "pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}",

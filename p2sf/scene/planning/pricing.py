@@ -6,6 +6,7 @@ from math import ceil, prod
 import numpy as np
 
 from p2sf.lens.lens import Lens
+from p2sf.paraxial.seidel import reason_against_coefficients
 from p2sf.pixel_kernels import Colour, Recipe
 from p2sf.scene.planning.bounds import transforms
 from p2sf.scene.planning.cost import ALONE_SECONDS, TOGETHER_SECONDS, Work, pupil_seconds
@@ -40,14 +41,15 @@ def plan_work(study: Study, recipe: Recipe, colours: Sequence[Colour], counts: t
 def naive_work(study: Study, recipe: Recipe, counts: tuple[int, int], layers: int) -> Work:
     """Return the work of the full grid that would be necessary for the same error without a plan.
 
-    One method everywhere, the cheapest that suffices at the worst point, with separate rays for every PSF; depth × rows
-    × columns × every wavelength, everywhere as dense as the worst point requires; every fringe; one window, that of the
-    widest blur; no use of symmetry.
+    One method everywhere, six coefficients where the lens has them, lest the grid be priced too high, with separate
+    rays for every PSF; depth × rows × columns × every wavelength, everywhere as dense as the worst point requires;
+    every fringe; one window, that of the widest blur; no use of symmetry.
     """
     scene, recipe = study.scene, naive_recipe(recipe)
     halves, sides = _widths(study, recipe)
     kernels = counts[0] * counts[1] * layers * sum(len(channel.wavelengths_nm) for channel in scene.channels)
-    cost = kernels * pupil_seconds(recipe.method, recipe.numbers or 6)
+    method = recipe.method if reason_against_coefficients(study.lens) else "seidel"
+    cost = kernels * pupil_seconds(method, recipe.numbers or 6)
     picture = scene.sensor.rows, scene.sensor.columns, len(scene.channels), counts, layers
     return Work(kernels, float(sides.max()), ALONE_SECONDS, cost, int(halves.max()), *picture)
 

@@ -4,7 +4,7 @@ No error measured here depends on the tolerance, so that a looser tolerance can 
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from math import ceil, sqrt
@@ -17,16 +17,16 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels import Colour, SensorMap
 from p2sf.pixel_kernels.channel import PointLights
-from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of, seidel_pupils
+from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack, with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.fit import Level, PencilForms, levels_for
 from p2sf.scene.field_area import FieldArea, Point, field_area
-from p2sf.scene.planning.adaptive_table import Fit, KnownPupils, PupilAt, kernel_errors
+from p2sf.scene.planning.adaptive_table import KnownPupils, PupilAt, kernel_errors
 from p2sf.scene.planning.field_points import scene_maps
-from p2sf.scene.planning.lens_pupils import lens_pupils
+from p2sf.scene.planning.lens_pupils import LensPupils, lens_pupils
 from p2sf.scene.scene import Scene
 
 SAMPLINGS = (1.25, 0.0), (1.5, 0.0), (1.5, 0.5), (2.0, 1.0)  # fineness and margin of `Recipe`, cheapest first
@@ -38,6 +38,7 @@ COARSE_REACH = 8, 16  # nodes at which the windows of kernels are found, which a
 SCAN, DEPTHS = 65, 5  # depths among which the sharpest are sought, and at which nodes are also tried
 SEEN_AT = 0.0, 0.6, 1.0  # fractions of the way to the farthest point at which the sharpest depths are sought
 
+SPARED_SAMPLES = 2**13  # take as long as the overhead of computing kernels of one more size
 FOCUSED = 4  # depths between which the phase is interpolated in that search
 MAPPED = 5  # depths that are mapped at once: among them those of the first pupils to be fitted
 
@@ -74,7 +75,6 @@ class Study:
         self.waves_um = tuple(sorted({min(every), self.reference_um, max(every)}))
         self.ends = tuple(dict.fromkeys(map(float, self.scene.vergences(2))))  # the far and the near end of the depths
         self.scan = tuple(self.scene.scan(DEPTHS).tolist())  # both, and depths between them
-        self.kept_error = 0.0
         self._maps: dict[float, SensorMap] = {}
         self._fits = KnownPupils()
         self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
@@ -181,8 +181,8 @@ class Study:
         missing = self._fits.missing(pupils)
         if missing:
             self.check()
-            made, landed = (self._from_lens or self.from_rays)(missing)
-            self._fits.add(missing, made, landed - np.array(missing)[:, :2])
+            made, landed = self.from_lens(self.kept, missing) if self.kept else self.from_rays(missing)
+            self._fits.add(missing, with_reach(made) if self.kept else made, landed - np.array(missing)[:, :2])
         return self._fits.of(pupils)
 
     def from_rays(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
@@ -192,8 +192,8 @@ class Study:
         return pupils_of(self.lens, sources, fits, self.level, self.scene.clip, self._fits.order), landed
 
     @cached_property
-    def _from_lens(self) -> Fit | None:
-        """Return how pupils follow from those kept of the lens, if these agree with rays at the corners."""
+    def kept(self) -> LensPupils | None:
+        """Return the pupils that are kept of the lens, if they agree with rays at the corners."""
         if self.scene.clip or self.area.x_mm[0] < self.area.x_mm[1]:
             return None
         slopes = [source.field_slope for source in self._sources(self.corners)]
@@ -202,22 +202,19 @@ class Study:
         )
         if kept is None:
             return None
-
-        def fit(pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
-            sources = self._sources(pupils)
-            slopes, waves = np.array([(source.field_slope, source.wavelength_um) for source in sources]).T
-            return kept.at(slopes, np.array([at.vergence for at in pupils]), waves)
-
-        (true, landed), (found, there) = self.from_rays(self.corners), fit(self.corners)
+        (true, landed), (found, there) = self.from_rays(self.corners), self.from_lens(kept, self.corners)
         error = float(kernel_errors(found, true, UM_PER_MM * (there - landed)).max())
-        if error > AGREES * self.scene.relative_tolerance:
-            return None
-        self.kept_error = error
-        return fit
+        return replace(kept, error=kept.error + error) if error <= AGREES * self.scene.relative_tolerance else None
 
-    def by_seidel(self, pupils: Sequence[PupilAt]) -> PupilStack:
-        """Return pupils by their Seidel coefficients."""
-        return seidel_pupils(self.lens, self._sources(pupils), self.scene.clip)
+    def from_lens(self, kept: LensPupils, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
+        """Return pupils from those kept of the lens, whose reach is not known, and where their chief rays land, mm."""
+        x, y, vergences, waves = np.array(pupils).T
+        self.map_depths(vergences.tolist())
+        slopes = np.empty(len(pupils))
+        for v in np.unique(vergences).tolist():
+            at = vergences == v
+            slopes[at] = self._maps[v].field_slopes(x[at], y[at], waves[at])
+        return kept.between(slopes, vergences, waves)
 
     def lights(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
         """Return pupils as `fitted` does: from the table, or, if there is none yet, from their own rays."""
@@ -269,7 +266,8 @@ class Study:
         (fineness, margin), pixel = sampling, self.scene.sensor.pixel_um
         halves, samples = half_widths(pupils, pixel, np.hypot(*shifts.T)), samples_each(pupils, pixel, fineness)
         if widen:
-            halves, samples = _few_sizes(halves), np.full_like(samples, samples.max())
+            samples = np.full_like(samples, samples.max())
+            halves = _shared_sizes(halves, int(samples[0]))
         kernels: list[np.ndarray] = [np.empty(0)] * len(places)
         for half, across in np.unique(np.stack([halves, samples]), axis=1).T.tolist():
             chosen, around = np.flatnonzero((halves == half) & (samples == across)), ceil(margin * half)
@@ -281,15 +279,19 @@ class Study:
         return kernels
 
 
-def _few_sizes(halves: np.ndarray) -> np.ndarray:
-    """Return half widths, each rounded up to one of few, by a half at most."""
-    steps = np.unique(np.rint(2.0 ** np.arange(0, 13, 0.5)).astype(int))
-    rounded: np.ndarray = steps[np.searchsorted(steps, halves)]
-    return rounded
+def _shared_sizes(halves: np.ndarray, samples: int) -> np.ndarray:
+    """Return half widths, each at least its own, so few that computing more kernels together pays for wider ones."""
+    shared, widest = halves.copy(), halves.max()
+    for size in np.unique(halves)[::-1]:
+        alike = halves == size
+        if alike.sum() * ((2 * widest + 1) ** 2 - (2 * size + 1) ** 2) * samples**2 > SPARED_SAMPLES:
+            widest = size
+        shared[alike] = widest
+    return shared
 
 
 Tries = Sequence[tuple[int, int]]
-NEGLIGIBLE = 0.3  # of the largest error of a first choice: places with less are not tried again
+NEGLIGIBLE = 0.3  # of the largest error of a choice: places with less are not tried again
 
 
 def first_allowed(
@@ -299,8 +301,8 @@ def first_allowed(
 
     ``measure`` gives the errors of (choice, index of a point), which decrease from choice to choice, about as the
     square of 1/``sizes``. By that law the next choice is found from the error of the last one; only measured errors
-    decide. The first choice, ``start``, is tried at all places, the next ones where the error was largest, and what
-    holds there is tried at all places.
+    decide. The first choice, ``start``, is tried at the first place, where the error is probably largest; what holds
+    there is tried at all places, and if not all hold, the next ones where the error was largest, and so on.
     """
     errors: dict[tuple[int, int], float] = {}
 
@@ -311,12 +313,9 @@ def first_allowed(
         return max(errors[one] for one in tries)
 
     last, low, choice = len(sizes) - 1, 0, start
-    hardest = likely = list(range(places))
+    hardest, likely = 0, list(range(places))
     while True:
-        error = worst(choice, hardest)
-        if len(hardest) > 1:
-            hardest = [max(hardest, key=lambda k: errors[choice, k])]
-            likely = [k for k in likely if errors[choice, k] >= NEGLIGIBLE * error]
+        error = worst(choice, [hardest])
         enough = sizes[choice] * sqrt(error / allowed)
         by_law = max(low, next((k for k, size in enumerate(sizes) if size >= enough), last))
         if error > allowed and choice < last:
@@ -328,7 +327,8 @@ def first_allowed(
             error = worst(choice, likely)
             if error <= allowed or choice == last:
                 return choice, error
-            hardest = [max(likely, key=lambda k: errors[choice, k])]
+            hardest = max(likely, key=lambda k: errors[choice, k])
+            likely = [k for k in likely if errors[choice, k] >= NEGLIGIBLE * error]
 
 
 def distance(kernel: np.ndarray, reference: np.ndarray) -> float:

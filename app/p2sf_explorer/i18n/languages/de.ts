@@ -2190,7 +2190,7 @@
 <message><source>the scene reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Szene reicht von {near:g} mm bis {far:g} mm; positive Abstände angeben, den nahen zuerst</translation></message>
 <message><source>the sensitivities were cancelled before they were known</source><translation>die Empfindlichkeiten wurden angehalten, bevor sie bekannt waren</translation></message>
 <message><source>the shipped lenses are missing; install p2sf again</source><translation>die mitgelieferten Objektive fehlen; p2sf neu installieren</translation></message>
-<message><source>the six Seidel coefficients keep the pixels' error here</source><translation>die sechs Seidel-Koeffizienten halten hier den Fehler der Pixel ein</translation></message>
+<message><source>the phase that {numbers} numbers leave over is that small</source><translation>die Phase, die {numbers} Zahlen übrig lassen, ist so klein</translation></message>
 <message><source>the source has values of shape {shape}, so it describes many sources; give one at a time</source><translation>die Quelle hat Werte der Form {shape}, das sind viele Quellen; eine nach der anderen angeben</translation></message>
 <message><source>the source is on the axis: no chief ray, so the diagram is a line</source><translation>die Quelle liegt auf der Achse: kein Hauptstrahl, das Diagramm ist also eine Linie</translation></message>
 <message><source>the spectral lines are as bright as {weights:g}; give numbers that are not negative, as in lines:486@0.5,588</source><translation>die Spektrallinien sind so hell wie {weights:g}; nicht negative Zahlen angeben, wie in lines:486@0.5,588</translation></message>
@@ -2569,7 +2569,6 @@
 <message><source>{name}: {likeness}</source><translation>{name}: {likeness}</translation></message>
 <message><source>{nm:.1f} nm</source><translation>{nm:.1f} nm</translation></message>
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
-<message><source>{numbers} fitted numbers are the fewest that keep it; the next cheaper method does not</source><translation>{numbers} angepasste Zahlen sind die wenigsten, die das einhalten; die nächstbilligere Stufe tut es nicht</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
 <message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed and six coefficients would leave more</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, wo {allowed:.1e} erlaubt ist und sechs Koeffizienten mehr ließen</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
