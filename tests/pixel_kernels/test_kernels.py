@@ -232,7 +232,7 @@ def test_few_samples_and_a_small_margin_are_enough(f_number):
         for sampling in ((1.5, 0.5), (2.0, 4.0))
     )
     for one, other in zip(found, good, strict=True):
-        assert relative(one / one.sum(), other / other.sum()) < 2.5e-3  # FINE_ENOUGH_ERROR of plans
+        assert relative(one / one.sum(), other / other.sum()) < 2.5e-3  # below `SAMPLING_ERRORS` of plans
 
 
 def test_samples_of_a_cubic_are_summed_over_inner_pixels_without_error():

@@ -11,6 +11,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernels
+from p2sf.pixel_kernels.pupil_stack import with_reach
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import levels_for
 from p2sf.scene import Channel, Scene, Sensor, plan
@@ -43,6 +44,7 @@ def test_kernels_from_kept_pupils_are_those_of_own_rays(f_number, mask):
     lens = with_mask(with_f_number(find_lens("double_gauss_28"), f_number), mask)
     slopes, vergences, waves = np.array([0.0, 0.05, 0.11]), np.array([0.0, 1e-5, 2e-5]), np.array([0.5, 0.55, 0.6])
     found, there = kept.lens_pupils(lens, 0.12, (0.0, 2e-5), (0.5, 0.6)).between(slopes, vergences, waves)
+    found = with_reach(found)
     true, landed = rays(lens, slopes, vergences, waves)
     window, angles = PixelWindow(40, 2.0, 6), np.zeros(3)
     kernels = [pixel_kernels(pupils, angles, window, np.zeros((3, 2))) for pupils in (found, true)]
@@ -111,6 +113,17 @@ def test_what_is_not_a_table_of_this_lens_is_not_used(tmp_path, monkeypatch, dam
     study = Study(SCENE.camera(lens), SCENE)
     assert (study.kept is None) == (damage == "number")
     assert plan(lens, SCENE).meets
+
+
+def test_that_a_lens_has_no_table_is_kept(tmp_path, monkeypatch):
+    monkeypatch.setenv(cache.VARIABLE, str(tmp_path))
+    monkeypatch.setattr(kept, "adaptive_table", lambda *_: (None, 0.0))
+    lens = find_lens("tessar")
+    assert kept.lens_pupils(lens, 0.1, (0.0, 1e-6), (0.5, 0.6)) is None
+    monkeypatch.setattr(kept, "_fit", lambda *_: pytest.fail("fitted again"))
+    kept._table.cache_clear()
+    assert kept.lens_pupils(lens, 0.1, (0.0, 1e-6), (0.5, 0.6)) is None
+    kept._table.cache_clear()
 
 
 def test_light_that_is_not_visible_and_fields_that_no_ray_reaches_are_not_kept():

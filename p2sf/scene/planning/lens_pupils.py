@@ -5,6 +5,7 @@ of the same polynomials, so that f-numbers share what is kept.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from hashlib import sha256
@@ -40,6 +41,7 @@ TARGET_ERROR = 1e-3  # of a kernel by interpolation along one axis
 RIM = 16, 16  # radii and directions at which the rim of a narrower stop is sought
 RADII, BEYOND = 32, 1.01  # parts of a radius to which a narrower one is rounded up, and how far beyond the rim
 CONVERGED_WAVES = 3e-4
+NONE: Arrays = {}  # what is kept of lenses that have no such table, lest it be tried again
 
 
 @dataclass(frozen=True)
@@ -131,14 +133,13 @@ def _table(lens: Lens, covered: TableRange) -> tuple[PupilTable | None, float]:
     media = [medium.index(np.array(covered.waves_um)).tolist() for medium in lens.media]
     name = "pupils-" + sha256(repr((__version__, lens_to_toml(lens), media, covered)).encode()).hexdigest()[:40]
     kept = read_cached(name)
+    if kept == NONE:
+        return None, 0.0
     table, error = _from_arrays(kept, lens.pupil_domain) if kept else (None, 0.0)
     if table is None:
-        try:
+        with suppress(P2SFError):  # rays that do not arrive, or pupils too distorted
             table, error = _fit(lens, covered)
-        except P2SFError:  # rays that do not arrive, or pupils too distorted
-            return None, 0.0
-        if table:
-            write_cached(name, _as_arrays(table, error))
+        write_cached(name, _as_arrays(table, error) if table else NONE)
     return table, error
 
 

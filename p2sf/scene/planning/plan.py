@@ -13,7 +13,6 @@ from p2sf.arguments import check_arguments
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
-from p2sf.pixel_kernels.pupil_stack import with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.scene.field_area import Point
 from p2sf.scene.files import read_scene
@@ -37,6 +36,7 @@ from p2sf.scene.planning.pricing import mirrored, naive_work, plan_work
 from p2sf.scene.planning.sharing import share_pupils
 from p2sf.scene.planning.study import (
     FINE_SAMPLING,
+    SAMPLING_ERRORS,
     SAMPLINGS,
     Place,
     Sampling,
@@ -53,8 +53,6 @@ from p2sf.threads import one_blas_thread
 # The share of the tolerance that each kind of decision may use, see `predicted_error`.
 SHARES = {"method": 0.1, "sampling": 0.2, "field": 0.43, "depth": 0.48, "colour": 0.3, "pupils": 0.14}
 FIELD_ALONE = 0.5  # the share of the field in a scene of one depth
-FINE_ENOUGH, FINE_ENOUGH_ERROR = 2, 2.5e-3  # an entry of SAMPLINGS, and its largest error in a kernel, as measured
-TYPICAL_SAMPLING_ERRORS = 0.012, 0.008  # in a kernel, of the entries before it: trials begin there
 SHARPER = 1.1  # factor by which kernels between those examined may be sharper
 SAFETY = 1.3  # for points between those where an error was measured
 
@@ -234,12 +232,18 @@ def _method(study: Study, budget: float) -> tuple[Recipe, Decision]:
 
     Six Seidel coefficients would make neither a kernel nor a table cheaper, only less accurate.
     """
-    held = (level for level in study.levels if SAFETY * from_phase(study.residual(level)) <= SHARES["method"] * budget)
-    level = study.level if study.table else min(next(held, study.level), study.level, key=attrgetter("numbers"))
-    error = SAFETY * from_phase(study.residual(level))
-    why = Message("the phase that {numbers} numbers leave over is that small", numbers=level.numbers)
-    choice = Message("{method}, {count} numbers", method="fitted", count=level.numbers)
-    return Recipe("fitted", level.numbers), Decision(Message("method"), choice, why, error, "method")
+    if study.table:
+        like = study.table.like
+        numbers, residual = like.numbers, float(like.residual_waves.max())
+    else:
+        allowed = SHARES["method"] * budget
+        held = (level for level in study.levels if SAFETY * from_phase(study.residual(level)) <= allowed)
+        level = min(next(held, study.level), study.level, key=attrgetter("numbers"))
+        numbers, residual = level.numbers, study.residual(level)
+    error = SAFETY * from_phase(residual)
+    why = Message("the phase that {numbers} numbers leave over is that small", numbers=numbers)
+    choice = Message("{method}, {count} numbers", method="fitted", count=numbers)
+    return Recipe("fitted", numbers), Decision(Message("method"), choice, why, error, "method")
 
 
 def _colours(study: Study, budget: float) -> tuple[tuple[Colour, ...], list[Decision]]:
@@ -277,40 +281,12 @@ def _colour_errors(study: Study, channel: Channel, places: Sequence[tuple[Point,
 
 
 def _sampling(study: Study, budget: float) -> tuple[Sampling, Decision]:
-    """Return the coarsest entry of SAMPLINGS within its share of the tolerance, and the decision.
+    """Return the coarsest entry of SAMPLINGS within its share of the tolerance, else the finest, and the decision.
 
-    By the pupils and in the windows of the picture, on which errors of sampling depend.
+    Errors of sampling hardly depend on the pupil, so that none are measured here.
     """
-    places = study.places(study.waves_um[0])
-    pupils = study.pupils_at(places)
-    found, shifts = study.lights(pupils)
-    light = with_reach(found)
-    kernels: dict[tuple[int, int], np.ndarray] = {}
-
-    def finer(number: int) -> int:
-        return FINE_ENOUGH if number <= FINE_ENOUGH else len(SAMPLINGS) - 1
-
-    def errors(tries: Tries) -> list[float]:
-        asked = {
-            (n, k) for number, k in tries if number != FINE_ENOUGH for n in (number, finer(number))
-        } - kernels.keys()
-        for number in {number for number, _ in asked}:
-            here = np.array(sorted(k for n, k in asked if n == number))
-            some = [places[k] for k in here.tolist()]
-            made = study.rendered(some, light.some(here), shifts[here], SAMPLINGS[number], widen=False)
-            kernels.update(zip(((number, k) for k in here.tolist()), made, strict=True))
-        return [
-            hypot(
-                distance(kernels[number, k], kernels[finer(number), k]) if number != FINE_ENOUGH else 0.0,
-                FINE_ENOUGH_ERROR if number <= FINE_ENOUGH else 0.0,
-            )
-            for number, k in tries
-        ]
-
-    steps = [4.0**number for number in range(len(SAMPLINGS))]  # errors fall by more than ten from each to the next
     allowed = SHARES["sampling"] * budget
-    likely = next((k for k, error in enumerate(TYPICAL_SAMPLING_ERRORS) if SAFETY * error <= allowed), FINE_ENOUGH)
-    number, worst = _first(steps, errors, len(places), allowed, likely)
+    number = next((k for k, error in enumerate(SAMPLING_ERRORS) if error <= allowed), len(SAMPLINGS) - 1)
     fineness, margin = SAMPLINGS[number]
     why = Message(
         "pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}",
@@ -318,7 +294,7 @@ def _sampling(study: Study, budget: float) -> tuple[Sampling, Decision]:
         margin=margin,
     )
     choice = Message("λ/2NA/{fineness:g}", fineness=fineness)
-    return SAMPLINGS[number], Decision(Message("sampling"), choice, why, worst, "sampling")
+    return SAMPLINGS[number], Decision(Message("sampling"), choice, why, SAMPLING_ERRORS[number], "sampling")
 
 
 def _field(study: Study, budget: float, colours: Sequence[Colour]) -> tuple[tuple[int, int], Decision]:
