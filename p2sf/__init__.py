@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from p2sf.database.files.building import build_database
     from p2sf.database.files.provenance import Stored
     from p2sf.errors import (
+        ClusterError,
         DatabaseError,
         ExportError,
         GeometryError,
@@ -66,6 +67,7 @@ __all__ = [
     "Camera",
     "Channel",
     "Choice",
+    "ClusterError",
     "Coefficients",
     "DatabaseError",
     "Energy",
@@ -138,6 +140,7 @@ _ELSEWHERE = {
     "Channel": "p2sf.scene.scene",
     "Choice": "p2sf.psf.methods",
     "Coefficients": "p2sf.paraxial.seidel",
+    "ClusterError": "p2sf.errors",
     "DatabaseError": "p2sf.errors",
     "Energy": "p2sf.metrics.measures",
     "ExportError": "p2sf.errors",

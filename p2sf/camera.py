@@ -356,7 +356,7 @@ class Camera(Settings):
         clip : bool
             Stop rays at every clear semi-diameter.
         how
-            ``method``, ``surround`` and ``threads`` as `p2sf.form_image` has them.
+            ``method``, ``surround``, ``threads`` and ``scheduler`` as `p2sf.form_image` has them.
 
         Returns
         -------

@@ -44,6 +44,10 @@ class ExportError(P2SFError):
     """A file that cannot be written or read."""
 
 
+class ClusterError(P2SFError):
+    """A cluster that cannot be reached, or whose workers cannot do the work."""
+
+
 class Cancelled(P2SFError):
     """A long computation was stopped by its caller."""
 

@@ -7,7 +7,6 @@ Peaks, whose search takes half the time of a PSF, are looked for by `Sweep.streh
 import sys
 import warnings
 from collections.abc import Callable, Mapping
-from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -17,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import in_own_unit
 from p2sf.camera import Camera, Settings, Setup, explicit_values, set_up_source
+from p2sf.cluster import checked_client
 from p2sf.conventions import centred_axis, write_protect
 from p2sf.errors import P2SFWarning, RequestError
 from p2sf.lens.lens import Lens
@@ -259,13 +259,7 @@ class Sweep:
         if self.scheduler is None:
             for_each(figure, self.points, take, self.threads, ahead=None)
             return found
-        with ExitStack() as stack:
-            scheduler = self.scheduler
-            if isinstance(scheduler, str):
-                from p2sf.database.files.stack_cluster import check_versions, connect, worker_versions
-
-                scheduler = stack.enter_context(connect(self.scheduler))
-                check_versions(worker_versions(scheduler, self.scheduler))
+        with checked_client(self.scheduler) as scheduler:
             answers = scheduler.map(figure, self.points)
             if hasattr(scheduler, "gather"):  # a client of dask, whose answers are futures
                 answers = (one.result() for one in answers)

@@ -1,11 +1,11 @@
-"""`p2sf cluster`: how to render a stack on many machines, and who works for a scheduler."""
+"""`p2sf cluster`: how to render a stack or a picture on many machines, and who works for a scheduler."""
 
 from p2sf import __version__
 from p2sf.cli.options import Json
 from p2sf.cli.screen import print_json, print_table
 
 ADDRESS = "tcp://FIRST:8786"
-TOLD = """A stack of PSFs on many machines
+TOLD = """A stack of PSFs, or a picture, on many machines
 
 on one of them, called FIRST here:   {scheduler}
 on each of them:                     {worker}
@@ -14,6 +14,7 @@ Both come with pip install 'p2sf[dask]', for which all machines need p2sf {versi
 
     p2sf cluster {address}
     p2sf database build LENS --stack --scheduler {address} -o PLACE
+    p2sf image LENS SCENE PICTURE --scheduler {address} -o FILE
 
 where PLACE ends in .zarr and is a folder that all machines share, or a URL, such as s3://bucket/name.zarr: workers
 write to it themselves, each with its own machine's credentials. Once stopped, by whatever, the same command continues.
@@ -21,7 +22,7 @@ Who reaches a scheduler can run any program on its workers: start it in a networ
 
 
 def cluster(address: str | None = None, /, *, as_json: Json = False) -> None:
-    """Tell how to render a stack on many machines; with a scheduler's address, list its workers and their versions.
+    """Tell how to use many machines for a stack or a picture; with a scheduler's address, list its workers.
 
     Parameters
     ----------
@@ -30,7 +31,7 @@ def cluster(address: str | None = None, /, *, as_json: Json = False) -> None:
     """
     if address is None:
         return _tell_how(as_json)
-    from p2sf.database.files.stack_cluster import check_versions, connect, worker_versions
+    from p2sf.cluster import check_versions, connect, worker_versions
 
     with connect(address) as client:
         versions = worker_versions(client, address)
@@ -43,7 +44,7 @@ def cluster(address: str | None = None, /, *, as_json: Json = False) -> None:
 
 
 def _tell_how(as_json: bool) -> None:
-    from p2sf.database.files.stack_cluster import SCHEDULER, WORKER
+    from p2sf.cluster import SCHEDULER, WORKER
 
     lines = {"scheduler": SCHEDULER, "worker": WORKER.format(address=ADDRESS)}
     if as_json:

@@ -153,6 +153,9 @@ class Shown:
         Pixels along the longer side at most, as of a screen; so many pixels of the sensor are joined to one.
     region
         The part to form: top, bottom, left and right in pixels from 0, the ends excluded.
+    scheduler
+        Address of a dask.distributed scheduler whose workers form the picture, a row of tiles at a time (p2sf cluster);
+        this machine's threads when not given.
     """
 
     method: Literal["patches", "lowrank"] = "patches"
@@ -165,6 +168,7 @@ class Shown:
     preview: bool = False
     longest: Whole | None = None
     region: Annotated[tuple[Whole, Whole, Whole, Whole] | None, Parameter(negative="")] = None
+    scheduler: str | None = None
 
     def __post_init__(self) -> None:
         check_seed(self.seed)
@@ -332,7 +336,8 @@ def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -
     scene = replace(scene, brightest=float(np.clip(values.max(), DIMMEST, MOST_LIGHT)))
     planned = _make_plan(glass, scene if depth is None else scene.at_depths(depth))
     warn(None if planned.meets else TOO_TIGHT)
-    light = _noisy(form_image(planned, values, depth, Forming(shown.method, shown.surround), region=region), shown)
+    how = Forming(shown.method, shown.surround, scheduler=shown.scheduler)
+    light = _noisy(form_image(planned, values, depth, how, region=region), shown)
     formed = expose(scene.sensor, light, shown.seed)
     facts = {"method": shown.method, "predicted_error": planned.predicted_error}
     if not shown.deblur:

@@ -3,17 +3,20 @@
 See handbook 10.1.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import groupby
 from math import inf
 from threading import Lock
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import real_array
+from p2sf.cluster import checked_client, in_order, keep_freed_memory
 from p2sf.errors import RequestError
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.geometry import illumination, region_of, resample, source_places
@@ -39,7 +42,7 @@ from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.planning.cost import BYTES, MOST_KERNELS, TILE
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
-from p2sf.threads import for_each, map_threads, one_blas_thread
+from p2sf.threads import for_each, map_threads, one_blas_thread, using_threads
 
 METHODS = ("patches", "lowrank")
 SURROUNDS = ("black", "edge")
@@ -51,7 +54,12 @@ RANK_TOLERANCE = 0.1  # of the scene's tolerance: the allowed error of a low ran
 HEIGHTS = 3  # at which the width of blur is measured: of a curved field the corner may be the sharpest
 TILE_STEPS = 64  # of progress
 BETWEEN = 0.2  # of the scene's tolerance: the allowed error of kernels between computed nodes
+RETRIES = 2  # of a row of tiles whose worker fails
 KEPT_BYTES = BYTES * MOST_KERNELS  # of depth nodes; those least recently used are computed again when needed
+
+
+FormedTile = tuple[Region, np.ndarray, BrightLight]
+"""A tile, its light without halos, and what has some."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +68,15 @@ class Forming:
 
     ``method``: "patches" (overlap-add) or "lowrank". ``surround``: the light beyond the picture, none ("black") or that
     of its outermost pixels ("edge"). ``geometry``: whether distortion and illumination are included; ``spline``: order
-    of the distortion's interpolation. Raises RequestError for another method or surround.
+    of the distortion's interpolation. ``scheduler``: the address or client of a cluster whose workers form rows of
+    tiles; None for this process. Raises RequestError for another method or surround.
     """
 
     method: str = "patches"
     surround: str = "edge"
     geometry: bool = True
     spline: int = 3
+    scheduler: Any = None
 
     def __post_init__(self) -> None:
         if self.method not in METHODS:
@@ -117,7 +127,8 @@ def form_image(
     else:
         picture = check_picture(planned.scene, values)
         _check_light(planned.scene, picture)
-    kernels = DepthKernels(planned, watch, lattice if depth_mm is None else None)
+    known = lattice if depth_mm is None and how.scheduler is None else None
+    kernels = DepthKernels(planned, watch, known)
     if depth_mm is None:
         halves = [kernels.over(0, whole(picture.shape)).half]
     else:
@@ -139,15 +150,36 @@ def _form_tiles(former: "_Former", wanted: Region) -> np.ndarray:
     out, parts, bright = np.empty((*area.shape, shape[-1]), np.float32), list(tiles(area, TILE)), []
     former.watch.expect(TILE_STEPS * len(parts))
 
-    def take(formed: tuple[Region, np.ndarray, BrightLight]) -> None:
+    def take(formed: FormedTile) -> None:
         part, light, highlights = formed
         out[part.within(area)] = light
         bright.append(highlights)
         former.watch.advance(TILE_STEPS)
 
-    for_each(lambda part: (part, *former.form(part)), parts, take)
+    if former.how.scheduler is None:
+        for_each(lambda part: (part, *former.form(part)), parts, take)
+    else:
+        _form_rows(former, parts, take)
     _add_halos(out, gather(bright), former)
     return out[wanted.within(area)]
+
+
+def _form_rows(former: "_Former", parts: list[Region], take: Callable[[FormedTile], None]) -> None:
+    """Take tiles, row by row, that the workers of a cluster form; each keeps the kernels of its rows."""
+    with checked_client(former.how.scheduler) as client:
+        sent = client.scatter(replace(former, how=replace(former.how, scheduler=None)), broadcast=True, hash=False)
+        rows = [list(row) for _, row in groupby(parts, key=lambda part: part.top)]
+        futures = [client.submit(_form_row, sent, row, pure=False, retries=RETRIES) for row in rows]
+        for row in in_order(client, futures, former.watch.check):
+            for formed in row:
+                take(formed)
+
+
+def _form_row(former: "_Former", row: list[Region]) -> list[FormedTile]:
+    """Return the tiles of a row, formed by one thread of a worker."""
+    keep_freed_memory()
+    with one_blas_thread, using_threads(1):
+        return [(part, *former.form(part)) for part in row]
 
 
 def _dimmest(planned: Plan, picture: np.ndarray, kernels: "DepthKernels") -> float:
@@ -185,18 +217,25 @@ def _add_halos(out: np.ndarray, bright: BrightLight, former: "_Former") -> None:
 class DepthKernels:
     """The kernels of a plan's depth nodes, computed where they are needed and kept up to KEPT_BYTES."""
 
-    def __init__(self, planned: Plan, watch: Progress, lattice: Lattice | None = None) -> None:
-        """Take the ``lattice`` of the far end, if it is known; else measure how many nodes must be computed."""
-        self._planned, self._watch, self._step = planned, watch, 1
+    def __init__(self, planned: Plan, watch: Progress, lattice: Lattice | None = None, step: int | None = None) -> None:
+        """Take the ``lattice`` of the far end, or the ``step`` of nodes, if known; else measure how many are needed."""
+        self._planned, self._watch, self._step = planned, watch, step or 1
         self._lock, self._landings = Lock(), dict[int, PupilLandings]()
         self._decomposing, self._low_ranks = Lock(), dict[tuple[int, bool], list[LowRank]]()
         if lattice is not None:
             self._nodes = {0: known_kernels(lattice)}
             return
+        if step is not None:
+            self._nodes = {}
+            return
         halves = _largest_halves(planned)
         measured = {0, len(halves) - 1, int(np.argmin(halves))}  # the ends and the sharpest
         self._nodes = {number: node_kernels(planned, planned.vergences[number]) for number in measured}
         self._step = choose_step(list(self._nodes.values()), BETWEEN * planned.allowed_error, watch)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what another process makes it of: the kernels are computed there."""
+        return DepthKernels, (self._planned, self._watch, None, self._step)
 
     def over(self, number: int, region: Region) -> Lattice:
         """Return the kernels of a depth node over a part of the picture."""

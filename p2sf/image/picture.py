@@ -1,7 +1,7 @@
 """The pictures that a script forms and sharpens: `p2sf.form_image` and `p2sf.sharpen_image`."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,6 +29,7 @@ def form_image(
     seed: int = 0,
     region: tuple[int, int, int, int] | None = None,
     threads: int | None = None,
+    scheduler: Any = None,
 ) -> np.ndarray:
     """Form the picture that the sensor reads through the lens, with distortion, illumination, blur and pixels.
 
@@ -54,6 +55,9 @@ def form_image(
         ``picture[top:bottom, left:right]``. It takes only the kernels that reach it.
     threads : int, optional
         As for `render`.
+    scheduler : str or client, optional
+        Of a dask cluster whose workers form the picture instead, a row of tiles of 1024 pixels at a time: its address
+        or its client. The picture is the same to the last bit on machines of one kind.
 
     Returns
     -------
@@ -65,6 +69,8 @@ def form_image(
     ------
     RequestError
         If shapes do not fit the scene, values are not finite or whole numbers, or a depth is outside the scene's.
+    ClusterError
+        If the cluster cannot be reached, is lost, or has another version.
 
     Examples
     --------
@@ -77,7 +83,7 @@ def form_image(
     depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
     part = None if region is None else region_of_sensor(planned.scene.sensor, region)
     with using_threads(threads):
-        light = form(planned, values, depths, Forming(method, surround), region=part)
+        light = form(planned, values, depths, Forming(method, surround, scheduler=scheduler), region=part)
         return expose(planned.scene.sensor, light, seed)
 
 

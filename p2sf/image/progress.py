@@ -22,6 +22,10 @@ class Progress:
     def __post_init__(self) -> None:
         self._lock = Lock()
 
+    def __reduce__(self) -> tuple[type["Progress"], tuple[()]]:
+        """Return what another process makes it of: there nobody looks on."""
+        return Progress, ()
+
     def expect(self, steps: int) -> None:
         """Add work to come."""
         with self._lock:

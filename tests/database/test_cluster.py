@@ -13,10 +13,11 @@ import pytest
 
 from p2sf import __version__
 from p2sf.cli import main
+from p2sf.cluster import connect
 from p2sf.database.files.stack import open_stack
-from p2sf.database.files.stack_cluster import connect, fill_chunks
+from p2sf.database.files.stack_cluster import fill_chunks
 from p2sf.database.files.stack_write import StackProgress, write_stack
-from p2sf.errors import DatabaseError
+from p2sf.errors import ClusterError, DatabaseError
 from tests.database.test_stack import SAMPLING, contents, small
 from tests.support.cluster import running_cluster
 
@@ -86,12 +87,12 @@ def test_another_version_or_none_is_a_sentence(cluster, tmp_path):
         victim = min(client.nthreads())
         for version, words in (("0.0.9", "has P2SF 0.0.9, and"), (None, "has no P2SF, and")):
             before = client.run(versioned, version, workers=[victim])
-            with pytest.raises(DatabaseError, match=f"{words} .* is needed; install p2sf") as refused:
+            with pytest.raises(ClusterError, match=f"{words} .* is needed; install p2sf") as refused:
                 filled(cluster, tmp_path / "other.zarr")
             assert victim in str(refused.value)
             client.run(versioned, before[victim], workers=[victim])
         late = client.submit(fill_chunks, str(tmp_path), "", "0.0.9", ((0, 0, 0),))  # for a worker that came later
-        with pytest.raises(DatabaseError, match=r"and 0\.0\.9 is needed"):
+        with pytest.raises(ClusterError, match=r"and 0\.0\.9 is needed"):
             late.result()
 
 
@@ -121,9 +122,9 @@ def test_the_command_line_lists_the_workers(cluster, capsys):
 
 
 def test_nobody_there_is_a_sentence(tmp_path, monkeypatch):
-    monkeypatch.setattr("p2sf.database.files.stack_cluster.ANSWER_S", 0.2)
+    monkeypatch.setattr("p2sf.cluster.ANSWER_S", 0.2)
     for address in ("tcp://127.0.0.1:1", "nonsense", "nothing://here:1"):
-        with pytest.raises(DatabaseError, match=r"no scheduler answers at .*; start one with dask scheduler"):
+        with pytest.raises(ClusterError, match=r"no scheduler answers at .*; start one with dask scheduler"):
             write_stack(*small(), tmp_path / "a.zarr", SAMPLING, scheduler=address)
 
 

@@ -27,6 +27,7 @@ from p2sf_explorer.i18n.language import FOLDER, texts
 UNREACHED = (
     "p2sf.cli",
     "p2sf.studies",
+    "p2sf.cluster",
     "p2sf.database.files",
     "p2sf.export.iset",
     "p2sf.export.psf_cube",
