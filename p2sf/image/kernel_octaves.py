@@ -174,20 +174,18 @@ class OctaveKernels(NamedTuple):
 
 
 def octave_kernels(made: Setting) -> OctaveKernels:
-    """Return kernels from sharp depths, in fine pixels, to blurred ones, in coarser; the sharp ones are halved."""
+    """Return kernels for coarse pixels, and the responses of octaves by those for the pixels of each."""
     pixel, halvings = made.study.scene.sensor.pixel_um, made.effort.halvings
     rows, columns = made.places
-    gains, spreads = [], []
-    kernels, ready = np.empty((0, 0, 0)), np.zeros(len(made.depths), bool)
+    kernels, gains, spreads = np.empty(0), [], []
     for number in range(max(1, halvings)):
         pitch = pixel * 2**number
         needed = (made.radii_um < SHARP_PX * pitch) | (number >= halvings - 1)
-        wider = _kernels(made, needed & ~ready, pitch)
-        kernels, ready = _joined(halved(kernels), ready, wider, needed) if ready.any() else wider, needed
+        kernels = _kernels(made, needed, pitch)
         if halvings:
-            gain, spread = np.zeros((2, len(made.colours), len(ready), *kernels.shape[2:4]))
-            if ready.any():
-                gain[:, ready], spread[:, ready] = octave_responses(kernels)
+            gain, spread = np.zeros((2, len(made.colours), len(needed), *kernels.shape[2:4]))
+            if needed.any():
+                gain[:, needed], spread[:, needed] = octave_responses(kernels)
             gains.append(_everywhere(gain, len(rows), len(columns)))
             spreads.append(_everywhere(spread, len(rows), len(columns)))
     finer, coarse = (
@@ -214,17 +212,6 @@ def _kernels(made: Setting, chosen: np.ndarray, pitch_um: float) -> np.ndarray:
     size = max(len(kernel) for kernels in of_colours for kernel in kernels)
     padded = np.stack([pad_kernel(kernel, size) for kernels in of_colours for kernel in kernels])
     return padded.reshape(len(of_colours), count, down, across, size, size)
-
-
-def _joined(one: np.ndarray, its: np.ndarray, two: np.ndarray, both: np.ndarray) -> np.ndarray:
-    """Return kernels of all depths of ``both`` from those of ``its`` and those of the others, in the larger window."""
-    size = max(one.shape[-1], two.shape[-1])
-    found = np.zeros((*two.shape[:1], int(both.sum()), *two.shape[2:4], size, size), np.float32)
-    for kernels, at in ((one, its[both]), (two, ~its[both])):
-        border = (size - kernels.shape[-1]) // 2
-        inner = slice(border, border + kernels.shape[-1])
-        found[:, at, ..., inner, inner] = kernels
-    return found
 
 
 def _mixed(made: Setting, grid: np.ndarray, colour: Colour, pitch_um: float) -> list[np.ndarray]:

@@ -74,6 +74,7 @@ def test_the_psf_of_a_place_is_that_of_its_depth(near):
     rows, columns = near.after.shape[:2]
     sharp, wide = (local_psf(near, rows / 2, column) for column in (columns // 6, 5 * columns // 6))
     assert (wide > 0.1).sum() > 2 * (sharp > 0.1).sum()
+    assert min(sharp.min(), wide.min()) >= 0
 
 
 def test_the_psf_of_a_place_needs_no_map_once_the_picture_is_made(tmp_path):
