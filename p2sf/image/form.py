@@ -33,7 +33,7 @@ from p2sf.image.lattice import Lattice, NodeKernels, choose_step, known_kernels,
 from p2sf.image.layers import CONTINUED, DepthMap, LayerStack, least_fold, map_depths, stack_layers
 from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
-from p2sf.image.pupil_moments import Passing, PupilLandings, first_moments, pupil_landings
+from p2sf.image.pupil_moments import MOMENTS, Passing, PupilLandings, moments_of, pupil_landings
 from p2sf.image.region import Region, check_region, tiles, whole
 from p2sf.image.structure import FLAT, steepest, structured_parts
 from p2sf.messages import Alternatives, ParameterName
@@ -221,7 +221,7 @@ class DepthKernels:
         """Take the ``lattice`` of the far end, or the ``step`` of nodes, if known; else measure how many are needed."""
         self._planned, self._watch, self._step = planned, watch, step or 1
         self._lock, self._landings = Lock(), dict[int, PupilLandings]()
-        self._decomposing, self._low_ranks = Lock(), dict[tuple[int, bool], list[LowRank]]()
+        self._decomposing, self._low_ranks = Lock(), dict[tuple[int, int | None], list[LowRank]]()
         if lattice is not None:
             self._nodes = {0: known_kernels(lattice)}
             return
@@ -252,27 +252,27 @@ class DepthKernels:
         top, left = int(row), int(column)
         return self.over(number, Region(top, top + 2, left, left + 2)).at(row - top, column - left)
 
-    def low_rank(self, number: int, moments: bool) -> list[LowRank]:
-        """Return the low rank of each channel over the whole picture, or of the channels of `first_moments`.
+    def low_rank(self, number: int, moment: int | None = None) -> list[LowRank]:
+        """Return the low rank of each channel's kernels over the whole picture, or of one of their moments.
 
         One thread at a time finds them, since all need the same.
         """
         with self._decomposing:
-            if (number, moments) not in self._low_ranks:
+            if (number, moment) not in self._low_ranks:
                 sensor, tolerance = self._planned.scene.sensor, RANK_TOLERANCE * self._planned.allowed_error
-                kernels = self.first_moments if moments else self.over
-                lattice = kernels(number, whole((sensor.rows, sensor.columns)))
-                self._low_ranks[number, moments] = map_threads(
+                every = whole((sensor.rows, sensor.columns))
+                lattice = self.over(number, every) if moment is None else self.moments(number, every)[moment]
+                self._low_ranks[number, moment] = map_threads(
                     lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels)
                 )
-            return self._low_ranks[number, moments]
+            return self._low_ranks[number, moment]
 
-    def first_moments(self, number: int, region: Region) -> Lattice:
-        """Return the first moments over the pupil of these kernels, of all channels twice, see `first_moments`."""
+    def moments(self, number: int, region: Region) -> list[Lattice]:
+        """Return the moments over the pupil of these kernels, see `moments_of`."""
         with self._lock:
             if number not in self._landings:
                 self._landings[number] = pupil_landings(self._planned, self._planned.vergences[number])
-        return first_moments(self.over(number, region), region, self._landings[number])
+        return moments_of(self.over(number, region), region, self._landings[number])
 
 
 @dataclass(frozen=True, eq=False)
@@ -347,14 +347,20 @@ class _Former:
             if seen.empty:
                 continue
             part, at = blurred[seen.within(spread)], seen.within(tile)
-            first = 0 if passing.tilted else 2 * count  # before any silhouette, moments of what hides are enough
-            if passing.tilted:
+            through = [passing.values[0][at] * part[..., k : k + count] for k in (0, count)]
+            hidden = [part[..., 2 * count :]]
+            first = 0 if passing.cut else 2 * count  # before any silhouette, moments of what hides are enough
+            if passing.cut:
                 planes = planes * passing.near_moments(self.half)[box.within(reach)][..., None]
-            tilts = self._tilts(number, planes[..., first:], box, colours[first:], blurred)[:, *seen.within(spread)]
-            for total, of_it in ((light, np.s_[..., :count]), (covered, np.s_[..., count : 2 * count])):
-                total[at] += passing.seen(at, part[of_it], tilts[of_it])
+            for j, every in enumerate(self._moments(number, planes[..., first:], box, colours[first:]), 1):
+                moment = every[seen.within(spread)]
+                hidden.append(moment[..., 2 * count - first :])
+                for k, total in zip((0, count), through if passing.cut else (), strict=False):
+                    total += passing.values[j][at] * moment[..., k : k + count]
+            for k, total, of_layer in ((0, light, through[0]), (count, covered, through[1])):
+                total[at] += np.clip(of_layer, 0, part[..., k : k + count]) if passing.cut else of_layer
             if planes.shape[-1] > 2 * count:
-                passing.hide(at, part[..., -count:], tilts[..., -count:])
+                passing.hide(at, hidden)
         return light, covered
 
     def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:
@@ -372,32 +378,33 @@ class _Former:
         return (np.pad(planes, (down, right, (0, 0)), mode="edge") if wide != box else planes), wide
 
     def _blur(
-        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...], moments: bool = False
+        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...]
     ) -> tuple[np.ndarray, Region]:
-        """Return planes of a box blurred by kernels of these channels, with all light, and where that lies.
-
-        ``moments``: by the first moments of the kernels, whose channels these are then.
-        """
+        """Return planes of a box blurred by kernels of these channels, with all light, and where that lies."""
         if self.how.method == "lowrank":
-            parts = self.kernels.low_rank(number, moments)
+            parts = self.kernels.low_rank(number)
             blurred = low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
             return blurred, box.grown(parts[0].mean.shape[0] // 2)
-        lattice = (self.kernels.first_moments if moments else self.kernels.over)(number, box)
+        lattice = self.kernels.over(number, box)
+        return self._spread(lattice, planes, channels), box.grown(lattice.half)
+
+    def _moments(self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...]) -> Iterator[np.ndarray]:
+        """Yield the moments over the pupil of planes blurred as by `_blur`, one after the other; none of no planes."""
+        if not channels:
+            return
+        if self.how.method == "lowrank":
+            for moment in range(MOMENTS):
+                parts = self.kernels.low_rank(number, moment)
+                yield low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
+            return
+        for lattice in self.kernels.moments(number, box):
+            yield self._spread(lattice, planes, channels)
+
+    def _spread(self, lattice: Lattice, planes: np.ndarray, channels: tuple[int, ...]) -> np.ndarray:
+        """Return planes blurred by a lattice over them, with all light."""
         # Halos are far below the rounding of float32 beside very bright light.
         kind = np.float64 if has_halos(self.planned) else np.float32
-        blurred = BlurOperator(lattice, box.shape, channels=channels, kind=kind).spread(planes, self.watch)
-        return blurred, box.grown(lattice.half)
-
-    def _tilts(
-        self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...], blurred: np.ndarray
-    ) -> np.ndarray:
-        """Return the first moments over the pupil of ``blurred`` planes, (2, rows, columns, planes)."""
-        if not channels:
-            return np.zeros((2, *blurred.shape[:2], 0), np.float32)
-        every = len(self.planned.colours)
-        both = (*channels, *[every + channel for channel in channels])
-        moments, _ = self._blur(number, np.concatenate([planes, planes], axis=-1), box, both, moments=True)
-        return np.stack(np.split(moments, 2, axis=-1))
+        return BlurOperator(lattice, planes.shape[:2], channels=channels, kind=kind).spread(planes, self.watch)
 
 
 class _Placing:

@@ -5,7 +5,8 @@ near side on the left, one on the right, a window in the near plane, a wire, a s
 depth, between them and on the far one; and a pane of 50 % transparency given as layers. Each is compared with a sum
 over the pupil in which every ray is looked up in the scene by itself (`tests.support.visibility`), in a band of nine
 pixels about the edges: the former way, in which the blurred layers are added and divided by what they cover, and this
-program's. Kernels are densities of rays on both sides, so that occlusion alone is compared.
+program's. So are random stacks of two and three layers through four lenses, with blurs of 3 to 12 pixels, by this
+program alone. Kernels are densities of rays on both sides, so that occlusion alone is compared.
 """
 
 from collections.abc import Callable
@@ -23,6 +24,8 @@ from p2sf.scene import Channel, Plan, Scene, Sensor
 from tests.support.visibility import seen_through_layers, seen_through_pupil
 
 SIDE, MARGIN, BAND = 61, 14, 9
+WIDE, STACKS = 81, 40
+LENSES = "double_gauss_28", "achromat_f6", "cooke_triplet", "tessar"
 NEAR_MM, FAR_MM, BETWEEN_MM = 2000.0, 8000.0, 3500.0
 FOCI = {"near": NEAR_MM, "between": BETWEEN_MM, "far": FAR_MM}
 GREEN = (Channel("green", (540.0,), (1.0,)),)
@@ -115,7 +118,46 @@ def _pane(made: Plan, near: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
     former = coverage_divided_out(made, mixed, np.where(near, NEAR_MM, FAR_MM))
     stack = np.stack([np.stack([pane * alpha, alpha], -1), np.stack([wall, np.ones_like(wall)], -1)])
     formed = form_image(made, stack, np.array([NEAR_MM, FAR_MM]), BLUR)[..., 0]
-    return former, formed, seen_through_layers(made, alpha, pane, wall)
+    return former, formed, seen_through_layers(made, [(alpha, pane), (np.ones_like(wall), wall)])
+
+
+def random_stack(seed: int) -> tuple[str, EdgeErrors]:
+    """Return what a random stack is, and this program's errors.
+
+    Its layers are half planes, bars and discs, a fourth of them as glass is, each with an edge of its own in colour.
+    """
+    random = np.random.default_rng(seed)
+    lens, f_number = str(random.choice(LENSES)), float(random.choice((5.6, 8.0)))
+    count, focus_mm = int(random.integers(2, 4)), float(1 / random.uniform(1 / 12000, 1 / 1200))
+    depths = np.sort(1 / random.choice(np.linspace(1 / FAR_MM, 1 / NEAR_MM, 5), count, replace=False))
+
+    def made(pixel_um: float) -> Plan:
+        sensor = Sensor(WIDE, WIDE, pixel_um)
+        scene = Scene(sensor, GREEN, *depths[[0, -1]].tolist(), focus_mm=focus_mm, f_number=f_number)
+        found = preview_plan(scene.camera(find_lens(lens)), scene)
+        return replace(found, recipe=BY_RAYS, counts=(1, 1), vergences=tuple((1 / depths[::-1]).tolist()))
+
+    rays = [made(20.0).kernels(0, float(v)).lights(0.0, 0.0)[0][0] for v in 1 / depths]
+    widest = max(float(np.hypot(each.x_um, each.y_um).max()) for each in rays)
+    planned = made(widest / random.uniform(3, 12))
+    masks = [_shape(random) for _ in depths[1:]]
+    alphas = [mask * (random.uniform(0.3, 0.9) if random.random() < 0.25 else 1.0) for mask in masks]
+    layers = [(alpha, textured(mask)) for alpha, mask in zip(alphas, masks, strict=True)]
+    layers.append((np.ones((WIDE, WIDE)), textured(_shape(random))))
+    stack = np.stack([np.stack([alpha * colour, alpha], -1) for alpha, colour in layers])
+    band = np.any([band_of(mask) for mask in masks], axis=0)
+    off = (form_image(planned, stack, depths, BLUR)[..., 0] - seen_through_layers(planned, layers))[band]
+    return f"{lens}, {count} layers", EdgeErrors(float(np.sqrt(np.mean(off**2))), float(np.abs(off).max()))
+
+
+def _shape(random: np.random.Generator) -> np.ndarray:
+    """Return where a half plane, a bar or a disc near the middle is."""
+    y, x = np.indices((WIDE, WIDE)) - WIDE // 2
+    angle, aside, wide = random.uniform(0, np.pi), random.uniform(-6, 6), random.uniform(2, 10)
+    across = x * np.cos(angle) + y * np.sin(angle) - aside
+    shapes = across > 0, abs(across) < wide / 2, np.hypot(x - aside, y) < wide
+    found: np.ndarray = shapes[int(random.integers(3))]
+    return found
 
 
 def main() -> None:
@@ -130,6 +172,10 @@ def main() -> None:
         )
     beyond = [rms for _, rms in every if rms > GOAL]
     print(f"{len(every)} edges, worst {max(rms for _, rms in every):.3f} rms; {len(beyond)} beyond {GOAL}")
+    stacks = [random_stack(seed)[1] for seed in range(STACKS)]
+    for name in ("rms", "largest"):
+        middle, most = np.quantile([getattr(each, name) for each in stacks], (0.5, 1.0))
+        print(f"{STACKS} random stacks of layers, {name}: median {middle:.4f}, worst {most:.4f}")
 
 
 if __name__ == "__main__":

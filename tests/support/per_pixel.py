@@ -8,7 +8,7 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.image.layers import map_depths
-from p2sf.image.pupil_moments import Passing, kernel_moments, pupil_landings
+from p2sf.image.pupil_moments import MOMENTS, Passing, kernel_moments, pupil_landings
 from p2sf.scene import Plan
 
 TOGETHER = 400  # pixels whose kernels are computed at once
@@ -34,13 +34,13 @@ def per_pixel_picture(
     levels = np.unique(vergence(depth_mm))
     half = widest_half(planned, levels)
     shape = (*(part.stop - part.start for part in region), 1)
-    light, covered, passing, at = 0.0, 0.0, Passing(shape), np.s_[:, :]
+    light, covered, passing = 0.0, 0.0, Passing(shape)
     for layer in map_depths(depth_mm, levels, values.shape, half).layers(values[..., None]):
         planes = np.stack([layer.colours[..., 0] * layer.opacity, layer.opacity, layer.hiding], axis=-1)
-        mean, *tilts = _spread(planned, float(levels[layer.number]), channel, planes, region, half)
-        shown = passing.seen(at, mean[..., :2], np.stack(tilts)[..., :2])
+        every = _spread(planned, float(levels[layer.number]), channel, planes, region, half)
+        shown = np.clip(np.sum(passing.values * every[..., :2], axis=0), 0, every[0, ..., :2])
         light, covered = light + shown[..., 0], covered + shown[..., 1]
-        passing.hide(at, mean[..., 2:], np.stack(tilts)[..., 2:])
+        passing.hide(np.s_[:, :], every[..., 2:])
     found: np.ndarray = light / covered
     return found
 
@@ -48,12 +48,12 @@ def per_pixel_picture(
 def _spread(planned: Plan, vergence: float, channel: int, planes: np.ndarray, region: Region, half: int) -> np.ndarray:
     """Return what a layer's pixels send into a region, each by its own kernel and then by that kernel's moments.
 
-    (1 + 2, rows, columns, planes).
+    (1 + MOMENTS, rows, columns, planes).
     """
     (top, bottom), (left, right) = ((part.start - half, part.stop + half) for part in region)
     rows, columns = np.nonzero(planes[top:bottom, left:right, 1])
     rows, columns = rows + top, columns + left
-    canvas = np.zeros((3, bottom - top + 2 * half, right - left + 2 * half, planes.shape[-1]))
+    canvas = np.zeros((1 + MOMENTS, bottom - top + 2 * half, right - left + 2 * half, planes.shape[-1]))
     sensor, kernels = planned.scene.sensor, planned.kernels(channel, vergence)
     landings = pupil_landings(planned, vergence)
     for start in range(0, len(rows), TOGETHER):
@@ -62,7 +62,8 @@ def _spread(planned: Plan, vergence: float, channel: int, planes: np.ndarray, re
         halves = np.minimum(points.half_widths(), half)
         for r, c, h, kernel in zip(row, column, halves, points.kernels(halves), strict=True):
             r0, c0 = r - top + half - h, c - left + half - h
-            moments = kernel_moments(kernel[None], landings.at(np.array([r]), np.array([c]))[0, 0])
-            every = np.concatenate([kernel[None], moments])
+            means, reach = (each[0, 0] for each in landings.at(np.array([r]), np.array([c])))
+            moments = kernel_moments(kernel[None], means, reach)
+            every = np.concatenate([kernel[None], moments[:, 0]])
             canvas[:, r0 : r0 + 2 * h + 1, c0 : c0 + 2 * h + 1] += every[..., None] * planes[r, c]
     return canvas[:, 2 * half : -2 * half, 2 * half : -2 * half]

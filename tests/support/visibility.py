@@ -1,4 +1,4 @@
-"""A picture of two depths by what each part of the pupil sees: the nearer where its ray meets it, else the farther."""
+"""A picture of a few depths by what each part of the pupil sees: the nearest that its ray meets."""
 
 import numpy as np
 
@@ -13,7 +13,8 @@ def seen_through_pupil(planned: Plan, near: np.ndarray, picture: np.ndarray) -> 
 
     Behind it the farther one goes on as the nearest pixel of the row or column, as no depth map can know.
     """
-    return seen_through_layers(planned, near.astype(float), picture, _continued(picture, near))
+    behind = np.ones_like(picture), _continued(picture, near)
+    return seen_through_layers(planned, [(near.astype(float), picture), behind])
 
 
 def _continued(picture: np.ndarray, near: np.ndarray) -> np.ndarray:
@@ -35,24 +36,29 @@ def _continued(picture: np.ndarray, near: np.ndarray) -> np.ndarray:
     return far
 
 
-def seen_through_layers(planned: Plan, alpha: np.ndarray, front: np.ndarray, behind: np.ndarray) -> np.ndarray:
-    """Return the light on every pixel, (rows, columns), without field, of a layer ``front`` and what is behind it.
+def seen_through_layers(planned: Plan, layers: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Return the light on every pixel, (rows, columns), without field, of layers from near to far: alpha and colour.
 
-    A ray that meets the front where its ``alpha`` is α has α of its light and 1 − α of the light behind.
+    Their depths are those of the plan. A ray that meets a layer where its alpha is α has α of its light, and 1 − α of
+    what is behind.
     """
-    total, shares, pixel_um = np.zeros(front.shape), 0.0, planned.scene.sensor.pixel_um
+    shape, pixel_um = layers[0][0].shape, planned.scene.sensor.pixel_um
+    total, shares = np.zeros(shape), 0.0
     wave = planned.colours[0].wavelengths_um[0]
     spreads = []
-    for vergence in planned.vergences:
+    for vergence in planned.vergences[::-1]:
         seen = planned.sensor_map(vergence)
         spreads.append(ray_spread(seen.lens, seen.source(0.0, 0.0, wave)))
-    far, near = spreads
-    for side in near.sides:
-        places = [(side * spread.x_um[EVERY] / pixel_um, spread.y_um[EVERY] / pixel_um) for spread in (near, far)]
-        (x, y), (far_x, far_y) = places
-        for light, *moves in zip(*(part.flat for part in (near.light[EVERY], x, y, far_x, far_y)), strict=True):
-            meets = _shifted(alpha, *moves[:2])
-            total += light * (meets * _shifted(front, *moves[:2]) + (1 - meets) * _shifted(behind, *moves[2:]))
+    for side in spreads[0].sides:
+        moves = [(side * spread.x_um[EVERY] / pixel_um, spread.y_um[EVERY] / pixel_um) for spread in spreads]
+        for light, *landed in zip(
+            spreads[0].light[EVERY].flat, *(part.flat for pair in moves for part in pair), strict=True
+        ):
+            left = np.full(shape, light)
+            for (alpha, colour), right, up in zip(layers, landed[::2], landed[1::2], strict=True):
+                meets = left * _shifted(alpha, right, up)
+                total += meets * _shifted(colour, right, up)
+                left = left - meets
             shares += light
     return total / shares
 
