@@ -16,11 +16,11 @@ from p2sf.image.geometry import illumination, resample, source_places
 from p2sf.image.kernel_octaves import Effort, Setting, octave_kernels
 from p2sf.image.octaves import enlarge
 from p2sf.image.region import whole
-from p2sf.image.slabs import Slab, cut_into_slabs, depth_levels, octave_powers
+from p2sf.image.slabs import DepthEdge, Slab, cut_into_slabs, depth_levels, octave_powers
 from p2sf.threads import map_threads, one_blas_thread
 
 LIGHT_HEIGHTS = 3
-MARGIN, LEAST_ERROR = 1.6, 2e-3  # of what is expected; edges of depth, rounding
+MARGIN, LEAST_ERROR = 1.6, 2e-3  # of what is expected; rounding
 ROWS_AT_ONCE = 16  # coarse rows, of which enlarged planes stay in the processor's cache
 MOVING = Effort(2, 0.5, 0.6, 20, (3, 3), 1, 0.03, 8)
 
@@ -36,6 +36,7 @@ class KeptPicture:
 
     shape: tuple[int, int]
     slabs: list[Slab]
+    edges: list[DepthEdge]
     powers: list[np.ndarray]
     contrast: float
     gradient: float
@@ -58,10 +59,10 @@ def keep(values: np.ndarray, depth_mm: np.ndarray | None, made: Setting) -> Kept
     placed = np.moveaxis(values, -1, 0)
     more = [(0, count - own) for count, own in zip((scene.sensor.rows, scene.sensor.columns), shape, strict=True)]
     placed, levels = np.pad(placed, [(0, 0), *more], mode="edge"), np.pad(levels, more, mode="edge")
-    cut = cut_into_slabs(placed, levels, halvings)
+    cut, edges = cut_into_slabs(placed, levels, halvings)
     by_slab = [np.sum([octave_powers(slab, number) for slab in cut], axis=0) for number in range(halvings)]
     powers = [4.0**number * power / levels.size for number, power in enumerate(by_slab)]
-    return KeptPicture(shape, cut, powers, float(placed.std()), _gradient(placed))
+    return KeptPicture(shape, cut, edges, powers, float(placed.std()), _gradient(placed))
 
 
 def _gradient(planes: np.ndarray) -> float:
@@ -88,7 +89,8 @@ def focused_picture(kept: KeptPicture, made: Setting, moved_px: float = 0.0) -> 
         [over_levels(each, made.depths) for each in octaves] for octaves in (kernels.gains, kernels.spreads)
     )
     parts = [_slab_components(slab, kernels.nodes, made.effort) for slab in kept.slabs]
-    error = expected_error(kept, moved_px, max(part.left for part in parts), spreads)
+    left = max(part.left for part in parts)
+    error = expected_error(kept, spreads, left, moved_px, edge_band(kept.edges, made))
     shade = illumination(made.seen, made.coarse, LIGHT_HEIGHTS)
     border = max(part.kernels.shape[-1] // 2 for part in parts)
     sensor = made.study.scene.sensor
@@ -113,16 +115,29 @@ def _slab_components(slab: Slab, nodes: KernelNodes, effort: Effort) -> KernelCo
     )
 
 
-def expected_error(kept: KeptPicture, moved_px: float, left: float, spreads: list[np.ndarray]) -> float:
+def expected_error(kept: KeptPicture, spreads: list[np.ndarray], left: float, moved_px: float, band: float) -> float:
     """Return the RMS error expected of a picture, of white, times a margin.
 
     An octave is off by what the kernels' response varies within it (``spreads``, its variance, as `over_levels` has
     it); the coarse picture by what is ``left`` of the kernels by their components, of its contrast; all of it where it
-    has moved.
+    has moved; the ``band`` along edges of depth by half of the contrast, since slabs do not cut the pupil.
     """
     moved = (moved_px * kept.gradient) ** 2
     octaves = sum(float(power @ spread.mean((0, 1, 2))) for power, spread in zip(kept.powers, spreads, strict=True))
-    return float(MARGIN * np.sqrt(octaves + (left * kept.contrast) ** 2 + moved + LEAST_ERROR**2))
+    contrast = (left**2 + band / 4) * kept.contrast**2
+    return float(MARGIN * np.sqrt(octaves + contrast + moved + LEAST_ERROR**2))
+
+
+def edge_band(edges: list[DepthEdge], made: Setting) -> float:
+    """Return the share of pixels beside edges of depth that are nearer to these than the blur on either side reaches.
+
+    With the focus on one side the picture is right: a sharp edge cuts no pupil, and blurs over what is sharp.
+    """
+    pixel = made.study.scene.sensor.pixel_um
+    return sum(
+        edge.share * 2 * float(np.interp([edge.behind, edge.before], made.depths, made.radii_um).min()) / pixel
+        for edge in edges
+    )
 
 
 def _blurred(

@@ -18,7 +18,6 @@ from p2sf.pixel_kernels import Recipe, SensorMap
 from p2sf.pixel_kernels.channel import Colour, PointLights
 from p2sf.pixel_kernels.landing_light import landing_kernels
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.pixel_kernels.pixels import samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
 from p2sf.scene.planning.adaptive_table import PupilAt
@@ -33,8 +32,9 @@ from p2sf.threads import map_threads, one_blas_thread
 FITS, SIDES = (5, 3, 3), 3
 SCAN = 65  # depths at which the blur's width is found
 SHARP_PX = 4.0  # a blur of a larger radius leaves nothing of the finest octave
-MOST_SAMPLES = 8  # of λ/2NA across a pixel: it hides what diffraction adds to more
-WIDE = 48  # of these, in half of a kernel: rays land as waves do
+# Of λ/2NA: across pixels that hide what diffraction adds to more, across those that hide its fringes, and in the radius
+# of a blur to which it adds nothing else. There rays land as waves do.
+MOST_SAMPLES, FEWEST_SAMPLES, WIDE = 8, 2, 24
 FEWER_NODES = 1.25  # times so much blur from one depth node to the next, until they are not too many
 
 
@@ -223,8 +223,8 @@ def _mixed(made: Setting, grid: np.ndarray, colour: Colour, pitch_um: float) -> 
     pupils, shifts = made.table.at(across, up, depths, np.repeat(colour.wavelengths_um, len(grid)))
     lights = PointLights(pupils, 0 * angles, shifts * UM_PER_MM).turned(angles)
     halves = np.tile(lights.half_widths(pitch_um).reshape(waves, -1).max(0), waves)
-    samples = samples_each(pupils, pitch_um)
-    by_rays = pupils.mask.clear & ((samples > MOST_SAMPLES) | (samples * halves > WIDE))
+    across, reach = (2 * pupils.radius * length for length in (pitch_um, pupils.reach_um))
+    by_rays = pupils.mask.clear & ((across > MOST_SAMPLES) | ((across > FEWEST_SAMPLES) & (reach > WIDE)))
     kernels = [np.empty(0)] * len(pupils)
     for chosen, how in ((by_rays, _by_rays), (~by_rays, _by_waves)):
         at = np.flatnonzero(chosen)

@@ -6,6 +6,7 @@ its row or column that is not hidden (as in `layers`). A surface that only slope
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -81,15 +82,38 @@ def cuts(levels: np.ndarray) -> list[int]:
     return sorted(found)
 
 
-def cut_into_slabs(values: np.ndarray, levels: np.ndarray, halvings: int) -> list[Slab]:
-    """Return the slabs of a picture from far to near, in pixels that are halved so often.
+class DepthEdge(NamedTuple):
+    """An edge of depth: the ``share`` of pixels that lie along it, and the mean levels ``behind`` and ``before`` it."""
+
+    share: float
+    behind: float
+    before: float
+
+
+def depth_edges(levels: np.ndarray, starts: list[int]) -> list[DepthEdge]:
+    """Return the edges between slabs that begin at these levels, but for the farthest one."""
+    found = []
+    for start in starts[1:]:
+        near = levels >= start
+        sides = [
+            (near[1:] != near[:-1], levels[1:], levels[:-1]),
+            (near[:, 1:] != near[:, :-1], levels[:, 1:], levels[:, :-1]),
+        ]
+        pairs = np.concatenate([np.stack([one[at], two[at]]) for at, one, two in sides], axis=1)
+        found.append(
+            DepthEdge(pairs.shape[1] / levels.size, *(float(end.mean()) for end in (pairs.min(0), pairs.max(0))))
+        )
+    return found
+
+
+def cut_into_slabs(values: np.ndarray, levels: np.ndarray, halvings: int) -> tuple[list[Slab], list[DepthEdge]]:
+    """Return the slabs of a picture from far to near, in pixels that are halved so often, and the edges between them.
 
     ``values`` (channels, rows, columns) and ``levels`` (rows, columns) have whole numbers of coarse pixels.
     """
     starts = [0, *cuts(levels)]
-    return [
-        _slab(values, levels, start, end, halvings) for start, end in zip(starts, [*starts[1:], LEVELS], strict=True)
-    ]
+    ends = zip(starts, [*starts[1:], LEVELS], strict=True)
+    return [_slab(values, levels, *pair, halvings) for pair in ends], depth_edges(levels, starts)
 
 
 def _slab(values: np.ndarray, levels: np.ndarray, start: int, end: int, halvings: int) -> Slab:

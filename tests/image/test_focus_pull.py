@@ -75,7 +75,9 @@ def test_depth_is_cut_between_the_sides_of_its_jumps_and_slopes_are_not_cut():
 
 def test_what_is_hidden_takes_colour_and_depth_of_what_is_beside_it():
     values = np.where(disc(), 0.9, 0.2)[None].repeat(3, 0).astype(np.float32)
-    far, near = cut_into_slabs(values, np.where(disc(), 511, 40), 2)
+    (far, near), (edge,) = cut_into_slabs(values, np.where(disc(), 511, 40), 2)
+    assert (edge.behind, edge.before) == (40, 511)
+    assert edge.share * disc().size == pytest.approx(8 * 26, rel=0.05)  # rows and columns that a circle crosses, twice
     assert np.allclose(far.planes, 0.2) and (far.level == 40).all() and len(far.planes) == 3
     assert np.allclose(near.planes[0], 0.9 * near.planes[3], atol=1e-6)  # premultiplied
     top, left = near.box[0].start, near.box[1].start
