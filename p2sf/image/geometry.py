@@ -58,21 +58,25 @@ def source_places(seen: SensorMap, sensor: Sensor, region: Region) -> np.ndarray
     """
     if distortion_px(seen, sensor) <= VISIBLE_PX:
         return None
-    rows, columns = (np.linspace(n[0], n[-1], -(-len(n) // EVERY_PX) + 1) for n in (region.rows, region.columns))
+    # Places are the same for every region, so that those of two tiles join.
+    rows, columns = (
+        EVERY_PX * np.arange(n[0] // EVERY_PX, -(-n[-1] // EVERY_PX) + 1) for n in (region.rows, region.columns)
+    )
     across, up = seen.ideal_mm(sensor.x_mm(columns), sensor.y_mm(rows)[:, None])
     column = (across - sensor.centre_mm[0]) / sensor.pixel_mm + (sensor.columns - 1) / 2
     row = (sensor.rows - 1) / 2 - (up - sensor.centre_mm[1]) / sensor.pixel_mm
-    return np.stack([_between(each.astype(np.float32), *region.shape) for each in (row, column)])
+    inside = region.within(Region(int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1))
+    return np.stack([_between(each.astype(np.float32))[inside] for each in (row, column)])
 
 
-def _between(grid: np.ndarray, rows: int, columns: int) -> np.ndarray:
-    """Return values on an even grid from the first pixel to the last, linear between, (rows, columns)."""
-    return _lines_between(np.ascontiguousarray(_lines_between(grid.T, columns).T), rows)
+def _between(grid: np.ndarray) -> np.ndarray:
+    """Return values on a grid of every EVERY_PX-th pixel at all pixels, linear between."""
+    return _lines_between(np.ascontiguousarray(_lines_between(grid.T).T))
 
 
-def _lines_between(lines: np.ndarray, count: int) -> np.ndarray:
-    """Return ``count`` lines from the first to the last, linear between those that are given."""
-    place = np.linspace(0, len(lines) - 1, count, dtype=np.float32)
+def _lines_between(lines: np.ndarray) -> np.ndarray:
+    """Return EVERY_PX lines for each that is given, linear to the next, and the last."""
+    place = np.arange(EVERY_PX * (len(lines) - 1) + 1, dtype=np.float32) / EVERY_PX
     first = np.minimum(place.astype(int), max(len(lines) - 2, 0))
     found: np.ndarray = np.diff(lines, axis=0, append=lines[-1:])[first]
     found *= (place - first)[:, None]
