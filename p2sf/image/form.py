@@ -350,8 +350,9 @@ class _Former:
             through = [passing.values[0][at] * part[..., k : k + count] for k in (0, count)]
             hidden = [part[..., 2 * count :]]
             first = 0 if passing.cut else 2 * count  # before any silhouette, moments of what hides are enough
-            if passing.cut:
-                planes = planes * passing.near_moments(self.half)[box.within(reach)][..., None]
+            if passing.cut:  # its own silhouettes count everywhere
+                near = passing.near_moments(self.half)[box.within(reach)][..., None]
+                planes = np.concatenate([planes[..., : 2 * count] * near, planes[..., 2 * count :]], -1)
             for j, every in enumerate(self._moments(number, planes[..., first:], box, colours[first:]), 1):
                 moment = every[seen.within(spread)]
                 hidden.append(moment[..., 2 * count - first :])

@@ -306,7 +306,8 @@ def print_table(found: dict) -> None:
 
 def print_plans(found: dict) -> None:
     """Print the plans' errors over ε, and how many pictures other programs make better, and sooner too."""
-    errors = {each: relative_error(found, *each) for each in found if ("reference", *each[1:]) in found}
+    compared = [each for each in found if each[0] != "reference" and ("reference", *each[1:]) in found]
+    errors = {each: relative_error(found, *each) for each in compared}
     shares = [error / PLANS[name] for (name, *_), error in errors.items() if name in PLANS]
     text = ", ".join(f"{q:.0%} {share:.2f}" for q, share in zip(QUANTILES, np.quantile(shares, QUANTILES), strict=True))
     print(f"{len(shares)} pictures by plans, error / ε: {text}")

@@ -89,6 +89,19 @@ def test_what_is_hidden_between_two_nodes_is_divided_between_them_as_what_is_see
         assert layer.hiding[0] == pytest.approx(np.full(5, hiding), abs=1e-6)
 
 
+def test_an_edge_is_the_same_whatever_nearer_edges_are_far_away():
+    """Of two posts at two depths before a textured wall, the farther one is seen as if it stood alone."""
+    made = planned(8000.0, tuple(np.linspace(1 / 12000.0, 1 / 4000.0, 3).tolist()))
+    made = replace(made, scene=replace(made.scene, sensor=Sensor(21, 81, 20.0)), counts=(1, 1))
+    values = np.random.default_rng(3).random((21, 81, 1)).astype(np.float32)
+    depth = np.full((21, 81), 12000.0)
+    depth[:, 60:66] = 6000.0
+    alone = form_image(made, values, depth, BLUR)
+    depth[:, 6:12] = 4000.0
+    both = form_image(made, values, depth, BLUR)
+    np.testing.assert_allclose(both[:, 45:], alone[:, 45:], atol=1e-5)
+
+
 @pytest.mark.parametrize("as_layers", [False, True])
 def test_even_light_stays_even_at_edges_of_depth_in_every_colour(as_layers):
     """A layer covers and hides as its light spreads: by each colour's own kernels, which axial colour tells apart."""
