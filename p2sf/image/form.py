@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import groupby
+from itertools import groupby, product
 from math import inf
 from threading import Lock
 from typing import Any
@@ -35,7 +35,7 @@ from p2sf.image.lowrank import LowRank, decompose, low_rank_blur
 from p2sf.image.progress import Progress
 from p2sf.image.pupil_moments import MOMENTS, Passing, PupilLandings, moments_of, pupil_landings
 from p2sf.image.region import Region, check_region, tiles, whole
-from p2sf.image.structure import FLAT, steepest, structured_parts
+from p2sf.image.structure import FLAT, centroid_px, change_of_shade, structured_parts
 from p2sf.messages import Alternatives, ParameterName
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
@@ -311,12 +311,19 @@ class _Former:
         """Return the pixels of the picture from which kernels reach a part."""
         return part.grown(self.half).meet(whole(self.picture.shape))
 
+    @cached_property
+    def off_px(self) -> float:
+        """Return the farthest centroid of a kernel, pixels: twice that in corners, at the ends of depth."""
+        last = tuple(n - 1 for n in self.picture.shape[:2])
+        places = product({0, len(self.planned.vergences) - 1}, ((0, 0), last))
+        return 2 * max(centroid_px(self.kernels.at(number, *corner)) for number, corner in places)
+
     def _structured(self, tile: Region, placed: "_Placing") -> list[Region]:
         """Return the parts of a tile that must be blurred: all of it where light is halos or a black surround's."""
         dark = self.how.surround != "edge" and placed.inside != tile.grown(self.half)
         if dark or has_halos(self.planned):
             return [tile]
-        allowed = FLAT * self.planned.allowed_error - self.half * placed.steepest
+        allowed = FLAT * self.planned.allowed_error - placed.change_of_shade
         return structured_parts(placed.moved, placed.inside, tile, self.half, allowed) if allowed > 0 else [tile]
 
     def _blurred(self, part: Region, placed: "_Placing") -> np.ndarray:
@@ -440,9 +447,10 @@ class _Placing:
         return self._shaded(self.moved, self.inside)
 
     @property
-    def steepest(self) -> float:
-        """Return the largest relative change of the illumination from one pixel to the next."""
-        return 0.0 if self._shade is None else steepest(self._shade[..., 0])
+    def change_of_shade(self) -> float:
+        """Return the largest relative change of the illumination by any kernel."""
+        former = self._former
+        return 0.0 if self._shade is None else change_of_shade(self._shade[..., 0], former.half, former.off_px)
 
     def bright(self, tile: Region) -> BrightLight:
         """Return the light of a tile that has halos."""

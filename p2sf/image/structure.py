@@ -3,16 +3,17 @@
 A kernel without negative values and of unit sum makes of every pixel a weighted mean of those within its reach. So the
 blurred pixel lies between the least and the greatest of these, as the pixel itself does, and the two differ by no more
 than the range of the picture there, whichever the kernel. Where that range is small enough, a pixel remains as it is.
-Relative illumination is smooth: over the reach of a kernel it changes by no more than its slope times that.
+Relative illumination is smooth: by Taylor's theorem a kernel changes it by its slope times the distance of the kernel's
+centroid, and by its bend times the square of the reach.
 """
 
-from math import ceil
+from math import ceil, inf
 
 import numpy as np
 
 from p2sf.image.region import Region
 
-TINY = 1e-30
+TINY, MOST_ORDER = 1e-30, 3
 BLOCK, SHORTEST = 8, 4  # pixels a side of what has structure or has none; blocks a side that are not halved
 FLAT = 1 / 3  # of the tolerance: the range of light, relative to the dimmest within reach, that counts as flat
 
@@ -36,10 +37,26 @@ def structured_parts(values: np.ndarray, given: Region, tile: Region, half: int,
     ]
 
 
-def steepest(shade: np.ndarray) -> float:
-    """Return the largest relative change of the illumination, (rows, columns), from a pixel to the next diagonally."""
-    steps = (float(np.abs(np.diff(shade, axis=axis)).max(initial=0)) for axis in (0, 1))
-    return sum(steps) / max(float(shade.min()), TINY)
+def change_of_shade(shade: np.ndarray, half: int, off_px: float) -> float:
+    """Return the largest relative change of the illumination, (rows, columns), by kernels, from Taylor's theorem.
+
+    The kernels reach ``half`` pixels along rows and columns, and their centroids are ``off_px`` from their middle.
+    """
+    step = max(1, half // 2)  # finer differences are rounding
+    coarse = shade[::step, ::step].astype(float)
+    if min(coarse.shape) < MOST_ORDER:
+        return inf
+    slopes = [np.diff(coarse, axis=axis) / step for axis in (0, 1)]
+    bends = [np.diff(slope, axis=axis) / step for slope, axis in ((slopes[0], 0), (slopes[1], 1), (slopes[0], 1))]
+    down, right, both = (float(np.abs(bend).max()) for bend in bends)
+    slope = float(np.hypot(*(np.abs(slope).max() for slope in slopes)))
+    return (slope * off_px + half**2 / 2 * (down + right + 2 * both)) / max(float(shade.min()), TINY)
+
+
+def centroid_px(kernels: np.ndarray) -> float:
+    """Return how far the centroid of any kernel, (channels, size, size), is from its middle, pixels."""
+    at = np.arange(kernels.shape[-1]) - kernels.shape[-1] // 2
+    return float(np.hypot(kernels.sum(1) @ at, kernels.sum(2) @ at).max())
 
 
 def _of_blocks(values: np.ndarray, end: np.ufunc) -> np.ndarray:

@@ -22,7 +22,7 @@ from p2sf.scene import Scene, Sensor, plan
 from tests.support.depth_scenes import leaves, posts, stairs
 
 LENS, WIDTH_MM, NEAR, FAR, F_NUMBER = "wide_angle_35", 30.0, 1000.0, 1e5, 8.0
-MEGAPIXELS, QUICK = 1.5, 0.06
+MEGAPIXELS, QUICK = 0.5, 0.06
 COUNTING = {"full_well": 400.0, "read_noise": 4.0, "bits": 10}
 
 Picture = tuple[np.ndarray, np.ndarray]

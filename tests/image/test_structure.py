@@ -6,7 +6,7 @@ from scipy.ndimage import convolve, gaussian_filter, maximum_filter, minimum_fil
 
 from p2sf.image import Forming, form, form_image
 from p2sf.image.region import Region, whole
-from p2sf.image.structure import steepest, structured_parts
+from p2sf.image.structure import centroid_px, change_of_shade, structured_parts
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan
 from tests.benchmarks.content import CASES, run
@@ -79,12 +79,36 @@ def test_all_of_a_texture_is_one_part_and_an_even_picture_has_none():
     assert structured_parts(np.full_like(values, 0.7), given, given, HALF, 0.0) == []
 
 
-def test_the_slope_of_illumination_bounds_its_change_over_a_reach():
-    row, column = np.indices((50, 60))
-    shade = np.exp(-((row - 10) ** 2 + (column - 5) ** 2) / 4000)
-    size = 2 * HALF + 1
-    change = maximum_filter(shade, size) - shade
-    assert (change <= HALF * steepest(shade) * shade.max()).all()
+@pytest.mark.parametrize("half", [1, 3, 8])
+def test_kernels_change_the_illumination_by_no_more_than_by_taylors_theorem(half):
+    row, column = np.indices((120, 150))
+    shade = 1 / (1 + ((row - 30) ** 2 + (column - 100) ** 2) / 200**2) ** 2
+    random = np.random.default_rng(5)
+    for lean in (0.0, 0.5, 3.0):
+        kernel = random.random((2 * half + 1, 2 * half + 1)) ** 6 * np.exp(lean * np.linspace(0, 1, 2 * half + 1))
+        kernel /= kernel.sum()
+        off_px = centroid_px(kernel[None])
+        change = np.abs(convolve(shade, kernel[::-1, ::-1]) - shade)[half:-half, half:-half] / shade.min()
+        bound = change_of_shade(shade.astype(np.float32), half, off_px)
+        assert change.max() <= bound * (1 + 1e-3)
+    steepest = np.abs(np.diff(shade, axis=0)).max() / shade.min()
+    assert change_of_shade(shade, half, 0.0) < 0.4 * half * steepest  # that of a kernel with its light at one end
+    assert change_of_shade(shade[:2, :2], half, off_px) == np.inf
+
+
+def test_a_centroid_is_the_mean_place_of_the_light():
+    kernels = np.zeros((2, 5, 5))
+    kernels[0, 2, 2], kernels[1, 2, 4], kernels[1, 0, 2] = 1.0, 0.5, 0.5
+    assert centroid_px(kernels) == pytest.approx(np.sqrt(2))
+    assert centroid_px(kernels[:1]) == 0
+
+
+@pytest.mark.parametrize(("step", "parts"), [(0.0099, 0), (0.0101, 1)])
+def test_a_step_is_flat_up_to_what_is_allowed(step, parts):
+    values = np.full((80, 80, 1), 0.5)
+    values[:, 40:] *= 1 + step
+    given = whole(values.shape)
+    assert len(structured_parts(values, given, given, HALF, 0.01)) == parts
 
 
 def test_what_is_flat_changes_by_no_more_than_allowed_and_takes_no_kernels(studio, planned, monkeypatch):

@@ -93,6 +93,8 @@ def test_an_edge_across_a_gap_hides_what_is_behind_it():
     assert map_depths(depth, nodes, depth.shape, half=1, fold=0.1).hiding.any()
     slope = np.repeat(np.array([[12000.0, 11400.0, 10700.0, 10000.0]]), 4, axis=0)
     assert not map_depths(slope, nodes, slope.shape, half=1, fold=0.1).hiding.any()
+    gentle = np.repeat(np.array([[11000.0, 10800.0, 10600.0, 10400.0]]), 4, axis=0)  # a fifth of a node a pixel
+    assert not map_depths(gentle, nodes, gentle.shape, half=1).hiding.any()
 
 
 def test_depths_in_a_gap_or_beyond_the_ends_are_refused():
