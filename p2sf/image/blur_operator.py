@@ -47,6 +47,7 @@ class BlurOperator:
 
     ``channels``: the channel whose kernels blur each plane; by default there are as many planes as channels. ``kind``:
     float32, whose rounding is some 1e-7 of the brightest pixel, or float64.
+    ``sources``: which plane each of the channels blurs, where one is blurred by several, by `spread` alone.
     ``threads`` (`p2sf.threads`) share the blocks; the result is identical to the last bit for any number.
     """
 
@@ -54,6 +55,7 @@ class BlurOperator:
     shape: tuple[int, int]
     threads: int | None = None
     channels: tuple[int, ...] | None = None
+    sources: tuple[int, ...] | None = None
     kind: type[np.floating] = np.float32
 
     def forward(self, values: np.ndarray) -> np.ndarray:
@@ -68,7 +70,7 @@ class BlurOperator:
         ``watch`` is asked for cancellation at every block.
         """
         half, planes = self.lattice.half, np.moveaxis(np.asarray(values, self.kind), -1, 0)
-        out = np.zeros((len(planes), *(n + 2 * half for n in self.shape)), self.kind)
+        out = np.zeros((len(self.sources or planes), *(n + 2 * half for n in self.shape)), self.kind)
 
         def take(found: tuple[int, np.ndarray, np.ndarray]) -> None:
             row, columns, blurred = found
@@ -116,6 +118,8 @@ class BlurOperator:
         total: np.ndarray | None = None
         for node, weight in enumerate(rows.weights[row]):
             spectra = scipy.fft.fft(half_done * weight[:, None], rows.fast, axis=-2, overwrite_x=True)
+            if self.sources:
+                spectra = spectra[:, :, list(self.sources)]
             self._times_kernels(spectra, row, node, columns)
             part = spectra.sum(1)
             total = part if total is None else np.add(total, part, out=total)

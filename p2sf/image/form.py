@@ -261,13 +261,15 @@ class DepthKernels:
             if (number, moment) not in self._low_ranks:
                 sensor, tolerance = self._planned.scene.sensor, RANK_TOLERANCE * self._planned.allowed_error
                 every = whole((sensor.rows, sensor.columns))
-                lattice = self.over(number, every) if moment is None else self.moments(number, every)[moment]
+                lattice = self.over(number, every) if moment is None else self.moments(number, every)
+                first, count = moment or 0, len(self._planned.colours)
+                channels = range(count * first, count * (first + 1))
                 self._low_ranks[number, moment] = map_threads(
-                    lambda channel: decompose(lattice, channel, tolerance), range(lattice.channels)
+                    lambda channel: decompose(lattice, channel, tolerance), channels
                 )
             return self._low_ranks[number, moment]
 
-    def moments(self, number: int, region: Region) -> list[Lattice]:
+    def moments(self, number: int, region: Region) -> Lattice:
         """Return the moments over the pupil of these kernels, see `moments_of`."""
         with self._lock:
             if number not in self._landings:
@@ -353,22 +355,19 @@ class _Former:
             seen = spread.meet(tile)
             if seen.empty:
                 continue
-            part, at = blurred[seen.within(spread)], seen.within(tile)
-            through = [passing.values[0][at] * part[..., k : k + count] for k in (0, count)]
-            hidden = [part[..., 2 * count :]]
-            first = 0 if passing.cut else 2 * count  # before any silhouette, moments of what hides are enough
-            if passing.cut:  # its own silhouettes count everywhere
-                near = passing.near_moments(self.half)[box.within(reach)][..., None]
-                planes = np.concatenate([planes[..., : 2 * count] * near, planes[..., 2 * count :]], -1)
-            for j, every in enumerate(self._moments(number, planes[..., first:], box, colours[first:]), 1):
-                moment = every[seen.within(spread)]
-                hidden.append(moment[..., 2 * count - first :])
-                for k, total in zip((0, count), through if passing.cut else (), strict=False):
-                    total += passing.values[j][at] * moment[..., k : k + count]
-            for k, total, of_layer in ((0, light, through[0]), (count, covered, through[1])):
-                total[at] += np.clip(of_layer, 0, part[..., k : k + count]) if passing.cut else of_layer
-            if planes.shape[-1] > 2 * count:
-                passing.hide(at, hidden)
+            inner, at = seen.within(spread), seen.within(tile)
+            part, hides = blurred[inner], planes.shape[-1] > 2 * count
+            moments = self._moments(number, box) if passing.cut or hides else None
+            near = passing.near_moments(self.half)[box.within(reach)][..., None] if passing.cut else None
+            for k, total in ((0, light), (count, covered)):
+                own = part[..., k : k + count]
+                through = passing.values[0][at] * own
+                if moments and near is not None:
+                    every = moments(planes[..., k : k + count] * near)[:, *inner]
+                    through = np.clip(through + (passing.values[1:, *at] * every).sum(0), 0, own)
+                total[at] += through
+            if moments and hides:
+                passing.hide(at, [part[..., 2 * count :], *moments(planes[..., 2 * count :])[:, *inner]])
         return light, covered
 
     def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:
@@ -394,25 +393,32 @@ class _Former:
             blurred = low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
             return blurred, box.grown(parts[0].mean.shape[0] // 2)
         lattice = self.kernels.over(number, box)
-        return self._spread(lattice, planes, channels), box.grown(lattice.half)
+        operator = BlurOperator(lattice, box.shape, channels=channels, kind=self._kind)
+        return operator.spread(planes, self.watch), box.grown(lattice.half)
 
-    def _moments(self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...]) -> Iterator[np.ndarray]:
-        """Yield the moments over the pupil of planes blurred as by `_blur`, one after the other; none of no planes."""
-        if not channels:
-            return
+    def _moments(self, number: int, box: Region) -> Callable[[np.ndarray], np.ndarray]:
+        """Return the function from planes of a box, one of each colour, to their moments over the pupil.
+
+        These are (MOMENTS, rows, columns, colours), blurred as by `_blur`.
+        """
+        count = self.picture.shape[-1]
         if self.how.method == "lowrank":
-            for moment in range(MOMENTS):
-                parts = self.kernels.low_rank(number, moment)
-                yield low_rank_blur(planes, [parts[channel] for channel in channels], self.watch, box)
-            return
-        for lattice in self.kernels.moments(number, box):
-            yield self._spread(lattice, planes, channels)
+            parts = [self.kernels.low_rank(number, moment) for moment in range(MOMENTS)]
+            return lambda planes: np.stack([low_rank_blur(planes, part, self.watch, box) for part in parts])
+        every, sources = tuple(range(MOMENTS * count)), tuple(range(count)) * MOMENTS
+        lattice = self.kernels.moments(number, box)
+        operator = BlurOperator(lattice, box.shape, channels=every, sources=sources, kind=self._kind)
 
-    def _spread(self, lattice: Lattice, planes: np.ndarray, channels: tuple[int, ...]) -> np.ndarray:
-        """Return planes blurred by a lattice over them, with all light."""
-        # Halos are far below the rounding of float32 beside very bright light.
-        kind = np.float64 if has_halos(self.planned) else np.float32
-        return BlurOperator(lattice, planes.shape[:2], channels=channels, kind=kind).spread(planes, self.watch)
+        def of_planes(planes: np.ndarray) -> np.ndarray:
+            blurred = operator.spread(planes, self.watch)
+            return np.moveaxis(blurred.reshape(*blurred.shape[:2], MOMENTS, count), 2, 0)
+
+        return of_planes
+
+    @property
+    def _kind(self) -> type[np.floating]:
+        """Return the numbers of sums: halos are far below the rounding of float32 beside very bright light."""
+        return np.float64 if has_halos(self.planned) else np.float32
 
 
 class _Placing:

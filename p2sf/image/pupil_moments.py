@@ -81,15 +81,17 @@ def powers(place: np.ndarray) -> np.ndarray:
     return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y])
 
 
-def moments_of(lattice: Lattice, region: Region, landings: PupilLandings) -> list[Lattice]:
-    """Return the lattice over a region with a moment of each kernel in place of it, for each of MOMENTS functions."""
+def moments_of(lattice: Lattice, region: Region, landings: PupilLandings) -> Lattice:
+    """Return the lattice over a region with the moments of each kernel in place of it.
+
+    Its channels are all those of the kernels for the first moment, then for the next.
+    """
     means, reaches = landings.at(lattice.row_nodes + region.top, lattice.column_nodes + region.left)
     kernels = [
-        [kernel_moments(*each) for each in zip(line, *about, strict=True)]
+        [kernel_moments(*each).reshape(-1, *each[0].shape[1:]) for each in zip(line, *about, strict=True)]
         for line, *about in zip(lattice.kernels, means, reaches, strict=True)
     ]
-    lines = ([[each[j] for each in line] for line in kernels] for j in range(MOMENTS))
-    return [Lattice(lattice.row_nodes, lattice.column_nodes, every) for every in lines]
+    return Lattice(lattice.row_nodes, lattice.column_nodes, kernels)
 
 
 def kernel_moments(kernel: np.ndarray, means: np.ndarray, reach: float) -> np.ndarray:
