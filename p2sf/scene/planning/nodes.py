@@ -41,14 +41,16 @@ class Between:
 
 def worst_errors(study: Study, groups: Sequence[Sequence[Between]]) -> list[float]:
     """Return the worst error of interpolation in each group, 0 in none; all kernels are computed together."""
-    spots = [(one.colour, spot) for group in groups for one in group for spot in (one.true, *one.nodes)]
+    each = list(dict.fromkeys(one for group in groups for one in group))
+    spots = list(dict.fromkeys((one.colour, spot) for one in each for spot in (one.true, *one.nodes)))
     kernels = dict(zip(spots, study.channel_kernels(spots), strict=True))
 
     def error(one: Between) -> float:
         between = weighted_sum([kernels[one.colour, spot] for spot in one.nodes], one.weights)
         return distance(between, kernels[one.colour, one.true])
 
-    return [max(map(error, group), default=0.0) for group in groups]
+    errors = {one: error(one) for one in each}
+    return [max((errors[one] for one in group), default=0.0) for group in groups]
 
 
 def field_counts(study: Study, number: int) -> tuple[int, int]:

@@ -54,7 +54,7 @@ from p2sf.threads import one_blas_thread
 SHARES = {"method": 0.1, "sampling": 0.2, "field": 0.43, "depth": 0.48, "colour": 0.3, "pupils": 0.14}
 FIELD_ALONE = 0.5  # the share of the field in a scene of one depth
 SHARPER = 1.1  # factor by which kernels between those examined may be sharper
-SAFETY = 1.3  # for points between those where an error was measured
+SAFETY = 1.2  # for points between those where an error was measured
 
 
 @dataclass(frozen=True)

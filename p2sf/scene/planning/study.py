@@ -351,6 +351,8 @@ def pad_kernel(kernel: np.ndarray, size: int) -> np.ndarray:
 
 def weighted_sum(kernels: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
     """Return a weighted sum of kernels of different sizes."""
+    if len(kernels) == 1 and weights[0] == 1:
+        return kernels[0]
     total = np.zeros(2 * [max(kernel.shape[-1] for kernel in kernels)], np.float32)
     for kernel, weight in zip(kernels, weights, strict=True):
         edge = (len(total) - kernel.shape[-1]) // 2
