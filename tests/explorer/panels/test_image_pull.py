@@ -161,9 +161,10 @@ def test_a_photo_takes_its_own_depths_with_it(window, image_panel, monkeypatch, 
 
 
 @pytest.mark.slow
-def test_the_badge_says_no_less_than_the_error_of_the_benchmark(tmp_path):
+@pytest.mark.parametrize(("drag", "lens"), [("focus", "cooke_triplet"), ("f-number", "tessar"), ("zoom", "zoom_3x")])
+def test_the_badge_says_no_less_than_the_error_of_the_benchmark(tmp_path, drag, lens):
     """The short form of ``python -m tests.benchmarks.focus_pull``."""
     scenes = focus_pull.SCENES | {"star before a landscape": focus_pull.star_before_a_landscape(tmp_path, (208, 312))}
     for scene in scenes.items():
-        found = focus_pull.row("focus", "cooke_triplet", scene, (230, 330), 0.05, False)
+        found = focus_pull.row(drag, lens, scene, (230, 330), 0.05, False)
         assert found.shape == (208, 312) and 0 < found.true <= found.stated
