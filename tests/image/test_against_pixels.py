@@ -10,7 +10,7 @@ from p2sf.image import form_image
 from p2sf.scene.planning.study import distance
 from p2sf.scene.planning.verify import planned_kernel
 from tests.benchmarks.image_simulation import BLUR, CAMERAS, for_reference
-from tests.long.depth_edges import GOAL, PANE, configurations, edge_errors
+from tests.long.depth_edges import GOAL, PANE, configurations, edge_errors, random_stack
 from tests.long.picture_crops import PLANS, crop_errors
 from tests.support.depth_scenes import SCENES
 from tests.support.per_pixel import per_pixel_picture, widest_half
@@ -32,6 +32,12 @@ def test_edges_are_right_to_a_hundredth_where_coverage_was_far_off(shape, focus,
     former, now = edge_errors(shape, focus)
     assert now.rms < GOAL and now.largest < 3 * GOAL and former.rms > better * now.rms
     assert len(configurations()) == 20
+
+
+def test_three_layers_of_an_aberrated_lens_are_right_to_a_hundredth():
+    """Of the random stacks the one that was farthest off, by 0.017, by moments that knew nothing of aberrations."""
+    about, now = random_stack(32)
+    assert about == "tessar, 3 layers" and now.rms < GOAL
 
 
 @pytest.mark.parametrize("number", range(len(PLANS)))
