@@ -30,6 +30,7 @@ WANTED = {
     **dict.fromkeys(("float", "int", "Real"), "a number"),
     **dict.fromkeys(("bool", "bool_"), "True or False"),
     "str": "a text",
+    "tuple": "a tuple",
     "Aperture": "a p2sf.Aperture or an f-number",
     "PathLike": "a path",
     "Lens": "what p2sf.load_lens returns",
@@ -130,7 +131,7 @@ def argument(name: str, value: Any, annotation: Any) -> Any:
     Raises RequestError for a value of a type that the annotation excludes; whatever the annotation allows passes.
     """
     kinds, part = _kinds(annotation)
-    if part is not None and not isinstance(value, str):
+    if part is not None and not isinstance(value, str) and not (value is None and NoneType in kinds):
         return _tuple_of(name, value, part)
     if isinstance(value, kinds or object) and (type(value) in PLAIN or not _has_unit(value)):
         return value
@@ -159,8 +160,9 @@ def _kinds(annotation: Any) -> tuple[Kinds, Any]:
     """
     origin = get_origin(annotation)
     if origin in (Union, UnionType):
-        parts = [_kinds(part)[0] for part in get_args(annotation)]
-        return (tuple(kind for part in parts for kind in part) if all(parts) else ()), None
+        members = [_kinds(part) for part in get_args(annotation) if part is not NoneType]
+        kinds = tuple(kind for each, _ in members for kind in each) + (NoneType,) * (NoneType in get_args(annotation))
+        return (kinds, members[0][1] if len(members) == 1 else None) if all(each for each, _ in members) else ((), None)
     kind = CLASSES.get(annotation, annotation if origin is None else origin)
     several = kind if isinstance(kind, tuple) else (kind,)
     usable = all(isinstance(each, type) and not getattr(each, "_is_protocol", False) for each in several)

@@ -70,11 +70,13 @@ def test_a_small_region_takes_fewer_kernels(planned, picture, monkeypatch):
 
 def test_python_takes_rows_and_columns(planned, picture):
     top, bottom, left, right = PART
-    part = p2sf.form_image(planned, *picture, region=PART)
+    part = p2sf.form_image(planned, *picture, region=list(PART))
     assert part == pytest.approx(p2sf.form_image(planned, *picture)[top:bottom, left:right], abs=2e-6)
 
 
-@pytest.mark.parametrize("part", [(0, 121, 0, 10), (5, 5, 0, 10), (-1, 10, 0, 10), (0, 10, 0.5, 10), (0, 10, 3)])
+@pytest.mark.parametrize(
+    "part", [(0, 121, 0, 10), (5, 5, 0, 10), (-1, 10, 0, 10), (0, 10, 0.5, 10), (0, 10, 3), "rows", (None,) * 4]
+)
 def test_a_region_that_is_no_part_of_the_picture_is_refused(planned, picture, part):
     with pytest.raises(RequestError) as refused:
         p2sf.form_image(planned, *picture, region=part)
