@@ -9,8 +9,9 @@ from math import inf, isfinite, log10, sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_fields
+from p2sf.arguments import check_fields, real_array
 from p2sf.camera import AimChoice, Request, Settings, set_up
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
@@ -133,8 +134,8 @@ class Scene:
                 far=self.far_mm,
             )
         self._check_gaps()
+        check_between("brightest", self.brightest, DIMMEST, MOST_LIGHT)  # which the tolerance is divided by
         self._check_limit()
-        check_between("brightest", self.brightest, DIMMEST, MOST_LIGHT)
         check_aim("aim", self.aim)
         if not self.channels:
             raise RequestError("the scene has no channel; give at least one")
@@ -273,12 +274,16 @@ class Scene:
         """Return the nearest vergences at which depths occur, sorted, each once."""
         return nearest_occupied(self._intervals, vergences)
 
-    def at_depths(self, depth_mm: np.ndarray) -> "Scene":
-        """Return the scene with the depths of a map alone, mm, any shape; RequestError for one not in the scene."""
-        self.check_depths(depth_mm)
-        if not (depth_mm > 0).any():
+    def at_depths(self, depth_mm: ArrayLike) -> "Scene":
+        """Return the scene with the depths of a map alone, mm, any shape.
+
+        Those that are not positive do not count. RequestError for one not in the scene, and for what are no numbers.
+        """
+        depths = np.atleast_1d(real_array("depth_mm", depth_mm))
+        self.check_depths(depths)
+        if not (depths > 0).any():
             return self
-        near, far, gaps = ends_and_gaps(depth_mm)
+        near, far, gaps = ends_and_gaps(depths)
         return replace(self, near_mm=near, far_mm=far, gaps_mm=gaps)
 
     def check_depths(self, depth_mm: np.ndarray) -> None:

@@ -42,6 +42,18 @@ def test_a_range_without_gaps_has_the_nodes_that_it_had():
         assert np.concatenate(scene.depth_parts(count)).tolist() == RANGE.vergences(count).tolist()
 
 
+@pytest.mark.parametrize("depths", [[5000.0, 8000.0], [[5000], [8000]], np.array([8000.0, np.nan, 5000.0])])
+def test_depths_may_be_lists(depths):
+    assert RANGE.at_depths(depths).gaps_mm == ((5000.0, 8000.0),)
+    assert RANGE.at_depths(5000.0).far_mm == RANGE.at_depths(5000.0).near_mm == 5000.0
+
+
+@pytest.mark.parametrize("depths", ["near", [[5000.0], [5000.0, 6000.0]], [5000j]])
+def test_depths_that_are_no_numbers_are_refused(depths):
+    with pytest.raises(RequestError):
+        RANGE.at_depths(depths)
+
+
 def test_nodes_in_ranges_are_no_farther_apart_than_without_gaps_and_hold_every_depth():
     depths = np.concatenate([between(np.inf, 20000.0), between(5000.0, 4600.0), [4000.0]])
     scene = RANGE.at_depths(depths)

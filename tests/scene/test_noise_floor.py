@@ -67,6 +67,13 @@ def test_less_light_has_more_noise_and_errors_of_kernels_have_none():
     assert replace(TIGHT, rtol=0.2).relative_tolerance == 0.2
 
 
+@pytest.mark.parametrize("light", [0.0, -1.0, np.nan, np.inf, 1e10])
+def test_the_brightest_light_is_a_positive_number(light):
+    with pytest.raises(RequestError) as refused:
+        replace(TIGHT, brightest=light)
+    assert refused.value.message.values["parameter"] == "brightest"
+
+
 def test_light_beyond_what_was_planned_for_is_refused_where_noise_decides(plans):
     dim, ideal = plans
     values = np.full((48, 64, 1), 2.0, np.float32)
