@@ -1,5 +1,6 @@
 """Photos with depths in the image panel: the picture that moves with the lens, what is kept of it, and its controls."""
 
+import os
 from dataclasses import replace
 
 import numpy as np
@@ -124,6 +125,19 @@ def test_a_map_is_cut_and_resized_as_its_photo_and_no_depth_lies_between_two(tmp
     with pytest.raises(RequestError):
         depth_map(DepthChoice("photo"), "photo.png", (208, 312))
     assert not depths.has_own_depths("photo.heic")
+
+
+def test_a_map_is_read_once_and_anew_when_it_or_its_photo_changes(tmp_path, monkeypatch):
+    photo, choice = str(tmp_path / "photo.png"), DepthChoice(str(tmp_path / "map.png"))
+    for path in (photo, choice.source):
+        write_photo(path, np.full((20, 30, 3), 0.5), "linear")
+    reads, read = [], depths.read_depths
+    monkeypatch.setattr(depths, "read_depths", lambda *given: reads.append(given) or read(*given))
+    for number, path in enumerate((photo, photo, choice.source)):
+        os.utime(path, ns=(number + 1, number + 1))
+        found = depth_map(choice, photo, (20, 30))
+        assert depths.occupied_depths(choice, photo, (20, 30)) == (found.min(), found.max(), ())
+        assert len(reads) == number + 1
 
 
 def test_pixels_are_the_levels_of_srgb():

@@ -40,7 +40,12 @@ def depth_map(choice: DepthChoice, photo: str, shape: tuple[int, int]) -> np.nda
     """
     if choice.source == FLAT:
         return None
-    return _map(choice, photo, (change_time(photo), change_time(choice.source)), shape)
+    return _map(choice, photo, _changes(choice, photo), shape)
+
+
+def _changes(choice: DepthChoice, photo: str) -> tuple[int, int]:
+    """Return when the files were changed on which a map depends: the photo, whose frame it has, and its own."""
+    return change_time(photo), change_time(choice.source)
 
 
 @lru_cache(maxsize=2)
@@ -58,12 +63,13 @@ def occupied_depths(choice: DepthChoice, photo: str, shape: tuple[int, int]) -> 
 
     None where it has one distance. Raises RequestError for a map that cannot be read.
     """
-    path = photo if choice.source == OWN else choice.source
-    return None if choice.source == FLAT else _occupied(choice, photo, change_time(path), shape)
+    return None if choice.source == FLAT else _occupied(choice, photo, _changes(choice, photo), shape)
 
 
 @lru_cache(maxsize=2)
-def _occupied(choice: DepthChoice, photo: str, changed: int, shape: tuple[int, int]) -> tuple[float, float, Gaps]:
+def _occupied(
+    choice: DepthChoice, photo: str, changed: tuple[int, int], shape: tuple[int, int]
+) -> tuple[float, float, Gaps]:
     return ends_and_gaps(_map(choice, photo, changed, shape))
 
 
