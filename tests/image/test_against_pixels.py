@@ -7,8 +7,10 @@ import pytest
 from numpy.lib.stride_tricks import sliding_window_view
 
 from p2sf.image import form_image
-from p2sf.scene.planning.study import distance
-from p2sf.scene.planning.verify import planned_kernel
+from p2sf.image.form import DepthKernels
+from p2sf.image.progress import Progress
+from p2sf.pixel_kernels.nodes import hats
+from p2sf.scene.planning.study import distance, weighted_sum
 from tests.benchmarks.image_simulation import BLUR, CAMERAS, for_reference
 from tests.long.depth_edges import GOAL, PANE, configurations, edge_errors, random_stack
 from tests.long.picture_crops import PLANS, crop_errors
@@ -55,10 +57,12 @@ def test_the_error_of_a_picture_is_what_the_error_of_its_kernels_allows():
     off = form_image(made, values, depth, BLUR)[region][..., green] - truth
 
     sensor, vergence, shares, norms = made.scene.sensor, camera.middle, [], []
+    depths = hats(np.array(made.vergences), np.array([vergence]))[:, 0]
+    of_picture = DepthKernels(made, Progress())  # also between nodes that are not computed
     for row, column in product(range(20, 36, 5), range(26, 46, 5)):
-        x, y = float(sensor.x_mm(column)), float(sensor.y_mm(row))
-        true = exact.kernels(green, vergence).at(x, y)
-        shares.append(distance(planned_kernel(made, x, y, vergence, green), true))
+        true = exact.kernels(green, vergence).at(float(sensor.x_mm(column)), float(sensor.y_mm(row)))
+        near = [of_picture.at(number, row, column)[green] for number in np.flatnonzero(depths).tolist()]
+        shares.append(distance(weighted_sum(near, depths[depths > 0].tolist()), true))
         norms.append(float(np.linalg.norm(true)))
     # 320 pixels, a few of them independent of each other: their variance is known to a third
     assert off.std() / truth.std() == pytest.approx(np.sqrt(np.mean(np.square(shares))), rel=0.3)

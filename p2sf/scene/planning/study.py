@@ -271,12 +271,12 @@ class Study:
             halves = _shared_sizes(halves, int(samples[0]))
         kernels: list[np.ndarray] = [np.empty(0)] * len(places)
         for half, across in np.unique(np.stack([halves, samples]), axis=1).T.tolist():
-            chosen, around = np.flatnonzero((halves == half) & (samples == across)), ceil(margin * half)
-            window = PixelWindow(half + around, pixel, across)
+            chosen, edge = np.flatnonzero((halves == half) & (samples == across)), ceil(margin * half)
+            window = PixelWindow(half + edge, pixel, across)
             made = pixel_kernels(pupils.some(chosen), angles[chosen], window, shifts[chosen])
             for k, kernel in zip(chosen.tolist(), made, strict=True):
-                inner = kernel[around : around + 2 * half + 1, around : around + 2 * half + 1]
-                kernels[k] = inner / inner.sum() if around else inner
+                inner = kernel[edge : edge + 2 * half + 1, edge : edge + 2 * half + 1]
+                kernels[k] = inner / inner.sum() if edge else inner
         return kernels
 
 
