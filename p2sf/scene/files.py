@@ -82,6 +82,8 @@ def scene_from(table: dict, path: Path) -> Scene:
     if "tolerance" in table or "measure" in table:  # as before 0.3
         given |= limit_of(table.get("measure", "relative"), _number("tolerance", table.get("tolerance", USUAL_RTOL)))
     given |= {key: _place(key, table[key]) for key in PARAMETER.values() if key in table}
+    if "gaps_mm" in depth:
+        given["gaps_mm"] = tuple(_numbers("gaps_mm", gap) for gap in _list("gaps_mm", depth["gaps_mm"]))
     if "clip" in table:
         given["clip"] = _flag("clip", table["clip"])
     return Scene(
@@ -89,7 +91,6 @@ def scene_from(table: dict, path: Path) -> Scene:
         channels=_channels(table, path),
         near_mm=_number("near_mm", depth.get("near_mm", far)),
         far_mm=far,
-        gaps_mm=tuple(map(_gap, depth.get("gaps_mm", []))),
         depth_map=str(path.parent / depth["map"]) if "map" in depth else None,
         map_meaning=depth.get("map_meaning"),
         **given,
@@ -136,11 +137,15 @@ def _number(key: str, value: Any) -> float:
 
 
 def _numbers(key: str, values: Any) -> tuple[float, ...]:
+    return tuple(_number(key, value) for value in _list(key, values))
+
+
+def _list(key: str, values: Any) -> list:
     if not isinstance(values, list):
         raise RequestError(
             "{key} is {given}; give numbers in brackets, such as [530, 560]", key=key, given=f"{values!r:.40}"
         )
-    return tuple(_number(key, value) for value in values)
+    return values
 
 
 def _whole(sensor: dict, key: str) -> int:
@@ -156,11 +161,6 @@ def _pair(sensor: dict) -> tuple[float, float]:
     if len(values) != 2:
         raise RequestError("centre_mm has {count} numbers; give two, x and y", count=len(values))
     return values[0], values[1]
-
-
-def _gap(values: Any) -> tuple[float, float]:
-    near, far = _numbers("gaps_mm", values)
-    return near, far
 
 
 def _channel(table: dict) -> Channel:

@@ -258,6 +258,8 @@ def test_a_scene_is_read_from_toml(tmp_path):
         ("[530, 560]", "[530, 'b']", "wavelengths_nm is 'b'; give a number"),
         ("[530, 560]", "530", "wavelengths_nm is 530; give numbers in brackets"),
         ("pixel_um = 9.0", "pixel_um = 9.0\ncentre_mm = [1]", "centre_mm has 1 numbers; give two"),
+        ("far_mm = 25000", "far_mm = 25000\ngaps_mm = 5", "gaps_mm is 5; give numbers in brackets"),
+        ("far_mm = 25000", "far_mm = 25000\ngaps_mm = [[16000, 17000, 18000]]", "gaps_mm is .*; give pairs"),
         ("[depth]\nnear_mm = 15000\nfar_mm = 25000", "[shallow]", 'the scene has "shallow"'),
         ("rows = 48", "rows = 48.5", "rows is 48.5; give a whole number"),
         ("far_mm = 25000", "far_mm = 1e99", r"far_mm is 1e\+99.* beyond 1e\+16 mm .*give inf"),
