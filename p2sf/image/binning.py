@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from p2sf.image.form import check_picture
+from p2sf.image.layers import check_map_shape
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor
 
@@ -27,6 +28,7 @@ def fit_screen(scene: Scene, values: np.ndarray, depth_mm: np.ndarray | None, lo
     if times == 1:
         return scene, values, depth_mm
     if depth_mm is not None:
+        check_map_shape(depth_mm, values.shape[:2])
         depth_mm = _whole_blocks(depth_mm, times)[times // 2 :: times, times // 2 :: times]
     return replace(scene, sensor=sensor.bin_pixels(times)), block_means(values, times), depth_mm
 

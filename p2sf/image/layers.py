@@ -157,18 +157,23 @@ def _beside(jumps: np.ndarray, reach: int) -> np.ndarray:
 
 def _places(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
     """Return where pixels lie among the depth nodes, counted from 0, (rows, columns) float32."""
-    if depth_mm.shape != tuple(shape):
-        raise RequestError(
-            "the depth map has the shape ({shape}), but the picture ({picture}); resize it",
-            shape=depth_mm.shape,
-            picture=tuple(shape),
-        )
+    check_map_shape(depth_mm, shape)
     if not (depth_mm > 0).all():
         raise RequestError(
             "the depth map holds depths that are not positive; give mm from the first vertex, inf allowed"
         )
     place: np.ndarray = np.interp(vergence(depth_mm), vergences, np.arange(len(vergences)))
     return place.astype(np.float32)
+
+
+def check_map_shape(depth_mm: np.ndarray, shape: tuple[int, ...]) -> None:
+    """Raise RequestError unless a map of depths has the shape of its picture, (rows, columns)."""
+    if depth_mm.shape != tuple(shape):
+        raise RequestError(
+            "the depth map has the shape ({shape}), but the picture ({picture}); resize it",
+            shape=depth_mm.shape,
+            picture=tuple(shape),
+        )
 
 
 def nearest_open(hidden: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

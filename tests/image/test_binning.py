@@ -63,6 +63,8 @@ def test_depths_are_those_of_pixels_and_the_longer_side_fits():
         assert (scene.sensor.rows, scene.sensor.columns) == places.shape
         assert set(np.unique(places)) == {4000.0, 9000.0}
         assert joined.mean() == pytest.approx(values.mean(), abs=0.01)
+    with pytest.raises(RequestError):  # it has as many blocks as the picture
+        fit_screen(SCENE, values, depth[:-1, :-1], 31)
     ends = np.abs(np.arange(92) - 45.5) * np.ones((62, 1))
     assert np.ptp(block_means(ends[..., None], 5)[:, [0, -1]]) == 0  # what is left over is cut off at both ends
     assert times_to_fit(Sensor(3, 5000, 5.0), 100) == 3  # no side is left without pixels
