@@ -72,6 +72,21 @@ def test_rays_of_both_sides_of_focus_land_on_opposite_sides_by_twice_the_defocus
     assert found[0] * found[1] < 0
 
 
+def test_coma_points_where_that_of_the_kernel_does():
+    """By third moments at a corner, where the field lies along a diagonal: their signs tell up from down."""
+    scene, corner = Scene(Sensor(1001, 1001, 6.0), GREEN, f_number=8.0), (np.array([0]), np.array([1000]))
+    planned = preview_plan(scene.camera(find_lens("achromat_f6")), scene)
+    means, reach = (each[0, 0] for each in pupil_landings(planned, 0.0).at(*corner))
+    landing = reach * means[:, 1:3].T @ zernike(*(2 * DISC))[1:]
+    kernel = planned.kernels(0, 0.0).at(3.0, 3.0, 20)
+    place = np.indices(kernel.shape) - 20
+    place = place - np.einsum("ij,aij->a", kernel, place)[:, None, None]
+    inside = kernel * (np.hypot(*place) <= reach)  # beyond are the wings of the rim
+    thirds = np.einsum("ij,aij->a", inside, place**3)
+    assert thirds == pytest.approx((landing**3).mean(1), rel=0.3)  # of what terms of higher degree leave out
+    assert thirds[0] > 5 and thirds[1] < -5
+
+
 def layer(*moments: float) -> list[np.ndarray]:
     """Return what a layer hides of one pixel, the mean and its moments."""
     return [np.full((1, 1, 1), each) for each in (*moments, *[0.0] * (1 + MOMENTS - len(moments)))]

@@ -96,6 +96,13 @@ def test_the_picture_by_rays_answers_what_was_asked(monkeypatch):
     assert moving(asked()).question == asked()
 
 
+def test_pixels_of_a_frame_elsewhere_move_by_distortion_alone():
+    request = asked()
+    scene = scene_of(request)
+    seen, beside = setting(scene.camera(request.lens), scene, MOVING).seen, replace(scene.sensor, centre_mm=(0.0, 0.5))
+    assert moved_px(seen, scene.sensor, seen, beside) < 1.0 < 0.5 / scene.sensor.pixel_mm
+
+
 @pytest.mark.parametrize(
     "changes",
     [{"clip": True}, {"errors": (("thickness", 2, 2, 3.0),)}, {"errors": (("index", 3, 3, 0.1),)}],
