@@ -11,7 +11,7 @@ from importlib import import_module
 from typing import Any
 
 from p2sf import __version__
-from p2sf.errors import ClusterError
+from p2sf.errors import ClusterError, RequestError
 
 ANSWER_S = 10.0  # for the scheduler to answer, and for the first worker to appear
 ABSENCE_S = 60.0  # for which all workers may be absent while they are restarted
@@ -97,9 +97,18 @@ def check_versions(found: Mapping[str, str | Exception], wanted: str = __version
 
 
 @contextmanager
-def checked_client(scheduler: Any) -> Iterator[Any]:
-    """Connect to a scheduler by its address, whose workers have this version of P2SF; else return the client given."""
+def checked_client(scheduler: Any, method: str = "scatter") -> Iterator[Any]:
+    """Connect to a scheduler by its address, whose workers have this version of P2SF; else return the client given.
+
+    Raises RequestError for what is neither: a client has the ``method`` that is needed.
+    """
     if not isinstance(scheduler, str):
+        if not hasattr(scheduler, method):
+            raise RequestError(
+                "{parameter} is {value}; give the address of a dask scheduler, or its client",
+                parameter="scheduler",
+                value=f"{scheduler!r:.60}",
+            )
         yield scheduler
         return
     with connect(scheduler) as client:

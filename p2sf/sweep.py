@@ -259,7 +259,7 @@ class Sweep:
         if self.scheduler is None:
             for_each(figure, self.points, take, self.threads, ahead=None)
             return found
-        with checked_client(self.scheduler) as scheduler:
+        with checked_client(self.scheduler, "map") as scheduler:
             answers = scheduler.map(figure, self.points)
             if hasattr(scheduler, "gather"):  # a client of dask, whose answers are futures
                 answers = (one.result() for one in answers)

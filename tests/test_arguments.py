@@ -206,6 +206,8 @@ WRONG = {
     "a wavefront that is not square": lambda: p2sf.Pupil(np.zeros((8, 9)), 0.1, 550),
     "a PSF in two rows": lambda: p2sf.fit_psf(np.zeros(9), na=0.1, wavelength_nm=550, pixel_um=1),
     "a limit of nothing": lambda: p2sf.Camera("achromat_f6").tolerances({"sharpness": 0.3}),
+    "a number for a scheduler": lambda: p2sf.form_image(p2sf.plan(LENS, SCENE), PICTURE, scheduler=5),
+    "a number for the scheduler of a sweep": lambda: p2sf.Camera(LENS).sweep(depth_mm=[3000], scheduler=5).strehl(),
     "no pixels": lambda: p2sf.Camera("achromat_f6").photograph(PICTURE),
     "no lens": lambda: p2sf.Camera(f_number=8).psf(3000),
     "a stop as a text": lambda: lens(stop_surface="1"),
