@@ -106,6 +106,8 @@ class Sensor:
     def bin_pixels(self, times: int) -> "Sensor":
         """Return the sensor with ``times``² pixels joined to one; those left over are dropped at both ends.
 
+        The centre stays, so that symmetry is kept: where an odd number is left over, places are half a pixel off.
+
         Electrons add up, and their read noise in squares. Raw numbers are those of single pixels: there are none, and
         RequestError for a mosaic.
         """
