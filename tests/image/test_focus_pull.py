@@ -150,6 +150,14 @@ def test_the_moving_picture_is_as_near_the_exact_one_as_it_says(depth, focus_mm)
     assert float(np.sqrt(np.mean((found.values - exact) ** 2))) <= found.error < 0.1
 
 
+def test_the_error_that_is_stated_counts_edges_of_depth_between_which_the_focus_is():
+    """A black disc before white, whose octaves alone make 0.02 of it; the pupil that it cuts adds the rest."""
+    scene, values = replace(SCENE, focus_mm=2 / (1 / 900 + 1 / 1500)), np.where(disc()[..., None], 0.0, np.ones(3))
+    exact = form_image(plan(LENS, scene.at_depths(TWO)), values, TWO)
+    found = pulled(values.astype(np.float32), TWO, scene)
+    assert 0.02 < float(np.sqrt(np.mean((found.values - exact) ** 2))) <= found.error < 0.1
+
+
 def test_a_sharp_object_hides_what_is_behind_it():
     one, two = smooth_noise(SHAPE, 1), smooth_noise(SHAPE, 2)
     two[disc()] = one[disc()]

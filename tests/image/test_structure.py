@@ -130,6 +130,16 @@ def test_what_is_flat_changes_by_no_more_than_allowed_and_takes_no_kernels(studi
     assert np.abs(few - true).max() > 0
 
 
+def test_where_kernels_change_the_illumination_by_all_that_is_allowed_nothing_is_flat(studio, planned, monkeypatch):
+    values, depth = np.full_like(studio[0], 0.5), np.full(SHAPE, 12000.0)
+    few = form_image(planned, values, depth)
+    monkeypatch.setattr(form, "change_of_shade", lambda *given: planned.allowed_error / 3)
+    every = form_image(planned, values, depth)
+    assert np.abs(few - every).max() > 0
+    everywhere(monkeypatch)
+    assert np.array_equal(every, form_image(planned, values, depth))
+
+
 def test_beside_a_black_surround_nothing_is_flat(planned, studio, monkeypatch):
     values = np.full_like(studio[0], 0.5)
     far = np.full(SHAPE, 12000.0)
