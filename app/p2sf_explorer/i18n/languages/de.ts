@@ -661,6 +661,7 @@
 <message><source>Measure a lens</source><translation>Ein Objektiv vermessen</translation></message>
 <message><source>Measured</source><translation>Gemessen</translation></message>
 <message><source>Measured: the points of a photograph, the wavefront that explains each of them, with errors, and what all together say about the lens and the position of its sensor. Pictures show the root of brightness relative to the picture's peak, all on one scale.</source><translation>Gemessen: die Punkte einer Aufnahme, die Wellenfront, die jeden erklärt, mit ihren Fehlern, und was alle zusammen über das Objektiv und die Lage des Sensors sagen. Die Bilder zeigen √ der Helligkeit über der Spitze des Bildes, alle auf einer Skala.</translation></message>
+<message><source>Noise</source><translation>Rauschen</translation></message>
 <message><source>Method</source><translation>Methode</translation></message>
 <message><source>Method: what describes the PSF. auto takes the cheapest method whose predicted R² against Huygens is good enough.</source><translation>Methode: was die PSF beschreibt; auto nimmt die billigste, deren vorhergesagtes R² gegen Huygens genügt.</translation></message>
 <message><source>Microscope objective 10×, NA 0.25</source><translation>Mikroskopobjektiv 10×, NA 0,25</translation></message>
