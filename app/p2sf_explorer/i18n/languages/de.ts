@@ -32,7 +32,6 @@
 <message><source>nearest depth of the photo</source><translation>kleinste Entfernung des Fotos</translation></message>
 <message><source>nodes stand at equal steps of 1/distance, and none in {count} gaps</source><translation>die Knoten stehen in gleichen Schritten von 1/Abstand, und keine in {count} Lücken</translation></message>
 <message><source>noise</source><translation>Rauschen</translation></message>
-<message><source>raw numbers and mosaics are of single pixels</source><translation>Rohwerte und Mosaike gehören zu einzelnen Pixeln</translation></message>
 <message><source>the depth map holds {depth:g} mm, which lies in a gap of the scene; leave {parameter} out, or plan for the depths of this map</source><translation>die Tiefenkarte enthält {depth:g} mm, was in einer Lücke der Szene liegt; {parameter} weglassen oder für die Tiefen dieser Karte planen</translation></message>
 <message><source>the map reaches from {near:g} mm to {far:g} mm; give positive depths, the near one first</source><translation>die Karte reicht von {near:g} mm bis {far:g} mm; positive Entfernungen angeben, die nahe zuerst</translation></message>
 <message><source>{path} does not state how far away its depths are; save them as a PNG and give near and far</source><translation>{path} sagt nicht, wie groß seine Entfernungen sind; als PNG speichern und nah und fern angeben</translation></message>
