@@ -136,7 +136,7 @@ def depth_places(study: Study, colours: Sequence[Colour]) -> list[DepthPlace]:
     places += [(blue, point, v) for point in others_far for v in study.scan]
     for colour in others:
         axis, _, corner = study.sharpest(colour.wavelengths_um[0])
-        places += [(colour, far, corner), (colour, near, axis)]
+        places += [(colour, far, v) for v in (corner, *study.ends)] + [(colour, near, v) for v in (axis, *study.ends)]
     return list(dict.fromkeys(places))
 
 
