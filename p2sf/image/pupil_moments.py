@@ -5,7 +5,8 @@ The mean of that product is not the product of the means where both change over 
 functions φ_j that are orthonormal over the pupil it is Σ_j ⟨T·φ_j⟩⟨L·φ_j⟩ (Parseval). These are Zernike's up to the
 second degree, in Noll's order, φ_0 = 1 the first (J. Opt. Soc. Am. 66, 207, 1976); the sum is exact where T or L is
 such a polynomial. A blurred layer's ⟨L·φ_j⟩ is the layer blurred by the kernel times the mean of φ_j over those rays
-that land at each pixel of it.
+that land at each pixel of it. They are orthonormal over a disc: behind a ring, or rims that clip, terms of the
+first degree and above come out too weak.
 """
 
 from collections.abc import Sequence

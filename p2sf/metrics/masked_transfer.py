@@ -1,7 +1,7 @@
 """Autocorrelation of a pupil behind a mask, whose lines are several intervals (handbook 6.3).
 
 Each line is sampled at even steps, with weights at the ends of every interval, and its autocorrelation is by FFT. The
-weights at both ends of an interval meet where it is moved by less than END steps: there its own sum is made anew with
+weights at both ends of an interval meet where it is moved by less than END steps: there its own sum is taken again with
 the weights of what it shares with itself. Lines stand close at the ends of every edge, where the intervals change as a
 root does.
 """

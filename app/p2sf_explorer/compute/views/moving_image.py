@@ -34,7 +34,7 @@ from p2sf_explorer.compute.views.image import (
 )
 from p2sf_explorer.compute.views.photos import change_time, scene_values
 
-MOST_MOVED_PX = 1.0  # of a kept picture, before it is made anew
+MOST_MOVED_PX = 1.0  # of a kept picture, before it is cut again
 
 
 class Keeper:
@@ -49,7 +49,7 @@ class Keeper:
         self._seen: tuple[SensorMap, Sensor] | None = None
 
     def kept(self, request: ImageRequest, values: np.ndarray, made: Setting) -> tuple[KeptPicture, float]:
-        """Return what is kept of a picture, and how far the lens moves its pixels, where it is not made anew."""
+        """Return what is kept of a picture, and how far the lens moves its pixels, where it is not cut again."""
         scene = made.study.scene
         stamps = change_time(request.photo), change_time(request.depths.source)
         key = (request.photo, request.depths, *stamps, request.shape, scene.near_mm, scene.far_mm)
@@ -82,7 +82,7 @@ def moved_px(before: SensorMap, its: Sensor, now: SensorMap, sensor: Sensor) -> 
 def moving(request: ImageRequest, watch: Progress | None = None, keeper: Keeper | None = None) -> ImageResult:
     """Return the picture with all of its pixels and depths, as a lens that moves shows it, with the error expected.
 
-    What need not be made anew is in the ``keeper``. Where pupils have no polynomials, the coarse picture by rays.
+    What need not be computed again is in the ``keeper``. Where pupils have no polynomials, the coarse picture by rays.
     """
     begun = perf_counter()
     values, scene = scene_values(request.photo, request.shape), scene_of(request)
