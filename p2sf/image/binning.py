@@ -34,7 +34,10 @@ def fit_screen(scene: Scene, values: np.ndarray, depth_mm: np.ndarray | None, lo
 
 
 def times_to_fit(sensor: Sensor, longest: int) -> int:
-    """Return how many pixels are joined along each side, so that the longer one has ``longest`` at most."""
+    """Return how many pixels are joined along each side, so that the longer one has ``longest`` at most.
+
+    No more than the shorter side has, of which a pixel is left.
+    """
     times = -(-max(sensor.rows, sensor.columns) // longest)
     return min(times, sensor.rows, sensor.columns)
 

@@ -1,16 +1,17 @@
 """What the content of a picture saves: ``python -m tests.benchmarks.content [--quick]``.
 
-Eleven pictures, each planned and formed twice: by rote, for all depths between the nearest and the farthest, ideal
-pixels, every pixel blurred; and for what it holds: depths that occur, structure, what the sensor's noise hides, the
-pixels of a screen, the region in view. Lens: wide_angle_35 at f/8 on 30 mm, 1 to 100 m, focused in the middle of
-1/depth, three colours, ε = 0.05 unless stated. Depth nodes, kernels of all channels that were computed, and CPU seconds
-of plan and picture together, the least of two runs, which alternate.
+Eleven pictures, each planned and formed twice: without regard to content, for all depths between the nearest and the
+farthest, ideal pixels, every pixel blurred; and for what it holds: depths that occur, structure, what the sensor's
+noise hides, the pixels of a screen, the region in view. Lens: wide_angle_35 at f/8 on 30 mm, 1 to 100 m, focused in the
+middle of 1/depth, three colours, ε = 0.05 unless stated. Depth nodes, kernels of all channels that were computed, and
+CPU seconds of plan and picture together, the least of two runs, which alternate.
 """
 
 import argparse
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from time import process_time
+from unittest import mock
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from p2sf.image.region import Region
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Scene, Sensor, plan
 from tests.support.depth_scenes import leaves, posts, stairs
+from tests.support.kernel_counts import counted_kernels
 
 LENS, WIDTH_MM, NEAR, FAR, F_NUMBER = "wide_angle_35", 30.0, 1000.0, 1e5, 8.0
 MEGAPIXELS, QUICK = 0.5, 0.06
@@ -119,28 +121,15 @@ CASES = (
 
 
 def run(case: Case, shape: tuple[int, int], content: bool) -> tuple[Figures, np.ndarray]:
-    """Return figures and picture, for what it holds or by rote."""
+    """Return figures and picture, planned and formed for its content or without regard to it."""
     values, depth = case.picture(shape)
     sensor = Sensor(*shape, 1000 * WIDTH_MM / shape[1], **(case.sensor or {}) if content else {})
     scene = Scene(
         sensor, near_mm=NEAR, far_mm=FAR, rtol=case.rtol, f_number=F_NUMBER, focus_mm=2 / (1 / NEAR + 1 / FAR)
     )
-    flat, numbers, of_nodes = form.FLAT, [], form.node_kernels
-
-    def counted(*given):
-        nodes = of_nodes(*given)
-        kernels_at = nodes.kernels_at
-
-        def at(rows, columns):
-            numbers.append(len(rows))
-            return kernels_at(rows, columns)
-
-        nodes.kernels_at = at
-        return nodes
-
-    form.node_kernels, form.FLAT = counted, flat if content else -1.0
-    begun, region = process_time(), None
-    try:
+    region, flat = None, form.FLAT if content else -1.0
+    with counted_kernels() as numbers, mock.patch.object(form, "FLAT", flat):
+        begun = process_time()
         if content:
             scene, values, depth = fit_screen(scene, values, depth, round(case.screen * shape[1]))
             scene = scene.at_depths(depth)
@@ -148,17 +137,15 @@ def run(case: Case, shape: tuple[int, int], content: bool) -> tuple[Figures, np.
             region = Region(0, rows, 0, columns)
         made = plan(find_lens(LENS), scene)
         formed = form_image(made, values, depth, region=region)
-    finally:
-        form.node_kernels, form.FLAT = of_nodes, flat
-    spent = process_time() - begun
+        spent = process_time() - begun
     return Figures(len(made.vergences), len(made.colours) * sum(numbers), spent), formed
 
 
 def compare(case: Case, shape: tuple[int, int], rounds: int = 2) -> tuple[Figures, Figures]:
-    """Return the figures by rote and for what the picture holds."""
+    """Return the figures without regard to content, and for it."""
     every = [[run(case, shape, content)[0] for content in (False, True)] for _ in range(rounds)]
-    rote, held = zip(*every, strict=True)
-    return tuple(replace(each[0], seconds=min(one.seconds for one in each)) for each in (rote, held))
+    plain, held = zip(*every, strict=True)
+    return tuple(replace(each[0], seconds=min(one.seconds for one in each)) for each in (plain, held))
 
 
 def main() -> None:
@@ -171,10 +158,10 @@ def main() -> None:
         f"{shape[1]} × {shape[0]} pixels\n| picture | depth nodes | kernels | seconds | times |\n|---|---|---|---|---|"
     )
     for case in CASES:
-        rote, held = compare(case, shape)
+        plain, held = compare(case, shape)
         print(
-            f"| {case.name} | {rote.nodes} → {held.nodes} | {rote.kernels} → {held.kernels} | "
-            f"{rote.seconds:.2f} → {held.seconds:.2f} | {rote.seconds / held.seconds:.1f} |",
+            f"| {case.name} | {plain.nodes} → {held.nodes} | {plain.kernels} → {held.kernels} | "
+            f"{plain.seconds:.2f} → {held.seconds:.2f} | {plain.seconds / held.seconds:.1f} |",
             flush=True,
         )
 

@@ -7,10 +7,11 @@ import pytest
 
 import p2sf
 from p2sf.errors import RequestError
-from p2sf.image import form, form_image
+from p2sf.image import form_image
 from p2sf.image.region import Region, tiles
 from p2sf.lensfile.library import find_lens
 from p2sf.scene import Channel, Scene, Sensor, plan
+from tests.support.kernel_counts import counted_kernels
 
 GREEN = (Channel("green", (540.0,), (1.0,)),)
 PART = 30, 70, 60, 130
@@ -28,26 +29,6 @@ def picture():
     return np.random.default_rng(0).random((120, 180, 1)).astype(np.float32), depth
 
 
-def count_kernels(monkeypatch) -> list[int]:
-    """Return a list to which each request for kernels adds their number."""
-    numbers: list[int] = []
-    of_nodes = form.node_kernels
-
-    def counted(*given):
-        nodes = of_nodes(*given)
-        kernels_at = nodes.kernels_at
-
-        def at(rows, columns):
-            numbers.append(len(rows))
-            return kernels_at(rows, columns)
-
-        nodes.kernels_at = at
-        return nodes
-
-    monkeypatch.setattr(form, "node_kernels", counted)
-    return numbers
-
-
 @pytest.mark.parametrize("with_depth", [False, True])
 def test_a_region_is_that_part_of_the_whole_picture(planned, picture, with_depth):
     values, depth = picture
@@ -59,13 +40,13 @@ def test_a_region_is_that_part_of_the_whole_picture(planned, picture, with_depth
     assert part == pytest.approx(every[top:bottom, left:right], abs=2e-6)  # float32, by blocks of other sizes
 
 
-def test_a_small_region_takes_fewer_kernels(planned, picture, monkeypatch):
-    numbers, dense = count_kernels(monkeypatch), replace(planned, counts=(9, 13))
-    form_image(dense, *picture)
-    every = sum(numbers)
-    numbers.clear()
-    form_image(dense, *picture, region=Region(30, 50, 20, 40))
-    assert sum(numbers) < 0.8 * every
+def test_a_small_region_takes_fewer_kernels(planned, picture):
+    dense = replace(planned, counts=(9, 13))
+    with counted_kernels() as every:
+        form_image(dense, *picture)
+    with counted_kernels() as some:
+        form_image(dense, *picture, region=Region(30, 50, 20, 40))
+    assert 0 < sum(some) < 0.8 * sum(every)
 
 
 def test_python_takes_rows_and_columns(planned, picture):

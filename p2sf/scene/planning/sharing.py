@@ -32,7 +32,7 @@ def share_pupils(study: Study) -> None:
         axes = x, y, depths, waves
         found, landed = study.from_lens(study.kept, places := grid_of(axes))
         study.table = pupil_table(axes, found, landed - np.array(places)[:, :2])
-        study.table_error = 2 * study.kept.error
+        study.table_error = 2 * study.kept.error  # that of what was kept, and as much between the nodes here
     else:
         study.table, study.table_error = adaptive_table(ends, study.fitted, TARGET_ERROR)
 

@@ -30,7 +30,7 @@ from p2sf.scene.planning.lens_pupils import LensPupils, lens_pupils
 from p2sf.scene.scene import Scene
 
 SAMPLINGS = (1.25, 0.0), (1.5, 0.0), (1.5, 0.5), (2.0, 1.0)  # fineness and margin of `Recipe`, cheapest first
-SAMPLING_ERRORS = 0.019, 0.009, 0.0035, 0.002  # of kernels by these, of which 95 in 100 have less, also behind masks
+SAMPLING_ERRORS = 0.019, 0.009, 0.0035, 0.002  # of kernels by these: 95 in 100 have smaller ones, also behind masks
 # The first for errors that change a kernel as a whole, the second for those that only affect its fringes.
 COARSE_SAMPLING, FINE_SAMPLING = (1.0, 0.0), SAMPLINGS[1]
 CONVERGED_WAVES = 3e-4
