@@ -10,9 +10,8 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from p2sf.version import __version__ as __version__
-
 if TYPE_CHECKING:
+    __version__: str
     from p2sf.api import choose_method, coefficients, encircled_energy, line_spread, load_lens, mtf, render, zernike
     from p2sf.camera import Camera
     from p2sf.database.files.building import build_database
@@ -203,6 +202,8 @@ _ELSEWHERE = {
 if not TYPE_CHECKING:  # for a checker every name is one of those above, and any other is an error
 
     def __getattr__(name: str) -> Any:
+        if name == "__version__":
+            return import_module("p2sf.version").program_version()
         if name not in __all__:
             own = import_module(__name__)  # from whose names Python suggests one
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=own)

@@ -10,8 +10,8 @@ from functools import lru_cache
 from importlib import import_module
 from typing import Any
 
-from p2sf import __version__
 from p2sf.errors import ClusterError, RequestError
+from p2sf.version import program_version
 
 ANSWER_S = 10.0  # for the scheduler to answer, and for the first worker to appear
 ABSENCE_S = 60.0  # for which all workers may be absent while they are restarted
@@ -82,8 +82,9 @@ def worker_versions(client: Any, scheduler: str) -> dict[str, str | Exception]:
     return found
 
 
-def check_versions(found: Mapping[str, str | Exception], wanted: str = __version__) -> None:
-    """Raise ClusterError for the first worker that has another version of P2SF than the one wanted, or none."""
+def check_versions(found: Mapping[str, str | Exception], wanted: str | None = None) -> None:
+    """Raise ClusterError for the first worker that has another version of P2SF than wanted (this one's), or none."""
+    wanted = wanted or program_version()
     for address, version in found.items():
         if version != wanted:
             has = f"P2SF {version}" if isinstance(version, str) else "no P2SF"

@@ -1,41 +1,31 @@
-"""The version of this package, the commit it was built from, and the versions of its dependencies."""
+"""The version of this package, and the versions of its dependencies."""
 
 import platform
-from importlib import import_module
+from functools import cache
 
-
-def _version_as_built() -> str:
-    """Return the version that the build took from the tag; unknown in a checkout that was never built."""
-    try:
-        return str(import_module("p2sf._version").__version__)
-    except ImportError:
-        return "0+unknown"
-
-
-__version__ = _version_as_built()
 STANDS_ON = ("numpy", "scipy", "PySide6_Essentials", "pyqtgraph", "pyvista", "vtk")
+
+
+@cache
+def program_version() -> str:
+    """Return the version of pyproject.toml as it was installed; unknown in a checkout that never was."""
+    return _installed("p2sf") or "0+unknown"
+
+
+def _installed(name: str) -> str | None:
+    from importlib.metadata import PackageNotFoundError, version  # loading it takes longer than loading this package
+
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
 
 
 def versions() -> dict[str, str]:
     """Return the versions for a report by package name; packages that are not installed are omitted."""
-    from importlib.metadata import PackageNotFoundError, version  # loading it takes longer than loading this package
-
-    found = {"p2sf": __version__, "commit": commit_of(__version__)}
-    found |= {"python": platform.python_version(), "system": f"{platform.system()} {platform.release()}"}
-    found["machine"] = platform.machine()
-    for name in STANDS_ON:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            continue
-    return found
-
-
-def commit_of(version: str) -> str:
-    """Return the commit a version was built from: between tags it follows the plus, as in 0.3.dev4+g0a1b2c3."""
-    number, _, local = version.partition("+")
-    node = next((part[1:] for part in local.split(".") if part.startswith("g")), "")
-    return node or ("unknown" if local or "dev" in number else f"that of tag v{number}")
+    found = {"p2sf": program_version(), "python": platform.python_version()}
+    found |= {"system": f"{platform.system()} {platform.release()}", "machine": platform.machine()}
+    return found | {name: number for name in STANDS_ON if (number := _installed(name))}
 
 
 def version_text() -> str:

@@ -40,7 +40,7 @@ WITHOUT_QT = ("p2sf.", "p2sf_explorer.state.", "p2sf_explorer.compute.", "p2sf_e
 
 def sources() -> list[Path]:
     found = (path for folder in ("p2sf", "app/p2sf_explorer") for path in (ROOT / folder).rglob("*.py"))
-    return sorted(path for path in found if path.name != "_version.py")  # which the build writes
+    return sorted(found)
 
 
 def folder_of(name: str) -> str:

@@ -1,8 +1,8 @@
 """`p2sf cluster`: how to render a stack or a picture on many machines, and who works for a scheduler."""
 
-from p2sf import __version__
 from p2sf.cli.options import Json
 from p2sf.cli.screen import print_json, print_table
+from p2sf.version import program_version
 
 ADDRESS = "tcp://FIRST:8786"
 TOLD = """A stack of PSFs, or a picture, on many machines
@@ -49,4 +49,4 @@ def _tell_how(as_json: bool) -> None:
     lines = {"scheduler": SCHEDULER, "worker": WORKER.format(address=ADDRESS)}
     if as_json:
         return print_json(lines)
-    return print(TOLD.format(**lines, version=__version__, address=ADDRESS))
+    return print(TOLD.format(**lines, version=program_version(), address=ADDRESS))

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import ExportError
 from p2sf.export.psf_cube import Cube, PsfArray
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import pupils
+from p2sf.version import program_version
 
 METRES_PER_UM = 1e-6
 ARCSECONDS = 180 * 3600 / np.pi
@@ -77,7 +77,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
         ("METHOD", cube.stored.database.method, "method of computing the PSF"),
         *((name, value, f"predicted 1 - R2, {text}") for name, value, text in _accuracy(cube) if isfinite(value)),
         ("LENSHASH", cube.stored.meta["lens"]["sha256_of_toml"], ""),  # SHA-256 fills the card
-        ("CREATOR", f"p2sf {__version__}", "software"),
+        ("CREATOR", f"p2sf {program_version()}", "software"),
     ]
 
 

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.database.files import Stored
 from p2sf.database.render import Sampling, critical_pixel_um, rendered_light
@@ -24,6 +23,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points, magnification
 from p2sf.paraxial.pupils import f_number, working_f_number
 from p2sf.raytrace.pencil import pencil
+from p2sf.version import program_version
 
 MOST_PIXELS = 128  # ISETCam's own size
 LEAST_HEIGHTS = 9  # its distortion is fitted by a polynomial of degree 8
@@ -80,7 +80,7 @@ def ray_trace(stored: Stored, options: IsetOptions = DEFAULT) -> dict:
     return {
         **first_order(lens, depth, reference),
         "name": lens.title or lens.name,
-        "program": f"p2sf {__version__}",
+        "program": f"p2sf {program_version()}",
         "lensFile": lens.name,
         "aim": lens.aim,
         "objectDistance": depth,

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.errors import ExportError
 from p2sf.export.fits import METRES_PER_UM, axis_keywords, write_image
 from p2sf.export.psf_set import PsfSet
 from p2sf.export.tiff import write_pages
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import CONVENTIONS
+from p2sf.version import program_version
 
 PathLike = str | os.PathLike[str]
 
@@ -48,7 +48,7 @@ def about(psfs: PsfSet) -> dict[str, object]:
         "clip": psfs.clip,
         "fill_factor": psfs.grid.fill_factor,
         "values": "share of a point's light per pixel, chief ray in pixel N//2 counted from 0, rows +y",
-        "software": f"p2sf {__version__}",
+        "software": f"p2sf {program_version()}",
     }
 
 
@@ -97,7 +97,7 @@ def _write_fits(psfs: PsfSet, path: PathLike) -> Path:
         *axis_keywords(psfs),
         ("INSTRUME", psfs.lens.name[:60], "lens"),
         ("AIM", psfs.lens.aim, "exact rays fill the stop/paraxial pupil"),
-        ("CREATOR", f"p2sf {__version__}", "software"),
+        ("CREATOR", f"p2sf {program_version()}", "software"),
     ]
     rows = table(psfs)
     columns = {str(name): np.array([row[k] for row in rows[1:]]) for k, name in enumerate(rows[0])}

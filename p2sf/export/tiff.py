@@ -5,10 +5,10 @@ import os
 from itertools import product
 from pathlib import Path
 
-from p2sf import __version__
 from p2sf.export.psf_cube import Cube, PsfArray
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import CONVENTIONS
+from p2sf.version import program_version
 
 # Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.
 ORIENTATION = (274, "H", 1, 4, True)
@@ -45,7 +45,7 @@ def write_pages(cube: PsfArray, path: str | os.PathLike[str], about: dict[str, o
             resolution=(per_um, per_um),
             metadata=metadata,
             extratags=[ORIENTATION],
-            software=f"p2sf {__version__}",
+            software=f"p2sf {program_version()}",
         ),
     )
 

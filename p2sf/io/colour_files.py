@@ -7,10 +7,10 @@ from typing import BinaryIO
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.errors import ExportError
 from p2sf.files.writing import plain, write_beside
 from p2sf.psf.polychromatic import ColourPsf, record
+from p2sf.version import program_version
 
 
 def write_colour_psf(found: ColourPsf, path: str | os.PathLike[str], meta: dict) -> Path:
@@ -40,7 +40,7 @@ def _write_png(handle: BinaryIO, found: ColourPsf, meta: dict) -> None:
     from p2sf.io.psf_plot import draw_colour_psf
 
     title = f"{meta.get('lens', {}).get('title', 'point spread function')}\n{found.spectrum}, square root of the light"
-    draw_colour_psf(handle, found, title, {"Description": json.dumps(meta), "Software": f"p2sf {__version__}"})
+    draw_colour_psf(handle, found, title, {"Description": json.dumps(meta), "Software": f"p2sf {program_version()}"})
 
 
 COLOUR_WRITERS = {".npz": _write_npz, ".png": _write_png}

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.errors import ExportError
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import facts, psf_from
 from p2sf.psf.result import Psf
+from p2sf.version import program_version
 
 META = "P2SFMETA"
 
@@ -33,7 +33,7 @@ def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
         image.header[f"CUNIT{axis}"] = "um"
     image.header["BUNIT"] = ("fraction", "of the light in the window, per pixel")
     image.header["METHOD"] = (psf.method, "method of computing the PSF")
-    image.header["CREATOR"] = f"p2sf {__version__}"
+    image.header["CREATOR"] = f"p2sf {program_version()}"
     image.header[META] = json.dumps({**plain(meta), "psf": facts(psf)})
     content = io.BytesIO()  # astropy refuses a handle that was opened to create a file
     fits.HDUList([image]).writeto(content)

@@ -7,13 +7,13 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.errors import ExportError
 from p2sf.files.atomic import DAMAGED, read_arrays
 from p2sf.files.raster_size import first_page
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import CONVENTIONS, caption, facts, psf_from
 from p2sf.psf.result import Psf
+from p2sf.version import program_version
 
 UM_PER_CM = 1e4
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
@@ -87,7 +87,7 @@ def _write_tiff(handle: BinaryIO, psf: Psf, meta: dict) -> None:
         description=json.dumps(meta),
         metadata=None,
         extratags=[(ORIENTATION_TAG, "H", 1, BOTTOM_LEFT, True)],
-        software=f"p2sf {__version__}",
+        software=f"p2sf {program_version()}",
     )
 
 
@@ -109,7 +109,7 @@ def _csv_row(head: str, cells: np.ndarray) -> str:
 def _write_png(handle: BinaryIO, psf: Psf, meta: dict) -> None:
     from p2sf.io.psf_plot import draw_psf
 
-    draw_psf(handle, psf, caption(meta), {"Description": json.dumps(meta), "Software": f"p2sf {__version__}"})
+    draw_psf(handle, psf, caption(meta), {"Description": json.dumps(meta), "Software": f"p2sf {program_version()}"})
 
 
 def _read_npz(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:

@@ -6,7 +6,6 @@ from dataclasses import fields
 
 import numpy as np
 
-from p2sf import __version__
 from p2sf.camera import Setup
 from p2sf.conventions import NM_PER_UM
 from p2sf.files.writing import plain
@@ -14,6 +13,7 @@ from p2sf.glass.pages import data_version
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
+from p2sf.version import program_version
 
 CONVENTIONS = (
     "unit sum in the window; rows +y up the sensor, row 0 the lowest y, columns +x; a positive field's chief ray "
@@ -70,7 +70,7 @@ def position_of(lens: Lens) -> dict[str, str]:
 def versions() -> dict[str, str]:
     """Return the versions that a result depends on."""
     return {
-        "p2sf": __version__,
+        "p2sf": program_version(),
         "python": platform.python_version(),
         "numpy": np.__version__,
         "glass data": data_version(),

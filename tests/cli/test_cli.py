@@ -14,7 +14,6 @@ from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.lensfile.toml.lens import write_toml
-from p2sf.version import commit_of
 from tests.support.reference import LENSES, prescription_lens, reference
 
 ROOT = Path(__file__).parents[2]
@@ -168,20 +167,7 @@ def test_every_command_explains_itself(said, command):
 def test_version(said):
     told = dict(line.split(" ", 1) for line in said("--version").splitlines())
     assert told["p2sf"] == __version__ and told["numpy"] == np.__version__
-    assert {"commit", "python", "system", "machine", "scipy"} <= set(told)
-
-
-@pytest.mark.parametrize(
-    ("version", "commit"),
-    [
-        ("0.3.0.dev4+g0a1b2c3", "0a1b2c3"),
-        ("0.2.0", "that of tag v0.2.0"),
-        ("0+unknown", "unknown"),
-        ("0.2.0.dev0", "unknown"),
-    ],
-)
-def test_the_commit_of_a_version(version, commit):
-    assert commit_of(version) == commit
+    assert {"python", "system", "machine", "scipy"} <= set(told)
 
 
 def test_info_loads_nothing_heavy():

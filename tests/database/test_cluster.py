@@ -86,24 +86,23 @@ def test_another_version_or_none_is_a_sentence(cluster, tmp_path):
     with connect(cluster.address) as client:
         victim = min(client.nthreads())
         for version, words in (("0.0.9", "has P2SF 0.0.9, and"), (None, "has no P2SF, and")):
-            before = client.run(versioned, version, workers=[victim])
+            client.run(versioned, version, workers=[victim])
             with pytest.raises(ClusterError, match=f"{words} .* is needed; install p2sf") as refused:
                 filled(cluster, tmp_path / "other.zarr")
             assert victim in str(refused.value)
-            client.run(versioned, before[victim], workers=[victim])
+            client.run(versioned, "", workers=[victim])
         late = client.submit(fill_chunks, str(tmp_path), "", "0.0.9", ((0, 0, 0),))  # for a worker that came later
         with pytest.raises(ClusterError, match=r"and 0\.0\.9 is needed"):
             late.result()
 
 
-def versioned(version: str | None) -> str:
-    """Give P2SF another version on a worker, or none; return the one of before."""
-    import p2sf
+def versioned(version: str | None) -> None:
+    """Give P2SF another version on a worker, none, or ("") its own again."""
+    import sys
+    from types import SimpleNamespace
 
-    before = p2sf.__dict__.pop("__version__", None)
-    if version:
-        p2sf.__version__ = version
-    return before
+    own = sys.modules.setdefault("p2sf as installed", sys.modules["p2sf"])
+    sys.modules["p2sf"] = SimpleNamespace(__version__=version) if version else own if version == "" else None
 
 
 def test_a_folder_that_workers_do_not_share_is_a_sentence(cluster, tmp_path):

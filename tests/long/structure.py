@@ -44,7 +44,7 @@ Place = tuple[Path, int, str]
 
 def sources(root: Path, package: str) -> list[Path]:
     """Return the Python files of a package."""
-    return sorted(path for path in (root / package).rglob("*.py") if path.name != "_version.py")
+    return sorted((root / package).rglob("*.py"))
 
 
 def lines_of_code(source: str) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QElapsedTimer, QObject, Signal
 
 from p2sf.errors import ExportError, P2SFError
-from p2sf.version import __version__
+from p2sf.version import program_version
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.changes import apply_changes
@@ -47,7 +47,7 @@ class TaskDesk(QObject):
         time = path.stat().st_mtime_ns if path.is_file() else 0
         if self._read is None or self._read[0] != time:  # another window writes it too
             self._read = time, self._load(path) if time else CourseResult()
-        return replace(self._read[1], program=__version__, language=current_language())
+        return replace(self._read[1], program=program_version(), language=current_language())
 
     def _load(self, path: Path) -> CourseResult:
         try:

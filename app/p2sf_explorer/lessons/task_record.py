@@ -14,7 +14,7 @@ from typing import Any
 from p2sf.errors import ExportError
 from p2sf.files.writing import write_json
 from p2sf.messages import Message
-from p2sf.version import __version__
+from p2sf.version import program_version
 
 FORMAT = 1  # of the file
 MARK = "p2sf_course"
@@ -48,7 +48,7 @@ class CourseResult:
     """The results of one person: versions of program and course, and records by "lecture/task"."""
 
     name: str = ""
-    program: str = __version__
+    program: str = field(default_factory=program_version)
     course: str = ""
     language: str = "en"
     tasks: Mapping[str, TaskRecord] = field(default_factory=dict)

@@ -11,7 +11,6 @@ from hashlib import sha256
 from queue import Empty, Queue
 from typing import Any
 
-from p2sf import __version__
 from p2sf.cluster import (
     LOOK_S,
     Presence,
@@ -25,6 +24,7 @@ from p2sf.database.files.stack import Chunk, Stack, open_stack
 from p2sf.database.files.stack_write import StackWork, write_chunk
 from p2sf.errors import ClusterError, DatabaseError
 from p2sf.threads import one_blas_thread
+from p2sf.version import program_version
 
 AHEAD = 2  # groups of chunks per thread in flight: while one is rendered, the next is ready
 GROUP_S = 0.5  # of work, a hundred times what sending a group and its answer takes
@@ -92,7 +92,7 @@ class _Dispatch:
 
     def _send(self, group: Group) -> None:
         future = self._client.submit(
-            fill_chunks, self._place, self._content, __version__, group, retries=RETRIES, pure=False
+            fill_chunks, self._place, self._content, program_version(), group, retries=RETRIES, pure=False
         )
         self._under_way[future] = group
         self._since.setdefault(group, time.monotonic())
@@ -132,8 +132,8 @@ def content(stack: Stack) -> str:
 def fill_chunks(place: str, named: str, version: str, chunks: Group) -> float:
     """Render and write chunks on a worker, and return the seconds that it took."""
     start = time.monotonic()
-    if version != __version__:  # on a worker that came after the others were asked
-        check_versions({distributed().get_worker().address: __version__}, version)
+    if version != program_version():  # on a worker that came after the others were asked
+        check_versions({distributed().get_worker().address: program_version()}, version)
     keep_freed_memory()
     with one_blas_thread:
         for chunk in chunks:

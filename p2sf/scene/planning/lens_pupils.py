@@ -32,7 +32,7 @@ from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.fit import levels_for
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.scene.planning.adaptive_table import Ends, KnownPupils, PupilAt, adaptive_table
-from p2sf.version import __version__
+from p2sf.version import program_version
 
 STOPS = 0.5  # powers of two between the rims of stops for which pupils are kept
 VISIBLE_UM = 0.4, 0.7
@@ -131,7 +131,7 @@ def _window(lens: Lens, vergence: float) -> float:
 def _table(lens: Lens, covered: TableRange) -> tuple[PupilTable | None, float]:
     """Return the table of a lens with a stop of the covered rim, as kept, else fitted; and its error."""
     media = [medium.index(np.array(covered.waves_um)).tolist() for medium in lens.media]
-    name = "pupils-" + sha256(repr((__version__, lens_to_toml(lens), media, covered)).encode()).hexdigest()[:40]
+    name = "pupils-" + sha256(repr((program_version(), lens_to_toml(lens), media, covered)).encode()).hexdigest()[:40]
     kept = read_cached(name)
     if kept == NONE:
         return None, 0.0

@@ -115,7 +115,7 @@ def test_files_and_links_that_come_later_open_too(qapp):
 
 def test_version_and_the_icon(capsys):
     assert run(["--version"]) == 0
-    assert capsys.readouterr().out.startswith(f"p2sf {__version__}\ncommit ")
+    assert capsys.readouterr().out.startswith(f"p2sf {__version__}\npython ")
     assert ICON.is_file()
 
 
