@@ -32,7 +32,7 @@ COMMANDS = {
     "compare": ("measuring:compare", "Two measurements of the same points beside each other."),
     "tradeoff": ("studies:tradeoff", "What every method costs in time and in error, measured."),
     "validate": ("studies:validate", "Figures that other programs published, beside this program's own."),
-    "paper": ("studies:paper", "Redo the paper's two figures on this machine, and judge its claims."),
+    "paper": ("studies:paper", "Redo the paper's two plots of results on this machine, and judge its claims."),
     "plan": ("scenes:plan_command", "The least model that a scene requires, each decision explained."),
     "image": ("scenes:image", "A picture through the lens, blurred as field, depth and colour demand."),
     "sharpen": ("scenes:sharpen", "A photo that the lens took, sharpened by the PSF of every place."),

@@ -20,7 +20,7 @@ def gaussian_psf(reference: Psf) -> Psf:
     """Return the elliptical Gaussian, free along y, that fits one reference PSF best in least squares.
 
     Three numbers: σx, σy and the centre's y (for a field along y the centre is at x = 0). Both have unit sum
-    in the window, so this maximises R². Baseline of Pieroni et al. 2015, figure 3.
+    in the window, so this maximises R². Baseline of Pieroni et al. 2015, section 3.
     """
     from scipy.optimize import least_squares
 

@@ -20,8 +20,10 @@ from p2sf.studies.paper_claims import (
     STAGES,
     defocus_claim,
     defocus_r_squared,
+    gaussian_claim,
     memory_claim,
     off_axis_claim,
+    speed_claim,
     stage_growth,
     time_claim,
 )
@@ -57,7 +59,8 @@ def test_refracting_elements_are_counted(name, count):
 
 def made_up():
     scores = {"gaussian": 0.8, "seidel": -0.6, "fitted, 26 numbers": 0.99, "fitted, 46 numbers": 0.999, "traced": 1.0}
-    rows = [{"aim": aim, "field_deg": f, "r_squared": scores} for aim in AIMS for f in (0.0, 14.0)]
+    seconds = {"seidel": 1e-3, "huygens": 0.1}
+    rows = [{"aim": aim, "field_deg": f, "r_squared": scores, "seconds": seconds} for aim in AIMS for f in (0.0, 14.0)]
     timing = [{"lens": "a", "elements": 3, **dict.fromkeys(STAGES, 1e-5)}]
     return {"lens": "a", "wavelength_nm": 656.3, "pixels": 32, "window_um": 22.12, "accuracy": rows, "timing": timing}
 
@@ -69,13 +72,34 @@ def test_a_pupil_that_is_unstable_off_axis_is_told_as_it_is():
     assert off_axis_claim(steady).verdict == HOLDS
 
 
-@pytest.mark.parametrize(("per_element", "verdict"), [(0.0, HOLDS), (0.02, HOLDS), (0.1, FAILS)])
+@pytest.mark.parametrize(
+    ("per_element", "verdict"),
+    [((0.0, 0.1, 0.02), HOLDS), ((0.0, 0.1, 0.1), FAILS), ((0.1, 0.1, 0.0), FAILS), ((0.0, 0.0, 0.0), FAILS)],
+)
 def test_growing_times_are_told_from_constant_ones(per_element, verdict):
     """Times of 1 + per_element·(elements − 1), from 1 to 8 elements: the fitted line meets them."""
-    counts = [1, 1, 3, 4, 6, 8]
-    timing = [{"elements": n, **dict.fromkeys(STAGES, 1e-5 * (1 + per_element * (n - 1)))} for n in counts]
-    assert stage_growth(timing)["SVF"] == pytest.approx(1 + 7 * per_element)
-    assert time_claim(timing).verdict == verdict and f"{1 + 7 * per_element:.2f}" in time_claim(timing).measured
+    growing = dict(zip(STAGES, per_element, strict=True))
+    timing = [
+        {"elements": n, **{stage: 1e-5 * (1 + each * (n - 1)) for stage, each in growing.items()}}
+        for n in (1, 1, 3, 4, 6, 8)
+    ]
+    claim = time_claim(timing)
+    assert claim.verdict == verdict
+    for stage, each in growing.items():
+        assert stage_growth(timing)[stage] == pytest.approx(1 + 7 * each) and f"{1 + 7 * each:.2f}" in claim.measured
+
+
+def test_a_gaussian_is_judged_by_what_it_loses_off_the_axis():
+    rows = [{"field_deg": f, "r_squared": {"gaussian": r}} for f, r in ((0.0, 0.85), (10.0, 0.6), (14.0, 0.1))]
+    assert gaussian_claim(rows).verdict == HOLDS and "0.100 at 14°" in gaussian_claim(rows).measured
+    assert gaussian_claim([rows[0], {**rows[0], "field_deg": 14.0}]).verdict == FAILS
+    assert gaussian_claim(rows[::-1]).verdict == FAILS
+
+
+@pytest.mark.parametrize(("seconds", "verdict"), [(0.0015, HOLDS), (0.6, FAILS)])
+def test_half_a_second_is_the_bound_of_one_psf(seconds, verdict):
+    claim = speed_claim(seconds, 0.2)
+    assert claim.verdict == verdict and f"{1e3 * seconds:.1f} ms" in claim.measured
 
 
 def test_memory_is_that_of_the_arrays():
@@ -122,7 +146,7 @@ def test_the_paper_is_judged_in_the_paraxial_pupil(monkeypatch):
 
     monkeypatch.setattr("p2sf.studies.paper.fidelity", recorded)
     claims = paper_figures()["claims"]
-    assert aims == ["stop"] * 3 + ["paraxial"] * 3 and len(claims) == 4
+    assert aims == ["stop"] * 3 + ["paraxial"] * 3 and len(claims) == 6
     assert "-0.600 at 14°" in claims[-1]["measured"] and "0.950" not in claims[-1]["measured"]
     assert all(claim["verdict"] in (HOLDS, FAILS) and claim["figures"] for claim in claims)
 

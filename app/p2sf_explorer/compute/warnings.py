@@ -22,7 +22,7 @@ OF_THE_ALIGNED = Message(
     "Six coefficients are those of the aligned lens, without its tilts, decentres and irregularities; choose auto, "
     "fitted or traced to see what these do."
 )
-DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 state the method up to |Wd| = 10 λ
+DEFOCUS_LIMIT = 10.0  # waves; Pieroni et al. 2015 consider PSFs of less, "in focus and quasi-in-focus"
 TOGETHER = Message("bring focus and source together to see waves")
 NEARER = Message("stop down or go nearer the axis to see waves")
 SMALLER = Message("stop down to see waves")
@@ -127,7 +127,7 @@ def _defocus(setup: ParaxialSetup) -> Message | None:
     if isnan(waves) or abs(waves) < DEFOCUS_LIMIT:
         return None
     return Message(
-        "Defocus is {waves} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.",
+        "Defocus is {waves} λ, beyond the 10 λ that the paper considers; bring focus or source nearer, or stop down.",
         waves=Number(significant(waves, 3)),
     )
 

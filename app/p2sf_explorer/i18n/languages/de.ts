@@ -456,7 +456,7 @@
 <message><source>Decentre x: the piece is moved sideways, out of the layout's plane.</source><translation>Dezentrierung x: das Teil wird zur Seite bewegt, aus der Ebene des Aufbaus hinaus.</translation></message>
 <message><source>Decentre y</source><translation>Dezentrierung y</translation></message>
 <message><source>Decentre y: the piece is moved up.</source><translation>Dezentrierung y: das Teil wird nach oben bewegt.</translation></message>
-<message><source>Defocus is {waves} λ, beyond the method's 10 λ; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {waves} λ, jenseits der 10 λ der Methode; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
+<message><source>Defocus is {waves} λ, beyond the 10 λ that the paper considers; bring focus or source nearer, or stop down.</source><translation>Der Defokus ist {waves} λ, jenseits der 10 λ, bis zu denen der Aufsatz geht; Fokus oder Quelle näher bringen oder abblenden.</translation></message>
 <message><source>Defocus, 1 λ</source><translation>Defokus, 1 λ</translation></message>
 <message><source>Delete</source><translation>Löschen</translation></message>
 <message><source>Delete this one</source><translation>Diesen löschen</translation></message>
