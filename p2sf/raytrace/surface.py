@@ -113,6 +113,11 @@ def to_plane(beam: Beam, index: FloatOrArray) -> None:
     beam.path -= back
 
 
+def _to_nearest(beam: Beam, index: FloatOrArray) -> None:
+    """Carry every ray to its point nearest to the current vertex."""
+    beam.advance(-_products(beam.place, beam.ray) / (index * index), index)
+
+
 def move(beam: Beam, motion: Motion, index: FloatOrArray, number: int) -> None:
     """Give a beam in the axes of ``motion``, those of surface ``number``; a ray that runs away from it misses it."""
     ahead = (3, *(1,) * (beam.place.ndim - 1))
@@ -140,25 +145,40 @@ def meet(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Norm
 def _conic_step(
     beam: Beam, curvature: float, conic: float, index: FloatOrArray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Carry every ray to the plane of the vertex; return the step to a conicoid, n·cosI·|normal|, its square.
+    """Carry every ray near the vertex; return the step to a conicoid, n·cosI·|normal|, its square.
 
     Of the two intersections, the one where light crosses the sheet through the vertex from front to back; written
-    as F/(G + root) it needs no special case for a plane (Welford 1986, §4.3, with optical cosines).
+    as F/(G + root) it needs no special case for a plane (Welford 1986, §4.3, with optical cosines). Rays at grazing
+    incidence meet the plane of the vertex so far away that G² and F would cancel: they start where they are nearest to
+    the vertex.
     """
     to_plane(beam, index)
-    f: np.ndarray = beam.x * beam.x
-    f += beam.y * beam.y
+    f = _products(beam.place, beam.place)
+    if not curvature * curvature * f.max() <= 1:
+        _to_nearest(beam, index)
+        f = _products(beam.place, beam.place)
+    g = _products(beam.place, beam.ray)
+    squeezed = index * index
+    if conic:
+        f += conic * beam.z * beam.z
+        g += conic * beam.z * beam.r
+        squeezed = squeezed + conic * beam.r * beam.r
     f *= curvature
-    g = beam.x * beam.p
-    g += beam.y * beam.q
+    f -= 2 * beam.z
     g *= curvature
     np.subtract(beam.r, g, out=g)
     square = g * g
-    square -= f * (curvature * (index * index + (conic * beam.r * beam.r if conic else 0.0)))
+    square -= f * (curvature * squeezed)
     along = _along_light(np.sqrt(square), index)
     g += along
     f /= g
     return f, along, square
+
+
+def _products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the scalar products of vectors, each (3, …)."""
+    found: np.ndarray = np.einsum("i...,i...", a, b)
+    return found
 
 
 def _meet_conic(beam: Beam, surface: Surface, index: FloatOrArray, number: int) -> Normal:
@@ -205,7 +225,7 @@ def _meet_asphere(beam: Beam, surface: Surface, index: FloatOrArray, number: int
     A step beyond the edge is halved. A ray for which it does not converge is refused.
     """
     start, *_ = _conic_step(beam, surface.curvature, surface.conic, index)
-    beam.advance(np.where(np.isfinite(start), start, 0.0), index)
+    beam.advance(np.where(np.isfinite(start), start, -beam.z / beam.r), index)
     if surface.uneven_parts:
         _within_edge(beam, surface, index)
     step = np.zeros(beam.x.shape)
