@@ -36,6 +36,7 @@ from p2sf.raytrace.clear_pieces import without_holes
 from p2sf.raytrace.exit_sphere import ExitSphere
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import hexapolar, pencil
+from p2sf.raytrace.ray_field import COLLIMATED, ONE_DIRECTION
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.spot import Landing, landing
 from p2sf.raytrace.vignetting import clear_nodes, clear_outline, pupil_edges, whole_nodes
@@ -558,6 +559,8 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     edge = np.stack(nodes.edge)
     low, high = edge.min(1), edge.max(1)
     half_x, half_y = half = (high - low) / 2
+    if half.min() <= ONE_DIRECTION:
+        raise GeometryError(COLLIMATED)
     middle = (high + low) / 2
     (centre_x, centre_y), share = middle, nodes.share
     x, y = (nodes.fx - centre_x) / half_x, (nodes.fy - centre_y) / half_y

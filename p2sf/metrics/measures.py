@@ -387,25 +387,25 @@ def _radius_of(parts: Parts, found: Found, radius: np.ndarray, fraction: np.ndar
 def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -> LineSpread:
     """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
     slices = [otf_slices(part.pupil) for part in parts]
+    most = 1 / (2 * min(one.step for both in slices for one in both))
     if position_um is None:
         half = max(SHOWN * part.pupil.spot.rms_um + SHOWN / min(part.pupil.cut_off_per_um) for part in parts)
-        position_um = np.linspace(-half, half, POINTS)
+        position_um = np.linspace(-min(half, most), min(half, most), POINTS)
     position = number_list("position_um", position_um)
-    _check_positions(position, min(one.step for both in slices for one in both))
+    _check_positions(position, most)
     found = []
     for axis in (0, 1):
         own = [both[axis] for both in slices]
         step = min(one.step for one in own)
         frequency = step * np.arange(round(max(one.cut_off for one in own) / step) + 1)
-        values = _transfer(parts, own, frequency)[0]
-        found.append((line_spread(values, step, position), edge_spread(values, step, position)))
+        values, perfect = _transfer(parts, own, frequency)
+        found.append((line_spread(values, step, position), edge_spread(values, perfect, step, position)))
     (line_x, edge_x), (line_y, edge_y) = found
     return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method, centroid_x_of(parts))
 
 
-def _check_positions(position_um: np.ndarray, step: float) -> None:
-    """Raise RequestError for positions where a sum over frequencies ``step`` apart repeats itself."""
-    most = 1 / (2 * step)
+def _check_positions(position_um: np.ndarray, most: float) -> None:
+    """Raise RequestError for positions beyond ``most``, from where on a sum over frequencies repeats itself."""
     if np.abs(position_um).max(initial=0.0) > most:
         raise RequestError(
             "{parameter} reaches {value:.4g} µm, and this line spread is known up to {most:.4g} µm from its centroid; "

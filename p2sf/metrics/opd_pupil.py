@@ -140,7 +140,7 @@ class Pupil:
         given = np.linspace(-most, most, POINTS) if position_um is None else number_list("position_um", position_um)
         self._check_reach("position_um", given, most)
         (line_x, edge_x), (line_y, edge_y) = (
-            (line_spread(one.values, one.step, given), edge_spread(one.values, one.step, given))
+            (line_spread(one.values, one.step, given), edge_spread(one.values, one.perfect, one.step, given))
             for one in (self._along_x, self._along_y)
         )
         return LineSpread(given, line_x, line_y, edge_x, edge_y, self._along_y_centroid, METHOD, self._along_x_centroid)

@@ -117,16 +117,17 @@ def line_spread(transfer: np.ndarray, step: float, position_um: np.ndarray) -> n
     return spread
 
 
-def edge_spread(transfer: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
+def edge_spread(transfer: np.ndarray, perfect: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
     """Return the image of an edge that is dark below 0: ½ + (1/π)∫Im(OTF·exp(2πiνx))/ν dν over ν > 0, rising to 1.
 
-    The integrand begins at 2πx and falls off with the transfer function, which is a straight line near 0: the slope
-    there corrects the trapezoid (Euler–Maclaurin).
+    The integrand begins at 2πx and falls off with the transfer function, whose slope at 0 corrects the trapezoid
+    (Euler–Maclaurin). That slope is due to the edge of the pupil alone: ``perfect``, the transfer function without
+    phase, has it over a whole step, where a wide blur already bends the other.
     """
     frequency = step * np.arange(1, transfer.size)
     wave = _waves(transfer[1:], step, position_um, 1).imag / frequency
     start = 2 * pi * position_um
-    fall = start * (1 - transfer[1].real) / step
+    fall = start * (1 - perfect[1]) / step
     spread: np.ndarray = 0.5 + (step * (start / 2 + wave.sum(1)) - step**2 / 12 * fall) / pi
     return spread
 

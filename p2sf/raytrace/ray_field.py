@@ -5,10 +5,17 @@ from math import sqrt
 
 import numpy as np
 
+from p2sf.errors import GeometryError
+from p2sf.messages import Message
 from p2sf.raytrace.pencil import Rays
 
 COARSE = 1.15  # margin for the maximum that some tens of rays may miss
 SMALLEST = 1e-12
+ONE_DIRECTION = 1e-12  # cycles per µm: rays whose frequencies differ by no more are parallel, to rounding
+COLLIMATED = Message(
+    "rays from all parts of the pupil arrive in one direction, along one axis at least, so that their light has no "
+    "focus; move the object or refocus"
+)
 AIRY_RADIUS = 0.60983494563325  # first zero of J1 over 2π (Airy 1835), times λ/NA: over the largest frequency
 
 
@@ -36,7 +43,8 @@ class Steepness:
 def steepness(rays: Rays, xi: np.ndarray, eta: np.ndarray) -> Steepness:
     """Return the steepness of the phase from the landing points: over f its gradient is −x, dw = −x·df (Hamilton).
 
-    f is nearly proportional to (ξ, η), so no derivative is needed. NaN rays are ignored.
+    f is nearly proportional to (ξ, η), so no derivative is needed. NaN rays are ignored. Raises GeometryError where all
+    rays are parallel.
     """
     rho2 = xi * xi + eta * eta
     sine = np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
@@ -49,4 +57,6 @@ def steepness(rays: Rays, xi: np.ndarray, eta: np.ndarray) -> Steepness:
     )
     radial, angular, across, along, square = (float(np.fmax.reduce(column)) for column in columns)
     spread = sqrt(square)
+    if spread <= ONE_DIRECTION:
+        raise GeometryError(COLLIMATED)
     return Steepness(radial, angular, COARSE * spread * across, COARSE * spread * along, spread)
