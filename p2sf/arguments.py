@@ -238,6 +238,15 @@ def real_array(name: str, values: ArrayLike, masked: float = np.nan) -> np.ndarr
     return numbers
 
 
+def first_place(wrong: np.ndarray) -> dict[str, Any]:
+    """Return ``row`` and ``column``, from 0, of the first item of (rows, columns, …) that is True, and their ``count``.
+
+    As values of a message, so that nobody has to search a picture for it.
+    """
+    at = np.unravel_index(int(wrong.argmax()), wrong.shape)
+    return {"row": int(at[0]), "column": int(at[1]) if len(at) > 1 else 0, "count": int(np.count_nonzero(wrong))}
+
+
 def number_list(name: str, values: ArrayLike, infinite: bool = False) -> np.ndarray:
     """Return one or several finite numbers as an array (n,); raises RequestError for anything else."""
     numbers = np.atleast_1d(real_array(name, values))

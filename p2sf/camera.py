@@ -36,6 +36,7 @@ from p2sf.parameters import (
     MASK_PARAMETERS,
     SOURCE_PARAMETERS,
     check_angle,
+    check_depth_map,
     check_positive,
     check_values,
     unit_behind,
@@ -425,7 +426,10 @@ class Camera(Settings):
 
     def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:
         """Return the depths of a picture, (1,) or of every pixel, by default the distance in focus."""
-        return np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
+        depths = np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
+        if depths.size > 1:  # of one, the parameter is named
+            check_depth_map(depths)
+        return depths
 
     def _plan(self, values: np.ndarray, depths: np.ndarray, rtol: float, clip: bool) -> "Plan":
         """Return the plan of a picture of these pixels and depths; RequestError without ``pixel_um``."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from p2sf.arguments import first_place
 from p2sf.conventions import FARTHEST_MM
 from p2sf.errors import RequestError
 from p2sf.messages import Message
@@ -56,6 +57,18 @@ def check_reach(name: str, value: float | None) -> None:
     """Raise RequestError for a distance in mm beyond FARTHEST_MM that is not inf; None passes."""
     if value is not None and FARTHEST_MM < value < inf:
         raise RequestError(FARTHER, parameter=name, value=value, unit=unit_behind(name), most=FARTHEST_MM)
+
+
+def check_depth_map(depth_mm: np.ndarray) -> None:
+    """Raise RequestError, which says where, for depths of a map, (rows, columns) mm, that are 0, negative or NaN."""
+    wrong = ~(depth_mm > 0)
+    if wrong.any():
+        raise RequestError(
+            "the depth map holds depths that are not positive, {count} of them, the first {value:g} mm at row {row}, "
+            "column {column} (from 0); give mm from the first vertex, inf allowed",
+            value=float(depth_mm[wrong][0]),
+            **first_place(wrong),
+        )
 
 
 def check_finite(name: str, value: float | None) -> None:

@@ -1,7 +1,7 @@
 """`p2sf plan` and `p2sf image`: what a scene requires, and its picture through the lens."""
 
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import inf
 from pathlib import Path
 from time import perf_counter
@@ -29,7 +29,7 @@ from p2sf.image.charts import CHARTS, draw_chart
 from p2sf.image.deblur import photo_noise
 from p2sf.image.exposure import check_seed, expose, raw_numbers
 from p2sf.io.depth_files import read_scene_depths
-from p2sf.io.photo_files import WRITABLE, check_ending, keeps_light, read_photo, stored_as, write_photo
+from p2sf.io.photo_files import WRITABLE, Photo, check_ending, kept_depth, read_photo, stored_as, write_photo
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
@@ -174,13 +174,14 @@ class Shown:
         check_seed(self.seed)
         if self.longest is not None:
             check_whole("longest", self.longest, 1, LARGEST_SIDE)
+        given = {each.name for each in fields(self) if getattr(self, each.name) != each.default}
         for first, other in (
             ("region", "preview"),
             ("region", "deblur"),
             ("region", "longest"),
-            ("longest", "preview"),
+            *((name, "preview") for name in ("longest", "method", "surround", "noise", "scheduler")),
         ):
-            if getattr(self, first) and getattr(self, other):
+            if {first, other} <= given:
                 raise RequestError(
                     "{parameter} and {other} are both given; keep one of them",
                     parameter=first,
@@ -225,16 +226,17 @@ def image(
     if output.suffix.lower() not in RAW:
         check_ending(output)
     _check_reading(output, asked, shown)
-    values, encoding = source_picture(picture, asked, shown)
+    source = source_picture(picture, asked, shown)
+    warn(source.caution)
     with using_threads(threads):
-        formed, facts = _form_picture(glass, asked, values, shown)
+        formed, facts = _form_picture(glass, asked, source.values, shown)
     if output.suffix.lower() in RAW:
         encoding = "raw"
         _write_raw(output, formed, asked.sensor)
     else:
-        encoding = stored_as(output, encoding)
-        _warn_of_white(output, formed, encoding, shown.depth)
-        write_photo(output, _for_file(formed, asked), encoding, shown.depth)
+        encoding, depth = stored_as(output, source.encoding), shown.depth or kept_depth(output, source)
+        _warn_of_white(output, formed, depth)
+        write_photo(output, _for_file(formed, asked), encoding, depth)
     rows, columns = formed.shape[:2]
     if as_json:
         about = {"file": str(output), "aim": asked.camera(glass).aim, "rows": rows, "columns": columns}
@@ -267,10 +269,10 @@ def _check_reading(output: Path, scene: Scene, shown: Shown) -> None:
             raise RequestError("{reason}; leave {parameter} out", reason=reason, parameter=flag)
 
 
-def _warn_of_white(output: Path, formed: np.ndarray, encoding: str, depth: str | None) -> None:
+def _warn_of_white(output: Path, formed: np.ndarray, depth: str) -> None:
     """Warn where whole numbers cut off light above white."""
     share = float((formed > BARELY_WHITE).any(-1).mean())
-    if share and depth not in ("half", "float") and not (depth is None and keeps_light(output, encoding)):
+    if share and depth not in ("half", "float"):
         warn(
             Message(
                 "{share:.2g} % of the picture is brighter than white, which {path} cuts off; choose {parameter} float "
@@ -300,20 +302,20 @@ def _short(value: object) -> str:
     return f"{value:.3g}" if isinstance(value, float) else str(value)
 
 
-def source_picture(picture: str, scene: Scene, shown: Shown) -> tuple[np.ndarray, str]:
-    """Return a chart or file as the scene's channels, and the encoding its copy is written in."""
+def source_picture(picture: str, scene: Scene, shown: Shown) -> Photo:
+    """Return a chart or file with the scene's channels."""
     if picture.startswith(CHART):
-        values, encoding = draw_chart(picture.removeprefix(CHART), scene.sensor.rows, scene.sensor.columns), "srgb"
+        rows, columns = scene.sensor.rows, scene.sensor.columns
+        photo = Photo(draw_chart(picture.removeprefix(CHART), rows, columns), "srgb", "8")
     else:
         photo = read_photo(picture, shown.encoding)
-        values, encoding = photo.values, photo.encoding
-    wanted, given = len(scene.channels), values.shape[-1]
+    wanted, given = len(scene.channels), photo.values.shape[-1]
     if given == wanted:
-        return values, encoding
+        return photo
     if given == 1:
-        return np.repeat(values, wanted, axis=-1), encoding
+        return replace(photo, values=np.repeat(photo.values, wanted, axis=-1))
     if wanted == 1:
-        return (values @ LUMINANCE)[..., None], encoding
+        return replace(photo, values=(photo.values @ LUMINANCE)[..., None])
     raise RequestError(
         "{path} has {given} channels and the scene {wanted}; give the scene 1 or {given}",
         path=picture,
@@ -397,10 +399,11 @@ def sharpen(
     check_output(output, WRITABLE, photo)
     own = Camera(find_lens(lens), pixel_um=pixel_um, **explicit_values(camera))
     taken = read_photo(photo, encoding)
+    warn(taken.caution)
     values = taken.values if taken.values.shape[2] == 3 else taken.values[..., 0]
     level = photo_noise(taken.values) if noise is None else noise
     sharp = own.sharpen(values, depth_mm, noise=level, rtol=rtol, clip=clip, threads=threads)
-    write_photo(output, sharp, taken.encoding)
+    write_photo(output, sharp, taken.encoding, kept_depth(output, taken))
     rows, columns = sharp.shape[:2]
     if as_json:
         about = {"file": str(output), "rows": rows, "columns": columns, "encoding": taken.encoding, "noise": level}

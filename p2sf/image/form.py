@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import real_array
+from p2sf.arguments import first_place, real_array
 from p2sf.cluster import checked_client, in_order, keep_freed_memory
 from p2sf.errors import RequestError
 from p2sf.image.blur_operator import BlurOperator
@@ -123,7 +123,8 @@ def form_image(
         depths = _check_layers(planned.scene, values, depth_mm)
         planned = replace(planned, vergences=depths.vergences)
         picture: np.ndarray = depths.colours[0]
-        _check_light(planned.scene, depths.colours)
+        for colours in depths.colours:
+            _check_light(planned.scene, colours)
     else:
         picture = check_picture(planned.scene, values)
         _check_light(planned.scene, picture)
@@ -371,9 +372,12 @@ class _Former:
         return light, covered
 
     def _surrounded(self, planes: np.ndarray, box: Region, reach: Region) -> tuple[np.ndarray, Region]:
-        """Return pixels of a box with those beyond the picture's edge as far as ``reach``, and the larger box."""
-        rows, columns = self.picture.shape[:2]
-        if self.how.surround != "edge":
+        """Return pixels of a box with those beyond the picture's edge as far as ``reach``, and the larger box.
+
+        What a map of depths covers goes on there even where it is black, since light is divided by what is covered.
+        """
+        (rows, columns, count), black = self.picture.shape, self.how.surround != "edge"
+        if black and not isinstance(self.depths, DepthMap):
             return planes, box
         wide = Region(
             min(reach.top, 0) if box.top == 0 else box.top,
@@ -382,7 +386,13 @@ class _Former:
             max(reach.right, columns) if box.right == columns else box.right,
         )
         down, right = (box.top - wide.top, wide.bottom - box.bottom), (box.left - wide.left, wide.right - box.right)
-        return (np.pad(planes, (down, right, (0, 0)), mode="edge") if wide != box else planes), wide
+        if wide == box:
+            return planes, box
+        around = (down, right, (0, 0))
+        padded = np.pad(planes, around, mode="edge")
+        if black:
+            padded[..., :count] = np.pad(planes[..., :count], around)
+        return padded, wide
 
     def _blur(
         self, number: int, planes: np.ndarray, box: Region, channels: tuple[int, ...]
@@ -579,14 +589,27 @@ def check_picture(scene: Scene, values: ArrayLike) -> np.ndarray:
             columns=sensor.columns,
             channels=channels,
         )
-    if not np.isfinite(values).all():
-        raise RequestError("the picture holds values that are not finite; replace them first")
+    known = np.isfinite(values)
+    if not known.all():
+        raise RequestError(
+            "the picture holds values that are not finite, {count} of them, the first at row {row}, column {column} "
+            "(from 0); replace them first",
+            **first_place(~known),
+        )
     return values
 
 
 def _check_light(scene: Scene, values: np.ndarray) -> None:
-    """Raise RequestError for light beyond that for which noise decided the tolerance."""
+    """Raise RequestError for light beyond that for which noise decided the tolerance, and for light below none."""
     most = float(values.max(initial=0.0))
+    negative = values < -ROUNDING * most
+    if negative.any():
+        raise RequestError(
+            "the picture has light of {least:g} at row {row}, column {column} (from 0), and below 0 in {count} values; "
+            "light is 0 or more, so set these to 0 first",
+            least=float(values[negative][0]),
+            **first_place(negative),
+        )
     if scene.noise_decides and most > scene.brightest * (1 + ROUNDING):
         raise RequestError(
             "the picture has light up to {most:g}, but the noise that the plan allows for is that of light up to "

@@ -17,6 +17,7 @@ import numpy as np
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
 from p2sf.image.region import Region, whole
+from p2sf.parameters import check_depth_map
 
 FAR = 2**28  # pixels, more than any picture has
 TINY = 1e-300  # 1/mm: keeps the quotient finite in a scene of one depth
@@ -158,10 +159,7 @@ def _beside(jumps: np.ndarray, reach: int) -> np.ndarray:
 def _places(depth_mm: np.ndarray, vergences: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
     """Return where pixels lie among the depth nodes, counted from 0, (rows, columns) float32."""
     check_map_shape(depth_mm, shape)
-    if not (depth_mm > 0).all():
-        raise RequestError(
-            "the depth map holds depths that are not positive; give mm from the first vertex, inf allowed"
-        )
+    check_depth_map(depth_mm)
     place: np.ndarray = np.interp(vergence(depth_mm), vergences, np.arange(len(vergences)))
     return place.astype(np.float32)
 

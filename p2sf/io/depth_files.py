@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.arguments import check_fields
+from p2sf.arguments import check_fields, first_place
 from p2sf.conventions import FARTHEST_MM, depth_of, vergence
 from p2sf.errors import RequestError
 from p2sf.io.photo_files import HEIF, heif_depth_image, read_samples
@@ -91,8 +91,15 @@ def _scaled(raw: np.ndarray, scale: DepthScale, path: str | os.PathLike[str]) ->
             "{path} has the shape ({shape}); a map of depths has one grey channel", path=str(path), shape=raw.shape
         )
     values = raw.astype(np.float32)
-    if np.isnan(values).any() or (values < 0).any():
-        raise RequestError("{path} holds depths that are negative or no numbers; correct them", path=str(path))
+    wrong = ~(values >= 0)
+    if wrong.any():
+        raise RequestError(
+            "{path} holds depths that are negative or no numbers, {count} of them, the first {value:g} at row {row}, "
+            "column {column} (from 0); correct them",
+            path=str(path),
+            value=float(values[wrong][0]),
+            **first_place(wrong),
+        )
     if scale.meaning in UNITS:
         return _in_mm(values * np.float32(UNITS[scale.meaning]), path)
     if raw.dtype.kind == "u":

@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from p2sf.arguments import first_place
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.raster_size import OversizedError, check_samples, first_page
 from p2sf.files.writing import write_beside
 from p2sf.io.png16 import is_deep, read_deep, write_deep
 from p2sf.io.transfer import check_encoding, linear_from_srgb, srgb_from_linear
-from p2sf.messages import Alternatives
+from p2sf.messages import Alternatives, Message
 
 EXR = ".exr"
 WRITABLE = (".png", ".tif", ".tiff", EXR)
@@ -34,11 +35,24 @@ class Photo:
     """A picture in linear light, (rows, columns, channels) float32, white at 1; row 0 is the top.
 
     ``encoding``: what its file's numbers meant, one of `transfer.ENCODINGS`; ``depth``: their bits, one of DEPTHS.
+    ``transparent``: the share of its pixels that were not opaque.
     """
 
     values: np.ndarray
     encoding: str
     depth: str
+    transparent: float = 0.0
+
+    @property
+    def caution(self) -> Message | None:
+        """Return that transparency is left out; None where all of the picture is opaque."""
+        if not self.transparent:
+            return None
+        return Message(
+            "{share:.2g} % of the picture is transparent, which is left out: its colours count as opaque; put it on a "
+            "background first if that is not meant",
+            share=100 * self.transparent,
+        )
 
 
 def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Photo:
@@ -52,14 +66,22 @@ def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Pho
     depth = {"u1": "8", "u2": "16"}.get(raw.dtype.str[1:], "float")
     encoding = encoding or ("linear" if depth == "float" else "srgb")
     check_encoding(encoding)
-    values = _channels(raw, path)
+    values, alpha = _channels(raw, path)
+    white = 1 if depth == "float" else int(np.iinfo(raw.dtype).max)
+    transparent = float((alpha < white).mean()) if alpha.size else 0.0
     if depth == "float":
-        if not np.isfinite(values).all():
-            raise RequestError("{path} holds values that are not finite; replace them first", path=str(path))
+        known = np.isfinite(values)
+        if not known.all():
+            raise RequestError(
+                "{path} holds values that are not finite, {count} of them, the first at row {row}, column {column} "
+                "(from 0); replace them first",
+                path=str(path),
+                **first_place(~known),
+            )
         values = values.astype(np.float32)
-        return Photo(linear_from_srgb(values) if encoding == "srgb" else values, encoding, depth)
-    codes = np.arange(np.iinfo(raw.dtype).max + 1, dtype=np.float32) / np.float32(np.iinfo(raw.dtype).max)
-    return Photo((linear_from_srgb(codes) if encoding == "srgb" else codes)[values], encoding, depth)
+        return Photo(linear_from_srgb(values) if encoding == "srgb" else values, encoding, depth, transparent)
+    codes = np.arange(white + 1, dtype=np.float32) / np.float32(white)
+    return Photo((linear_from_srgb(codes) if encoding == "srgb" else codes)[values], encoding, depth, transparent)
 
 
 def write_photo(
@@ -98,6 +120,13 @@ def stored_as(path: str | os.PathLike[str], encoding: str) -> str:
 def keeps_light(path: str | os.PathLike[str], encoding: str) -> bool:
     """Return whether a file holds floats by default, so that light above white is kept."""
     return Path(path).suffix.lower() != ".png" and stored_as(path, encoding) == "linear"
+
+
+def kept_depth(path: str | os.PathLike[str], photo: Photo) -> str:
+    """Return the depth at which a file holds what was made of a photo: light above white, or its bits."""
+    if keeps_light(path, photo.encoding):
+        return "float"
+    return "16" if Path(path).suffix.lower() == ".png" and photo.depth != "8" else photo.depth
 
 
 def check_ending(path: str | os.PathLike[str]) -> str:
@@ -267,7 +296,7 @@ def _from_exr(path: Path, size: int) -> np.ndarray:
             "{path} is a damaged {kind} ({why}); save the picture again", path=str(path), kind="OpenEXR", why=str(error)
         ) from error
     if all(name in planes for name in "RGB"):
-        return np.stack([planes[name] for name in "RGB"], axis=-1)
+        return np.stack([planes[name] for name in "RGBA" if name in planes], axis=-1)
     grey = [planes[name] for name in (*DEPTH_CHANNELS, *planes) if name in planes]
     if len(planes) != 1 and not any(name in planes for name in DEPTH_CHANNELS):
         raise RequestError(
@@ -309,7 +338,8 @@ def _by_pillow(data: bytes, path: Path, formats: tuple[str]) -> np.ndarray:
             if picture.mode.startswith("I;16"):
                 return np.asarray(picture)
             grey = picture.mode in ("1", "L", "LA")
-            return np.asarray(ImageOps.exif_transpose(picture).convert("L" if grey else "RGB"))
+            mode = ("L" if grey else "RGB") + "A" * picture.has_transparency_data
+            return np.asarray(ImageOps.exif_transpose(picture).convert(mode))
     except UnidentifiedImageError as error:
         raise RequestError(
             "{path} is not a PNG, TIFF, OpenEXR, JPEG or HEIF that can be read; convert it to one", path=str(path)
@@ -327,8 +357,8 @@ def _by_pillow(data: bytes, path: Path, formats: tuple[str]) -> np.ndarray:
         ) from error
 
 
-def _channels(raw: np.ndarray, path: str | os.PathLike[str]) -> np.ndarray:
-    """Return (rows, columns, 1 or 3): the channels of planar files moved last, transparency dropped."""
+def _channels(raw: np.ndarray, path: str | os.PathLike[str]) -> tuple[np.ndarray, np.ndarray]:
+    """Return (rows, columns, 1 or 3), the channels of planar files moved last, and the alpha, (…, 0 or 1)."""
     if raw.dtype.kind not in "uf" or (raw.dtype.kind == "u" and raw.dtype.itemsize > 2):
         raise RequestError(
             "{path} holds {kind} samples; save it with 8 or 16 bits or as float", path=str(path), kind=str(raw.dtype)
@@ -340,4 +370,5 @@ def _channels(raw: np.ndarray, path: str | os.PathLike[str]) -> np.ndarray:
         raise RequestError(
             "{path} has the shape ({shape}); give one picture of 1 or 3 channels", path=str(path), shape=raw.shape
         )
-    return raw[..., : 1 if raw.shape[2] < 3 else 3]
+    colours = 1 if raw.shape[2] < 3 else 3
+    return raw[..., :colours], raw[..., colours:]

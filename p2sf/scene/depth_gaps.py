@@ -89,8 +89,8 @@ def check_depths(intervals: np.ndarray, depth_mm: np.ndarray) -> None:
     raise RequestError(
         "the depth map reaches from {low:g} mm to {high:g} mm, and the scene from {near:g} mm to {far:g} mm; give "
         "depths in mm from the first vertex, and the scene a range that holds them",
-        low=float(np.min(depth_mm)),
-        high=float(np.max(depth_mm)),
+        low=float(positive.min()),
+        high=float(positive.max()),
         near=near,
         far=far,
     )

@@ -18,7 +18,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.psf.huygens import huygens_psf
-from p2sf.scene import Channel, Scene, Sensor
+from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf.threads import using_threads
 from tests.support.direct_sum import direct_sum
 
@@ -273,6 +273,49 @@ def test_what_does_not_fit_is_one_sentence():
         form_image(planned, np.ones((40, 50, 1)), np.ones((3, 3)))
     with pytest.raises(RequestError, match="not positive"):
         form_image(planned, np.ones((40, 50, 1)), np.zeros((40, 50)))
+    holes = np.full((40, 50), np.inf)
+    holes[3, 4] = np.nan
+    with pytest.raises(RequestError, match="the first nan mm at row 3, column 4 "):
+        form_image(planned, np.ones((40, 50, 1)), holes)
+    picture = np.ones((40, 50, 1))
+    picture[7, 9] = np.nan
+    with pytest.raises(RequestError, match="1 of them, the first at row 7, column 9 "):
+        form_image(planned, picture)
+    picture[7, 9], picture[8, 2] = -0.25, -3.0
+    with pytest.raises(RequestError, match=r"light of -0.25 at row 7, column 9 .* in 2 values"):
+        form_image(planned, picture)
     for wrong, words in (({"method": "svd"}, "choose patches or lowrank"), ({"surround": "white"}, "black or edge")):
         with pytest.raises(RequestError, match=words):
             Forming(**wrong)
+
+
+@pytest.mark.parametrize("method", ["patches", "lowrank"])
+@pytest.mark.parametrize("depths", [None, "even", "two"])
+def test_black_surrounds_darken_the_border_with_a_map_of_depths_too(method, depths):
+    """Of even light, the top row keeps what the kernel sends up from the rows below, and none of it comes from above.
+
+    0.01: the kernel is that of the row itself, not of every row below, and a fit's illumination is 1 to 1e-3. A map of
+    two depths a millimetre apart has the same kernels.
+    """
+    shape, depth_mm = (31, 41), 11000.0
+    scene = Scene(Sensor(*shape, 28.0), GREEN, depth_mm - 1, depth_mm, rtol=0.1, focus_mm=22000.0, f_number=4)
+    planned = plan(find_lens("double_gauss_28"), scene)
+    known = None if depths is None else np.full(shape, depth_mm)
+    if depths == "two":
+        known[:, :20] -= 1
+    how = Forming(method, "black")
+    found = form_image(planned, np.ones((*shape, 1)), known, how)[..., 0]
+    sensor = scene.sensor
+    kernel = planned.kernels(0, 1 / depth_mm).at(float(sensor.x_mm(20)), float(sensor.y_mm(0)))
+    assert kernel[: kernel.shape[0] // 2 + 1].sum() < 0.9  # else nothing is tested
+    assert found[0, 20] == pytest.approx(kernel[: kernel.shape[0] // 2 + 1].sum(), abs=0.01)
+
+
+@pytest.mark.parametrize("shape", [(20, 1), (1, 20), (1, 1), (2, 9)])
+def test_sensors_of_one_column_or_one_row_have_pictures(shape):
+    """An even scene stays even but for the illumination, 3e-3 on so small a sensor; a plan counts no node twice."""
+    planned = plan(find_lens("double_gauss_28"), Scene(Sensor(*shape, 14.0), GREEN, rtol=0.1, f_number=4))
+    assert all(count <= n for count, n in zip(planned.counts, shape, strict=True))
+    for method in ("patches", "lowrank"):
+        found = form_image(planned, np.ones((*shape, 1)), how=Forming(method))
+        np.testing.assert_allclose(found, 1, atol=3e-3)

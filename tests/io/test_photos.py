@@ -10,7 +10,7 @@ import tifffile
 from PIL import Image
 
 from p2sf.errors import ExportError, P2SFError, RequestError
-from p2sf.io.photo_files import photo_shape, read_photo, write_photo
+from p2sf.io.photo_files import kept_depth, photo_shape, read_photo, write_photo
 from p2sf.io.png16 import BAND, read_deep, reverse_filters, write_deep
 from p2sf.io.transfer import linear_from_srgb, srgb_from_linear
 
@@ -240,3 +240,58 @@ def test_heif_without_its_library_says_what_to_install(tmp_path, monkeypatch):
 def test_the_shape_is_told_without_reading_the_picture(tmp_path, ending):
     write_photo(tmp_path / f"a{ending}", picture())
     assert photo_shape(tmp_path / f"a{ending}") == (13, 17)
+
+
+@pytest.mark.parametrize("kind", ["png", "png16", "tif", "exr", "palette"])
+@pytest.mark.parametrize("clear", [0, 5])
+def test_transparency_that_is_left_out_is_told(tmp_path, kind, clear):
+    """Colours are those of the file, whatever its alpha, and the share of pixels that are not opaque is counted."""
+    ending = {"png16": ".png", "palette": ".png"}.get(kind, f".{kind}")
+    path, deep = tmp_path / f"p{ending}", kind in ("png16", "tif")
+    white = 65535 if deep else 255
+    raw = np.full((4, 5, 4), white, np.uint16 if deep else np.uint8)
+    raw[..., :3] = white // 3
+    raw.reshape(-1, 4)[:clear, 3] = white // 2
+    if kind == "exr":
+        exr = pytest.importorskip("OpenEXR")
+        channels = {"RGBA": (raw / white).astype(np.float32)}
+        with exr.File({"compression": exr.ZIP_COMPRESSION, "type": exr.scanlineimage}, channels) as file:
+            file.write(str(path))
+    elif kind == "tif":
+        tifffile.imwrite(path, raw, photometric="rgb", extrasamples=["unassalpha"])
+    elif kind == "png16":
+        lines = zlib.compress(b"".join(b"\0" + row.astype(">u2").tobytes() for row in raw))
+        parts = (b"IHDR", struct.pack(">IIBBBBB", 5, 4, 16, 6, 0, 0, 0)), (b"IDAT", lines), (b"IEND", b"")
+        packed = (
+            struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
+            for name, body in parts
+        )
+        path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(packed))
+    elif kind == "palette":
+        indices = np.zeros((4, 5), np.uint8)
+        indices.flat[:clear] = 1
+        image = Image.fromarray(indices).convert("P")
+        image.putpalette([85] * 6)
+        image.save(path, transparency=bytes([255, 100]))
+    else:
+        Image.fromarray(raw).save(path)
+    found = read_photo(path, "linear")
+    np.testing.assert_allclose(found.values, np.broadcast_to(1 / 3, (4, 5, 3)), atol=1e-6)
+    assert found.transparent == clear / 20 and (found.caution is None) == (clear == 0)
+
+
+@pytest.mark.parametrize(
+    ("given", "to", "kept"),
+    [
+        ("8", ".tif", "8"),
+        ("16", ".tif", "16"),
+        ("16", ".png", "16"),
+        ("8", ".png", "8"),
+        ("float", ".png", "16"),
+        ("float", ".tif", "float"),
+        ("16", ".exr", "float"),
+    ],
+)
+def test_what_is_made_of_a_photo_keeps_its_bits(tmp_path, given, to, kept):
+    write_photo(tmp_path / "p.tif", picture(), "linear" if given == "float" else "srgb", given)
+    assert kept_depth(tmp_path / f"o{to}", read_photo(tmp_path / "p.tif")) == kept

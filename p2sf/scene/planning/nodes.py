@@ -59,7 +59,7 @@ def field_counts(study: Study, number: int) -> tuple[int, int]:
     longer = max(sensor.rows, sensor.columns)
     if count == 1:
         return 1, 1
-    rows, columns = (max(2, 1 + round((count - 1) * n / longer)) for n in (sensor.rows, sensor.columns))
+    rows, columns = (min(n, max(2, 1 + round((count - 1) * n / longer))) for n in (sensor.rows, sensor.columns))
     return rows, columns
 
 
@@ -88,9 +88,11 @@ def field_places(study: Study, colours: Sequence[Colour]) -> list[FieldPlace]:
 def between_field_nodes(study: Study, number: int, place: FieldPlace) -> list[Between]:
     """Return the interpolation at a point by an entry of NODE_COUNTS."""
     counts, sensor, (colour, vergence, cell) = field_counts(study, number), study.scene.sensor, place
-    rows, columns = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
-    if len(rows) == 1:
+    if counts == (1, 1):
         return _about_one(study, colour, vergence)
+    axes = (nodes_along(n, c) for n, c in zip((sensor.rows, sensor.columns), counts, strict=True))
+    # Along a side of one pixel a cell begins and ends at the same node.
+    rows, columns = (np.repeat(nodes, 2) if len(nodes) == 1 else nodes for nodes in axes)
     away = np.hypot(sensor.x_mm((columns[:-1] + columns[1:]) / 2), sensor.y_mm((rows[:-1] + rows[1:]) / 2)[:, None])
     order = away.argsort(axis=None, kind="stable")[[0, -1]].tolist()
     last = away.size - 1

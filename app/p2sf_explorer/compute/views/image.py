@@ -24,6 +24,7 @@ from p2sf.image.lattice import Lattice
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
 from p2sf.io.depth_files import DepthScale
+from p2sf.io.photo_files import keeps_light, kept_depth, write_photo
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -44,6 +45,7 @@ from p2sf_explorer.compute.views.photos import (
     full_shape,
     own_shape,
     scene_values,
+    source_photo,
 )
 from p2sf_explorer.state.state import State
 
@@ -134,6 +136,12 @@ def frame_notes(photo: str, shape: tuple[int, int]) -> tuple[Message, Message] |
             **sensor,
         )
     return None
+
+
+def transparency(photo: str, shape: tuple[int, int]) -> Notes:
+    """Return a note on a photo with transparency, which is left out; RequestError."""
+    caution = source_photo(photo, shape).caution
+    return ((Message("Transparency"), caution),) if caution else ()
 
 
 ROWS, COLUMNS = 208, 312
@@ -383,7 +391,12 @@ def _sharpen(
         lattice=lattice,
         seconds=perf_counter() - begun,
         headline=count,
-        notes=((Message("Sharpening"), Message(FILTERED, noise=noise)), (Message("PSFs"), product), *measured),
+        notes=(
+            (Message("Sharpening"), Message(FILTERED, noise=noise)),
+            *transparency(request.photo, own_shape(request.photo)),
+            (Message("PSFs"), product),
+            *measured,
+        ),
         no_plan=why_not,
     )
 
@@ -476,7 +489,7 @@ def _answer(
     )
     count, product = psf_counts(plan)
     cut = frame_notes(request.photo, request.shape)
-    frame = ((Message("Frame"), cut[1]),) if cut else ()
+    frame = (*(((Message("Frame"), cut[1]),) if cut else ()), *transparency(request.photo, request.shape))
     return ImageResult(
         question=request,
         before=before,
@@ -698,7 +711,7 @@ def work(
 
 
 def save_picture(answer: ImageResult, path: str | Path) -> None:
-    """Write the picture at the right of the split as .png or .tif; ExportError."""
-    from p2sf.io.photo_files import write_photo
-
-    write_photo(path, answer.after)
+    """Write the picture at the right of the split as .png or .tif, at the depth of its photo; ExportError."""
+    photo = source_photo(answer.question.photo, answer.question.shape)
+    encoding = "linear" if keeps_light(path, photo.encoding) else "srgb"
+    write_photo(path, answer.after, encoding, kept_depth(path, replace(photo, encoding=encoding)))

@@ -1,12 +1,13 @@
 """What stands in front of the lens: built-in charts and a person's photos, fitted to the picture's frame. No Qt."""
 
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from p2sf.image.charts import CHARTS, draw_chart
-from p2sf.io.photo_files import photo_shape, read_photo
+from p2sf.io.photo_files import Photo, photo_shape, read_photo
 from p2sf.lens.lens import Lens
 from p2sf.scene.scene import RGB, Channel
 from p2sf_explorer.compute.setup import wavelength_range
@@ -27,7 +28,16 @@ CHART_WORDS = {
 
 def scene_values(photo: str, shape: tuple[int, int]) -> np.ndarray:
     """Return a chart by name or a photo by path in linear light, (rows, columns, 3) float32; RequestError."""
-    return _chart(photo, shape) if photo in CHARTS else _photo(photo, change_time(photo), shape)[0]
+    return source_photo(photo, shape).values
+
+
+def source_photo(photo: str, shape: tuple[int, int]) -> Photo:
+    """Return a chart or photo as `scene_values` does, with what its file is; RequestError."""
+    return Photo(_chart(photo, shape), "srgb", "8") if photo in CHARTS else _read(photo, shape)
+
+
+def _read(path: str, shape: tuple[int, int]) -> Photo:
+    return (_cached_photo if shape[0] * shape[1] <= MOST_KEPT else _fitted_photo)(path, change_time(path), shape)
 
 
 def cut_away(photo: str, shape: tuple[int, int]) -> tuple[float, float]:
@@ -71,20 +81,16 @@ def _shape(path: str, _changed: int) -> tuple[int, int]:
     return photo_shape(path)
 
 
-def _photo(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
-    """Return a photo in a shape, and its own; large ones are not kept."""
-    return (_cached_photo if shape[0] * shape[1] <= MOST_KEPT else _cached_fit)(path, stamp, shape)
-
-
 @lru_cache(maxsize=4)
-def _cached_photo(path: str, stamp: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
-    return _cached_fit(path, stamp, shape)
+def _cached_photo(path: str, stamp: int, shape: tuple[int, int]) -> Photo:
+    return _fitted_photo(path, stamp, shape)
 
 
-def _cached_fit(path: str, _changed: int, shape: tuple[int, int]) -> tuple[np.ndarray, tuple[int, int]]:
-    values = read_photo(path).values
+def _fitted_photo(path: str, _changed: int, shape: tuple[int, int]) -> Photo:
+    photo = read_photo(path)
+    values = photo.values
     colours = np.repeat(values, 3, axis=-1) if values.shape[-1] == 1 else values
-    return crop_and_resize(colours, shape), values.shape[:2]
+    return replace(photo, values=crop_and_resize(colours, shape))
 
 
 def middle(rows: int, columns: int, shape: tuple[int, int]) -> tuple[float, float]:
