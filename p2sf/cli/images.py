@@ -23,7 +23,7 @@ from p2sf.messages import Message, ParameterName
 from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.methods import AUTO, PsfOptions, by_six
-from p2sf.psf.prediction import CAUTION, TOO_FAR, USELESS
+from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf
 from p2sf.threads import using_threads
 
@@ -135,7 +135,7 @@ class Picture:
 
 USUAL = Picture()
 METHOD = ParameterName("method")
-CAUTIOUS = Message("caution: above {limit:g}; choose {parameter} traced to be sure", limit=CAUTION, parameter=METHOD)
+CAUTIOUS = "caution: above {limit:g}; choose {parameter} traced to be sure"
 NO_PREDICTION = Message("none: nothing was traced to tell")
 LIGHT, POINTS = Message("light of each pixel"), Message("intensity at points")
 NO_STREHL = Message("not defined for a fitted shape")
@@ -208,7 +208,7 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
         )
     warn(result.caution)
     warn(accuracy.caution if accuracy else None)
-    rows = summary(result, aim, output, energy, accuracy)
+    rows = summary(result, aim, output, energy, accuracy, 1 - picture.min_r2)
     return print_table(title, ("point spread function", "value", "unit"), rows)
 
 
@@ -307,27 +307,38 @@ def _peak(result: Psf) -> tuple[float | None, float | None]:
     return (None, None) if result.peak_um is None else (float(result.peak_um[0]), float(result.peak_um[1]))
 
 
-def prediction(error: float | None) -> tuple[float | None, Message | str]:
-    """Return what a method is predicted to miss, and a note where that is much or unknown."""
+def prediction(error: float | None, allowed: float) -> tuple[float | None, Message | str]:
+    """Return what a method is predicted to miss, and a note where that is more than ``allowed`` or unknown."""
     if error is None:
         return None, NO_PREDICTION
     if error >= USELESS:
         return None, TOO_FAR
-    return error, CAUTIOUS if error > CAUTION else ""
+    return error, Message(CAUTIOUS, limit=allowed, parameter=METHOD) if error > allowed else ""
 
 
-def exit_pupil_rows(result: Psf) -> list[Row]:
+def exit_pupil_rows(result: Psf, allowed: float) -> list[Row]:
     """Return the Fresnel number and what plane waves miss, where these are known."""
     missed, number = result.plane_wave_error, result.fresnel_number
     if missed is None or number is None:
         return []
-    return [("predicted 1 − R² of plane waves", *prediction(float(missed))), ("Fresnel number", float(number), "")]
+    return [
+        ("predicted 1 − R² of plane waves", *prediction(float(missed), allowed)),
+        ("Fresnel number", float(number), ""),
+    ]
 
 
 def summary(
-    result: Psf, aim: str, output: Path | None, energy: Energy | None = None, accuracy: DatabaseAccuracy | None = None
+    result: Psf,
+    aim: str,
+    output: Path | None,
+    energy: Energy | None = None,
+    accuracy: DatabaseAccuracy | None = None,
+    allowed: float = ALLOWED,
 ) -> list[Row]:
-    """Return the rows that tell a person what was computed; ``accuracy``: of the database it was looked up in."""
+    """Return the rows that tell a person what was computed.
+
+    ``accuracy``: of the database it was looked up in; ``allowed``: 1 − R² above which a prediction is a caution.
+    """
     known, measured = facts(result), figures(result, energy)
     light, stated = "all light" if energy else f"the {IN_WINDOW}", result.predicted_error is not None
     rows: list[Row] = [
@@ -350,8 +361,8 @@ def summary(
         (f"radius of 80 % of {light}", measured["radius_80_um"], "µm"),
         *([("these radii", note, "")] if (note := energy.note if energy else window_of(result)) else []),
         *([("RMS radius of the rays", measured["rms_um"], "µm")] if energy else []),
-        *([("predicted 1 − R²", *prediction(result.predicted_error))] if stated or not accuracy else []),
-        *exit_pupil_rows(result),
+        *([("predicted 1 − R²", *prediction(result.predicted_error, allowed))] if stated or not accuracy else []),
+        *exit_pupil_rows(result, allowed),
         *(accuracy_rows(accuracy, " in this database") if accuracy else []),
         ("sampling", result.sampling, ""),
         ("numbers that describe it", result.numbers, ""),

@@ -27,13 +27,12 @@ from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import reason_against_coefficients
 from p2sf.psf.methods import AUTO, FITTED, SEIDEL, by_six, seidel_error
-from p2sf.psf.prediction import CAUTION, USELESS, predicted_error
+from p2sf.psf.prediction import ALLOWED, USELESS, predicted_error
 from p2sf.raytrace.fit import behind_mask, trace_check_rays
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
 METHODS = (AUTO, SEIDEL.name, FITTED.name)
-TOLERANCE = 0.99  # least R² at which "auto" keeps six coefficients, as of `psf.methods.render`
 POINTS = 32  # between the corners of a space
 EXACT = "exact"  # the default interpolant
 
@@ -93,8 +92,8 @@ class DatabaseAccuracy:
 
     @property
     def caution(self) -> Message | None:
-        """Return a warning if 1 − R² may exceed CAUTION, else None."""
-        if self.worst <= CAUTION:
+        """Return a warning if 1 − R² may exceed ALLOWED, else None."""
+        if self.worst <= ALLOWED:
             return None
         narrower = remedy = Message("narrow the depths, the fields or the wavelengths")
         if by_six(self.method):
@@ -198,7 +197,7 @@ def build_by(
 ) -> Database:
     """Return the database of a lens by a method: six coefficients, fits, or what ``auto`` chooses.
 
-    ``auto`` chooses the six coefficients if R² ≥ TOLERANCE over the whole space, or if another interpolant is
+    ``auto`` chooses the six coefficients if 1 − R² ≤ ALLOWED over the whole space, or if another interpolant is
     requested, which only they support; otherwise fits, unless these cannot be built or are no better. Raises
     RequestError for another method, and P2SFError as the builds do.
     """
@@ -209,7 +208,7 @@ def build_by(
     if refused or (interpolant == EXACT and reason_against_coefficients(lens)):
         return build_fitted(lens, space, stop)
     six = build_database(lens, space, interpolant, stop)
-    if interpolant != EXACT or accuracy(six, lens).worst <= 1 - TOLERANCE:
+    if interpolant != EXACT or accuracy(six, lens).worst <= ALLOWED:
         return six
     try:
         fits = build_fitted(lens, space, stop)

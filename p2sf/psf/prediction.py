@@ -22,7 +22,8 @@ from p2sf.raytrace.pencil import Rays
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
 EDGE_ERROR = 1e-4  # over a pupil bounded by rims or lost rays (`traced.FALLBACK_TOLERANCE`)
-CAUTION = 1e-3  # 1 − R² above which a predicted error is pointed out
+ALLOWED = 0.01  # 1 − R² that may be missed where nothing else is asked for
+CAUTION = 1e-3  # 1 − R² of plane waves above which R² refers to spherical ones
 VECTOR_NA = 0.383  # sine of the steepest ray above which scalar light leaves CAUTION (`studies.vector_light`)
 
 USELESS = 1.0  # 1 − R² above which an estimate for small phases only shows that the PSFs differ

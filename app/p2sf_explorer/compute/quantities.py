@@ -29,7 +29,7 @@ from p2sf_explorer.state.scales import (
 from p2sf_explorer.state.state import State, entry
 
 Scale = Linear | Logarithmic | Vergence | Stepped
-BEYOND = "nowhere"  # where a file's sensor stands that no object is sharp on
+BEYOND = "beyond ∞"  # where a file's sensor stands nearer than the image of a star, so that no object is sharp on it
 F_NM, D_NM, C_NM = 486.1327, 587.5618, 656.2725  # Fraunhofer lines
 
 

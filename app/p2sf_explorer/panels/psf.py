@@ -5,7 +5,7 @@ from PySide6.QtCore import QTimer
 
 from p2sf.messages import Message
 from p2sf.psf.methods import REFERENCE, PsfRequest
-from p2sf.psf.prediction import CAUTION, VECTOR_NA
+from p2sf.psf.prediction import VECTOR_NA
 from p2sf.psf.result import Psf
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import BRIGHTNESS, HeatMap
@@ -157,8 +157,8 @@ class PsfPanel:
     def show_badge(self, live: Live, r_squared: float | None, reference: str = REFERENCE) -> None:
         """Show method, times and R² against the ``reference``: measured where it is known, else predicted.
 
-        The times are the last ones of a preview, while a slider moves, and of a settled picture. A prediction of less
-        than 0.999 is a caution.
+        The times are the last ones of a preview, while a slider moves, and of a settled picture. A prediction below
+        the R² asked for is a caution.
         """
         psf = live.psf
         if live.difference:
@@ -169,7 +169,8 @@ class PsfPanel:
         measured = None if live.setup.altered or psf.method == "geometric" else r_squared
         times = {name: self._times[name] for name in QUALITIES if name in self._times}
         whole, short = badge_words(live, times, measured, reference)
-        unsure = (measured is None and (psf.predicted_error or 0.0) > CAUTION) or vectors_count(live)
+        allowed = 1 - live.state.optics.tolerance
+        unsure = (measured is None and (psf.predicted_error or 0.0) > allowed) or vectors_count(live)
         self.badge.set_text(whole, "warning" if unsure else "text", short)
         self.badge.setToolTip("\n".join((whole, *tip_words(live))))
 

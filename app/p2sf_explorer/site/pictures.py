@@ -9,27 +9,28 @@ from tempfile import TemporaryDirectory
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.charts.theme import configure_plots
-from p2sf_explorer.compute.setup import with_lens
+from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
 from p2sf_explorer.site.examples import run_examples
 from p2sf_explorer.site.gallery import settle
 from p2sf_explorer.state.pinning import pin
-from p2sf_explorer.state.state import State, change, new_state
+from p2sf_explorer.state.state import State, change
 from p2sf_explorer.window.window import MainWindow
 
 SIZE = 1280, 800
 MADE = re.compile(r"\]\(made/([\w.]+)\)")
-FIRST = new_state(theme="light")
-STOPPED = change(FIRST, field_deg=14.0, f_number=8.0)
-TRIPLET = change(with_lens(FIRST, "cooke_triplet"), field_deg=0.0)
+FIRST = change(first_state(), theme="light")
+CORNER = change(FIRST, field_deg=20.0)
+STOPPED = change(CORNER, f_number=8.0)
+AXIS = change(FIRST, field_deg=0.0)
 WINDOW = {
     "window_first.png": FIRST,
-    "window_field.png": change(FIRST, field_deg=14.0),
+    "window_field.png": CORNER,
     "window_stopped.png": STOPPED,
-    "window_compared.png": change(pin(STOPPED), f_number=3.0, shown="difference"),
-    "window_misaligned.png": change(TRIPLET, f_number=5.6, errors=(("decentre_y", 3, 4, 0.2),), tab="misalign"),
-    "window_tolerances.png": change(TRIPLET, stage="tolerances", show_rail=False),
+    "window_compared.png": change(pin(STOPPED), f_number=5.0, shown="difference"),
+    "window_misaligned.png": change(AXIS, f_number=5.6, errors=(("decentre_y", 3, 4, 0.2),), tab="misalign"),
+    "window_tolerances.png": change(AXIS, stage="tolerances", show_rail=False),
 }
 
 
@@ -53,6 +54,15 @@ def lesson_states() -> dict[str, State]:
 
 def window_pictures(states: dict[str, State]) -> Iterator[tuple[str, bytes]]:
     """Yield the name and PNG of the window in each state."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "window.png"
+        for name, window in shown_windows(states):
+            window.grab().save(str(path))
+            yield name, path.read_bytes()
+
+
+def shown_windows(states: dict[str, State]) -> Iterator[tuple[str, MainWindow]]:
+    """Yield each name with the window that shows its state, in English and at rest."""
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
     configure_plots()
@@ -60,11 +70,8 @@ def window_pictures(states: dict[str, State]) -> Iterator[tuple[str, bytes]]:
     window = MainWindow(FIRST)
     window.resize(*SIZE)
     window.show()
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "window.png"
-        for name, state in states.items():
-            window.store.replace(state)
-            settle(window)
-            window.grab().save(str(path))
-            yield name, path.read_bytes()
+    for name, state in states.items():
+        window.store.replace(state)
+        settle(window)
+        yield name, window
     window.close()
