@@ -29,7 +29,7 @@ from p2sf.pupil.basis import Gradient, PupilValues
 from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
-from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness
+from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness, map_slopes
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import map_threads, one_blas_thread
 
@@ -275,19 +275,22 @@ def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -
     """Return the steepness of looked-up polynomials at the points of the level's rays, as `ray_field.steepness`."""
     xi, eta, _ = level_rays(level)
     rho, sine = np.hypot(xi, eta), np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
-    slopes, values = _terms_at_rays(level)
+    slopes, values, (of_fx, of_fy) = _terms_at_rays(level)
     across, along = (phase @ part for part in slopes)
+    by_xi, by_eta = ((fx @ a, fy @ b) for a, b in zip(of_fx, of_fy, strict=True))
+    spread = float(np.hypot(fx @ values.fx, fy @ values.fy).max())
     return Steepness(
         radial=float(np.abs((xi * across + eta * along) / rho).max()),
         angular=float(np.abs(eta * across - xi * along).max()),
         across=COARSE * float((np.abs(across) * np.sqrt(np.maximum(1 - rho * rho, 0))).max()),
         along=COARSE * float(np.abs(across * (xi * eta / sine) - along * sine).max()),
-        spread=float(np.hypot(fx @ values.fx, fy @ values.fy).max()),
+        spread=spread,
+        stretch=max(1.0, map_slopes(xi, eta, by_xi, by_eta).largest / spread),
     )
 
 
 @lru_cache(maxsize=16)
-def _terms_at_rays(level: Level) -> tuple[Gradient, PupilValues]:
-    """Return ∂/∂ξ and ∂/∂η of the terms of the phase, and all terms, at a level's rays."""
+def _terms_at_rays(level: Level) -> tuple[Gradient, PupilValues, tuple[Gradient, Gradient]]:
+    """Return ∂/∂ξ and ∂/∂η of the terms of the phase, all terms, and those slopes of fx and fy, at a level's rays."""
     xi, eta, _ = level_rays(level)
-    return phase_slopes(level), level.basis.values(xi, eta)
+    return phase_slopes(level), level.basis.values(xi, eta), level.basis.map_slopes(xi, eta)

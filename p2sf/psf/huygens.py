@@ -29,6 +29,7 @@ from p2sf.psf.smooth_pupil import (
     all_reach,
     coarse_pencil,
     coarse_points,
+    coarse_slopes,
     interpolated_waves,
     smooth_blur_um2,
 )
@@ -39,7 +40,7 @@ from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.exit_sphere import ExitSphere, wider_by
 from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil, rays_through
-from p2sf.raytrace.ray_field import Steepness, steepness
+from p2sf.raytrace.ray_field import MapSlopes, Steepness, steepness
 from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.raytrace.vignetting import pencil_blur, pupil_nodes
 from p2sf.threads import for_each, one_blas_thread
@@ -205,12 +206,20 @@ def _nodes(counts: Counts) -> int:
     return counts[0] * counts[1] // 2
 
 
-def first_counts(lens: Lens, source: Source, reach_um: float, clip: bool, most: int = MOST_NODES) -> Counts:
+def first_counts(
+    lens: Lens,
+    source: Source,
+    reach_um: float,
+    clip: bool,
+    most: int = MOST_NODES,
+    sphere: ExitSphere | None = None,
+) -> Counts:
     """Return node counts that should carry the phase of a coarse pencil up to a distance from the chief ray, µm.
 
-    Raises GeometryError where no ray passes, SamplingError where more than ``most`` nodes would be needed.
+    ``sphere``: from which its rays are seen. Raises GeometryError where no ray passes, SamplingError where more than
+    ``most`` nodes would be needed.
     """
-    steep = _steepness(lens, source, reach_um, clip)
+    steep = _steepness(lens, source, reach_um, clip, sphere)
     counts = counts_for(with_slopes(steep, lens.mask, source.wavelength_um), reach_um)
     if _nodes(counts) > most:
         raise SamplingError(
@@ -222,7 +231,7 @@ def first_counts(lens: Lens, source: Source, reach_um: float, clip: bool, most: 
     return counts
 
 
-def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool) -> Steepness:
+def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool, sphere: ExitSphere | None = None) -> Steepness:
     """Return how steep the phase is over the part of the pupil that is summed; where rays end, about its middle.
 
     Raises GeometryError where no ray of the coarse pencil passes.
@@ -230,27 +239,36 @@ def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool) -> Steep
     if not coarse_pencil(lens, source, PROBE).passed.any():
         raise GeometryError("no ray but the chief ray reaches the sensor; stop the lens down or reduce the field")
     if not clip and all_reach(lens, source):
-        return _in_window(coarse_pencil(lens, source, PROBE), *coarse_points(lens.pupil_domain), reach_um)
+        rays = coarse_pencil(lens, source, PROBE)
+        seen, slopes = rays if sphere is None else sphere.seen_from(rays)[0], coarse_slopes(lens, source, sphere)
+        return _in_window(seen, *coarse_points(lens.pupil_domain), reach_um, slopes)
     nodes = _nodes_of(lens, source, PROBE, clip)
     rays = rays_through(lens, source, nodes)
     weight = np.where(rays.passed, nodes.weight, 0.0)
     share = np.maximum(weight, 0.0) / np.maximum(weight, 0.0).sum()  # without holes, which have weights below 0
     aside, up = float(nodes.domain.mean_across(share, nodes.xi)), float(share @ nodes.eta)
     middle = pencil(lens, source, [aside], [up])
+    if sphere is not None:
+        rays, middle = (sphere.seen_from(some)[0] for some in (rays, middle))
     xi, eta = nodes.xi - aside, nodes.eta - up
     size = np.hypot(xi, eta)[rays.passed].max()
     return _in_window(replace(rays, chief_kx=middle.kx, chief_ky=middle.ky), xi / size, eta / size, reach_um)
 
 
-def _in_window(rays: Rays, xi: np.ndarray, eta: np.ndarray, reach_um: float) -> Steepness:
+def _in_window(
+    rays: Rays, xi: np.ndarray, eta: np.ndarray, reach_um: float, slopes: MapSlopes | None = None
+) -> Steepness:
     """Return how steep the phase is so that with the reach of the window it is that at the farthest corner of each ray.
 
     The phase of a ray at a point X is w + f·X, with the slopes (X − x)·df where the ray lands at x (`steepness`).
+    ``slopes``: of f at these rays, if known; otherwise f is taken as proportional to (ξ, η).
     """
     steep, half = steepness(rays, xi, eta), reach_um / sqrt(2)
     x, y = (np.array([[half], [half], [-half], [-half]]) - rays.x_um, np.array([[half], [-half]] * 2) - rays.y_um)
     radial = np.fmax.reduce(np.abs(x * rays.fx + y * rays.fy) / np.hypot(xi, eta), axis=None)
     angular = np.fmax.reduce(np.abs(x * rays.fy - y * rays.fx), axis=None)
+    if slopes is not None:
+        radial, angular = np.maximum((radial, angular), slopes.steepest(x, y))
     reach = steep.spread * reach_um
     return replace(steep, radial=float(radial) - reach, angular=float(angular) - reach)
 

@@ -18,6 +18,7 @@ from p2sf.pupil.interpolation import interpolate_pupil, on_disc
 from p2sf.pupil.quadrature import disc_axes, disc_nodes
 from p2sf.raytrace.exit_sphere import ExitSphere
 from p2sf.raytrace.pencil import Rays, pencil
+from p2sf.raytrace.ray_field import MapSlopes
 from p2sf.raytrace.seen_mask import mask_seen
 
 PROBE = 12, 36
@@ -60,6 +61,39 @@ def coarse_pencil(lens: Lens, source: Source, counts: Counts) -> Rays:
     return pencil(lens, source, *coarse_points(lens.pupil_domain, counts))
 
 
+@lru_cache(maxsize=4)
+def coarse_slopes(lens: Lens, source: Source, sphere: ExitSphere | None = None) -> MapSlopes:
+    """Return how the frequencies of the coarse pencil change over the pupil, those on the rim included.
+
+    All its rays must arrive. They are seen from a ``sphere``, if given.
+    """
+    rays, domain = coarse_pencil(lens, source, PROBE), lens.pupil_domain
+    seen = rays if sphere is None else sphere.seen_from(rays)[0]
+    inside, _ = _inside_and_rim(np.stack([seen.phase, seen.fx, seen.fy]), domain, PROBE)
+    parts = [
+        _polar_slopes(domain, inside, PROBE, *place) for place in (disc_axes(*PROBE), (np.ones(1), rim_angles(PROBE)))
+    ]
+    return MapSlopes(*(np.concatenate(part, axis=-1).reshape(2, -1) for part in zip(*parts, strict=True)))
+
+
+def _polar_slopes(
+    domain: PupilDomain, values: np.ndarray, coarse: Counts, radius: np.ndarray, theta: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return ∂f/∂ρ·√(1 − ρ²) and ∂f/∂θ at radii × angles, (2, halves, points) each, from values at coarse nodes."""
+    at = partial(interpolate_pupil, domain, values, coarse)
+    by_radius = (at(radius + STEP, theta) - at(radius - STEP, theta))[1:3] / (2 * STEP)
+    by_angle = (at(radius, theta + STEP) - at(radius, theta - STEP))[1:3] / (2 * STEP)
+    by_radius, by_angle = (part.reshape(2, len(domain.halves), -1) for part in (by_radius, by_angle))
+    return by_radius * np.repeat(np.sqrt(1 - radius * radius), theta.size), by_angle
+
+
+def _inside_and_rim(values: np.ndarray, domain: PupilDomain, coarse: Counts) -> tuple[np.ndarray, np.ndarray]:
+    """Return values at the rays of a coarse pencil, (columns, rays), at its nodes and on its rim, each half by half."""
+    halves = values.reshape(len(values), len(domain.halves), -1)
+    inside, rim = (part.reshape(len(values), -1) for part in np.split(halves, [coarse[0] * coarse[1] // 2], axis=-1))
+    return inside, rim
+
+
 def interpolated_waves(
     lens: Lens, source: Source, counts: Counts, reach_um: float, sphere: ExitSphere | None = None
 ) -> RayWaves | None:
@@ -89,13 +123,11 @@ def smooth_blur_um2(lens: Lens, source: Source, sphere: ExitSphere | None = None
     if found is None:
         return None
     coarse, values = found
-    radius, theta = disc_axes(*coarse)
-    at = partial(interpolate_pupil, lens.pupil_domain, values, coarse)
-    by_radius = at(radius + STEP, theta) - at(radius - STEP, theta)
-    by_angle = at(radius, theta + STEP) - at(radius, theta - STEP)
-    turn = by_radius[1] * by_angle[2] - by_radius[2] * by_angle[1]
+    slopes = _polar_slopes(lens.pupil_domain, values, coarse, *disc_axes(*coarse))
+    (rx, ry), (ax, ay) = (part.reshape(2, -1) for part in slopes)
     nodes = lens.pupil_domain.nodes(coarse)
-    area = np.abs(turn) / (4 * STEP**2 * np.hypot(nodes.xi, nodes.eta))
+    square = nodes.xi**2 + nodes.eta**2
+    area = np.abs(rx * ay - ry * ax) / np.sqrt(square * (1 - square))
     field = values[3]
     return float(nodes.weight @ (field**2 / area) / (np.pi * (nodes.weight @ field) ** 2))
 
@@ -116,10 +148,7 @@ def _smooth(
             return None
         seen, *length = (rays,) if sphere is None else sphere.seen_from(rays)
         values = np.stack([seen.phase, seen.fx, seen.fy, rays.amplitude, *length])
-        halves = values.reshape(len(values), len(domain.halves), -1)
-        inside, rim = (
-            part.reshape(len(values), -1) for part in np.split(halves, [coarse[0] * coarse[1] // 2], axis=-1)
-        )
+        inside, rim = _inside_and_rim(values, domain, coarse)
         missed = np.abs(interpolate_pupil(domain, inside, coarse, np.ones(1), rim_angles(coarse)) - rim).max(1)
         if missed[0] + (missed[1] + missed[2]) * max(_farthest_um(rays), reach_um) <= CLOSE:
             return coarse, inside

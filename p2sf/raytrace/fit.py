@@ -21,7 +21,7 @@ from p2sf.pupil.domain import HALF, HELD_OUT, WHOLE, PupilDomain
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.raytrace.pencil import Rays, reaching
-from p2sf.raytrace.ray_field import Steepness, steepness
+from p2sf.raytrace.ray_field import MapSlopes, Steepness, map_slopes, steepness, with_map
 from p2sf.raytrace.seen_mask import mask_seen, with_slopes
 
 # RMS phase error in waves up to which an order is accepted: 1 − R² then stays below some (4πσ)² = 2e-3.
@@ -363,9 +363,18 @@ def fit_rays(rays: Rays, level: Level, traced: int, steep: Steepness | None = No
         share = rays.amplitude[: weight.size] / float(weight @ rays.amplitude[: weight.size])
     # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
     blur = float(weight @ (share * share / np.abs(determinant(found.fx, found.fy, *_slope_basis(level)))) / np.pi)
-    steep = steep or steepness(rays, xi, eta)
+    steep = with_map(steep or steepness(rays, xi, eta), *_map_at(level, found, rays))
     made = level, found.phase, found.fx, found.fy, float(found.residual_waves), steep, blur, traced
     return FittedPencil(*made, float(found.map_residual), found.amplitude, float(found.amplitude_residual))
+
+
+def _map_at(level: Level, found: PencilForms, rays: Rays) -> tuple[MapSlopes, np.ndarray, np.ndarray]:
+    """Return the slopes of a fitted map at a level's own rays, and where these land, µm."""
+    own = slice(level_rays(level)[2].size)
+    (fx_xi, fx_eta), (fy_xi, fy_eta) = _slope_basis(level)
+    by_xi, by_eta = ((found.fx @ x, found.fy @ y) for x, y in ((fx_xi, fy_xi), (fx_eta, fy_eta)))
+    xi, eta, _ = level_rays(level)
+    return map_slopes(xi[own], eta[own], by_xi, by_eta), rays.x_um[own], rays.y_um[own]
 
 
 def _residual(error: np.ndarray, weight: np.ndarray, unknowns: float) -> np.ndarray:

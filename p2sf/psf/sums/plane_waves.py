@@ -39,9 +39,8 @@ def counts_for(steepness: Steepness, reach_um: float, share: float = 1.0) -> Cou
 
     ``share``: of the counts of `nodes_for`.
     """
-    radial, angular = (
-        share * count for count in nodes_for(steepness.radial, steepness.spread * reach_um, steepness.angular)
-    )
+    reach = steepness.spread * steepness.stretch * reach_um
+    radial, angular = (share * count for count in nodes_for(steepness.radial, reach, steepness.angular))
     return RADIAL_STEP * ceil(radial / RADIAL_STEP), ANGULAR_STEP * ceil(angular / ANGULAR_STEP)
 
 
