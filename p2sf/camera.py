@@ -41,7 +41,7 @@ from p2sf.parameters import (
     check_values,
     unit_behind,
 )
-from p2sf.paraxial.first_order import cardinal_points, image_distance
+from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.positions import focused_inside, lens_at
 from p2sf.paraxial.pupils import (
     Stop,
@@ -52,6 +52,7 @@ from p2sf.paraxial.pupils import (
     rim_radii,
 )
 from p2sf.pupil.mask import CLEAR, MaskSettings, PupilMask
+from p2sf.raytrace.focusing import sensor_in_focus
 
 if TYPE_CHECKING:
     from p2sf import Plan, Psf, Stored, Sweep, ToleranceStudy
@@ -653,8 +654,8 @@ def sensor_position(lens: Lens, camera: Settings) -> float:
 def _sensor_in_focus(lens: Lens, focus_mm: float | None) -> float:
     if focus_mm is None:
         return lens.sensor_mm
-    place = float(image_distance(lens, focus_mm, lens.reference_wavelength_um))
-    if not (isfinite(place) and place * lens.directions[-1] > 0):
+    place = sensor_in_focus(lens, focus_mm)
+    if not (isfinite(place) and (lens.tilted or place * lens.directions[-1] > 0)):
         finite = Message("{place:g} mm from the last vertex", place=place)
         raise RequestError(
             "{parameter} is {value:g} mm, but the image of that distance lies {where}, not on a sensor behind the "

@@ -53,7 +53,7 @@ def virtual_image(setup: Setup) -> Message | None:
     depth = setup.source.depth_mm
     place = float(image_distance(setup.lens, depth, setup.source.wavelength_um))
     along = setup.lens.directions[-1]
-    if not -inf < along * place < 0 < along * setup.lens.sensor_mm:
+    if setup.lens.tilted or not -inf < along * place < 0 < along * setup.lens.sensor_mm:
         return None
     return Message(
         "the image of an object at {depth} mm is virtual, {distance:.6g} mm before the last vertex, so this is the "

@@ -15,7 +15,7 @@ from p2sf.files.writing import write_beside, write_json
 from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.perfect import airy_radius_um
-from p2sf.paraxial.pupils import numerical_aperture
+from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.spot import DRAWN_RINGS
 from p2sf.raytrace.spot import spot as spot_of
 
@@ -69,7 +69,7 @@ def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[s
     found = spot_of(setup.lens, setup.source, rings, clip)
     all_points = np.stack([found.x_um, found.y_um], axis=-1)
     points = all_points[np.isfinite(all_points).all(axis=-1)]
-    na = float(numerical_aperture(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop))
+    na = cone(setup.lens, setup.source).na
     return points, {
         "rms_um": float(found.rms_um),
         "largest_um": float(found.farthest_um),

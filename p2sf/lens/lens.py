@@ -366,8 +366,25 @@ class Lens:
 
     @property
     def sensor_mm(self) -> float:
-        """Return the position of the sensor, mm behind the last vertex."""
-        return self.surfaces[-1].thickness
+        """Return the position of the sensor along the axis, mm behind the last vertex."""
+        return self.gaps[-1]
+
+    @cached_property
+    def gaps(self) -> tuple[float, ...]:
+        """Return the distance along the axis from each vertex to the next, the last to the sensor, mm.
+
+        It is the thickness and what coordinate breaks shift along z; their tilts and decentres do not count.
+        """
+        behind = *(surface.before for surface in self.surfaces[1:]), self.sensor_before
+        return tuple(
+            surface.thickness + sum(placement.decentre_z for placement in (*surface.after, *before))
+            for surface, before in zip(self.surfaces, behind, strict=True)
+        )
+
+    @cached_property
+    def vertices(self) -> tuple[float, ...]:
+        """Return where each vertex and the sensor lie on the axis, mm behind the first vertex."""
+        return tuple(accumulate(self.gaps, initial=0.0))
 
     @cached_property
     def sensor_surface(self) -> Surface:
@@ -401,11 +418,20 @@ class Lens:
     def first_misaligned(self) -> int | None:
         """Return the first surface, from 1, that is not symmetric or has a coordinate break beside it, or None.
 
-        The sensor counts as the surface behind the last.
+        The sensor counts as the surface behind the last. A break that only shifts along the axis is a distance, except
+        in front of the first surface, from whose vertex sources are measured.
         """
-        on_axis = all(placement.idle for placement in self.sensor_before)
+        on_axis = all(placement.along_axis for placement in self.sensor_before)
+        if not all(placement.idle for placement in self.surfaces[0].before):
+            return 1
         found = (number for number, surface in enumerate(self.surfaces, 1) if not surface.symmetric)
         return next(found, None if on_axis else len(self.surfaces) + 1)
+
+    @cached_property
+    def tilted(self) -> bool:
+        """Return whether a part or the sensor is tilted or decentred, so that the axis is not straight."""
+        breaks = (one for surface in self.surfaces for one in (*surface.before, *surface.after))
+        return any(any((*one.decentre[:2], *one.tilt_deg[:2])) for one in (*breaks, *self.sensor_before))
 
     @cached_property
     def pupil_domain(self) -> PupilDomain:
@@ -480,7 +506,9 @@ def with_sensor(lens: Lens, sensor_mm: float) -> Lens:
     """Return the same lens with its sensor ``sensor_mm`` behind the last vertex."""
     if lens.sensor_mm == sensor_mm:
         return lens  # caches find the identical object without comparing a hundred numbers
-    last = replace(lens.surfaces[-1], thickness=float(sensor_mm))
+    last = lens.surfaces[-1]
+    shifted = lens.sensor_mm - last.thickness  # by breaks
+    last = replace(last, thickness=float(sensor_mm) - shifted)
     return replace(lens, surfaces=(*lens.surfaces[:-1], last))
 
 

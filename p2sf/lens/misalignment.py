@@ -55,9 +55,13 @@ def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
 
 @lru_cache(maxsize=16)
 def straighten(lens: Lens) -> Lens:
-    """Return the aligned lens: without tilts, decentres and parts that are not of revolution; its rims stay."""
+    """Return the aligned lens: without tilts, decentres and parts that are not of revolution; its rims stay.
+
+    What breaks shift along the axis is thickness there.
+    """
     surfaces = tuple(
-        replace(s, **{each.name: each.aligned(getattr(s, each.name)) for each in PROPERTIES}) for s in lens.surfaces
+        replace(s, **{each.name: each.aligned(getattr(s, each.name)) for each in PROPERTIES} | {"thickness": gap})
+        for s, gap in zip(lens.surfaces, lens.gaps, strict=True)
     )
     return replace(lens, surfaces=surfaces, sensor_before=())
 

@@ -89,6 +89,11 @@ class Placement:
         return not (any(self.decentre) or any(self.tilt_deg))
 
     @property
+    def along_axis(self) -> bool:
+        """Return whether the axes are at most shifted along z."""
+        return not (self.decentre_x or self.decentre_y or any(self.tilt_deg))
+
+    @property
     def motion(self) -> Motion:
         """Return the new axes in terms of the old ones."""
         return _motion(self)

@@ -112,7 +112,7 @@ def _scaled_breaks(placements: tuple[Placement, ...], factor: float) -> tuple[Pl
 
 
 def _breaks_words(placements: tuple[Placement, ...]) -> Message | None:
-    if _symmetric_breaks(placements):
+    if all(placement.idle for placement in placements):
         return None
     numbers = [(*placement.decentre, *placement.tilt_deg) for placement in placements]
     x, y, z, a, b, c = (sum(column) for column in zip(*numbers, strict=True))
@@ -120,7 +120,7 @@ def _breaks_words(placements: tuple[Placement, ...]) -> Message | None:
 
 
 def _symmetric_breaks(placements: tuple[Placement, ...]) -> bool:
-    return all(placement.idle for placement in placements)
+    return all(placement.along_axis for placement in placements)
 
 
 def _unseen_shape(shape: Shape | None) -> Message | None:

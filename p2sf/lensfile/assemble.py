@@ -8,7 +8,7 @@ from math import hypot, inf, isfinite
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import AIR, MIRROR, Medium, TabulatedIndex, measured_index
-from p2sf.lens.lens import D_NM, Aperture, Lens, Surface, scale_surface
+from p2sf.lens.lens import D_NM, Aperture, Lens, Surface, scale_surface, with_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lens.properties import PROPERTIES, words_of
 from p2sf.lens.shapes import RadialPolynomial
@@ -382,7 +382,7 @@ def _at_paraxial_focus(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
         )
         return lens
     notes.add("caution", "the file does not say where the sensor is; it is put at the paraxial focus for infinity")
-    return replace(lens, surfaces=(*lens.surfaces[:-1], replace(lens.surfaces[-1], thickness=focus)))
+    return with_sensor(lens, focus)
 
 
 def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:

@@ -80,7 +80,7 @@ def _running_matrices(lens: Lens, index: list[float], wavelength_um: float) -> l
         power = float(surface_power(surface, index[number - 1], index[number], wavelength_um))
         c, d = c - power * a, d - power * b
         rows.append((a, b, c, d))
-        reduced = surface.thickness / index[number]
+        reduced = lens.gaps[number - 1] / index[number]
         a, b = a + reduced * c, b + reduced * d
     return rows
 

@@ -104,7 +104,7 @@ def _second_curvature(lens: Lens, number: int, index: list[float], power: float)
         raise GeometryError("before which no surface stands")
     first, (before, inside, behind) = lens.surfaces[number - 2], index
     one = first.vertex_curvature * (inside - before)
-    height = 1 - one * first.thickness / inside  # of a ray parallel to the axis, of height 1 at the first
+    height = 1 - one * lens.gaps[number - 2] / inside  # of a ray parallel to the axis, of height 1 at the first
     if not height or behind == inside:
         raise GeometryError(NO_REFRACTION)
     return (power - one) / height / (behind - inside)
@@ -117,7 +117,8 @@ def _thickness(lens: Lens, raw: RawLens, number: int, solve: ParaxialSolve) -> f
     slope = (ray.nu - ray.y * power) / ray.behind
     if not slope:
         raise GeometryError("whose ray leaves parallel to the axis")
-    return (solve.value * raw.unit_mm - ray.y) / slope + solve.beyond * raw.unit_mm
+    shifted = lens.gaps[number - 1] - surface.thickness  # by breaks
+    return (solve.value * raw.unit_mm - ray.y) / slope + solve.beyond * raw.unit_mm - shifted
 
 
 def _ray_before(lens: Lens, raw: RawLens, number: int, solve: ParaxialSolve) -> SolvedRay:

@@ -102,7 +102,7 @@ def _of_lens(kind: StatedKind, lens: Lens) -> float | None:
             case "back_focal_length":
                 return float(cardinal_points(lens, wave).back_focal_distance)
             case "track":
-                return sum(surface.thickness for surface in lens.surfaces)
+                return lens.vertices[-1]
             case "half_field":
                 return max(map(abs, (*lens.fields_deg, *lens.fields_x_deg)))
     return None

@@ -85,8 +85,8 @@ def _basis(lens: Lens, wavelength: np.ndarray) -> BasisRays:
     index = indices(lens, wavelength)
     layers = index.tolist() if index.ndim == 1 else list(index)  # for one wavelength plain floats are ten times faster
     wave = wavelength if index.ndim > 1 else float(wavelength)
-    steps = zip(lens.surfaces, layers, layers[1:], strict=False)
-    power, gap = zip(*((surface_power(s, n, after, wave), s.thickness / after) for s, n, after in steps), strict=True)
+    steps = zip(lens.surfaces, lens.gaps, layers, layers[1:], strict=False)
+    power, gap = zip(*((surface_power(s, n, after, wave), mm / after) for s, mm, n, after in steps), strict=True)
     rows = zip(march(power, gap, 1.0, 0.0), march(power, gap, 0.0, 1.0), strict=True)
     a, b, c, d = columns_of([(a, b, c, d) for (a, c), (b, d) in rows], index.shape[1:])
     return BasisRays(a, b, c, d, index, power, gap, wave)

@@ -87,13 +87,13 @@ def _stop_beyond_its_sphere(lens: Lens) -> Message | None:
 def _negative_glass(lens: Lens) -> Iterator[Message]:
     """Yield a warning for each glass of negative thickness; in air a negative thickness describes a virtual object."""
     index = np.abs(indices(lens, lens.reference_wavelength_um))
-    for number, surface in enumerate(lens.surfaces[:-1], 1):
-        if surface.thickness * lens.directions[number] < 0 and index[number] > AIR_LIKE:
+    for number, gap in enumerate(lens.gaps[:-1], 1):
+        if gap * lens.directions[number] < 0 and index[number] > AIR_LIKE:
             yield Message(
                 "the glass behind surface {surface} has a thickness of {thickness:g} mm, opposite to the direction of "
                 "light; change its sign or its neighbours",
                 surface=number,
-                thickness=surface.thickness,
+                thickness=gap,
             )
 
 

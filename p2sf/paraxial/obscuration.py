@@ -32,7 +32,7 @@ def central_obscuration(lens: Lens, depth_mm: float = inf) -> float:
 
 def _shadows(lens: Lens, y: np.ndarray, nu: np.ndarray, index: np.ndarray) -> Iterator[float]:
     """Yield the share of the marginal ray's height that each mirror with a rim obscures where light passes it."""
-    place = np.cumsum([0.0, *(surface.thickness for surface in lens.surfaces)])[:-1]
+    place = np.array(lens.vertices[:-1])
     for number, surface in enumerate(lens.surfaces):
         if not (surface.reflects and np.isfinite(surface.semi_diameter)):
             continue

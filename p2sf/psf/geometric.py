@@ -17,13 +17,13 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.result import Psf
 from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
+from p2sf.raytrace.focusing import focused_vergence
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.seen_mask import mask_seen
 

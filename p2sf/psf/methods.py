@@ -46,6 +46,7 @@ from p2sf.psf.traced import MOST_NODES as MOST_TRACED
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.fit import (
     LEVELS,
     RESIDUAL_WAVES,
@@ -312,7 +313,7 @@ def render(
     check_quality(options.quality)
     _check_min_r2(options.min_r2)
     if pixel_um is None:
-        pixel_um = whole_pixel_um(lens, source, pixels)
+        pixel_um = whole_pixel_um(lens, source, pixels, method)
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
@@ -320,15 +321,19 @@ def render(
     return psf_of(replace(asked, method=choice.method, numbers=choice.numbers, fit=choice.fit))
 
 
-def whole_pixel_um(lens: Lens, source: Source, pixels: int) -> float:
-    """Return the pitch at which the window shows the whole PSF, µm, by six coefficients or, without them, by rays."""
+def whole_pixel_um(lens: Lens, source: Source, pixels: int, method: str = AUTO) -> float:
+    """Return the pitch at which the window shows the whole PSF, µm.
+
+    It is by six coefficients or, where there are none or a misaligned lens is not shown by them, by rays.
+    """
     c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    if np.isfinite(c.w40):
+    if np.isfinite(c.w40) and (by_six(method) or not lens.misaligned):
         return float(suitable_pixel_um(c, pixels))
-    check_focus(c)
+    na = cone(lens, source).na
+    check_focus(na)
     rays = pencil(lens, source, *to_the_rim(PITCH_RINGS))
     reach = float(np.nanmax(np.hypot(rays.dx, rays.dy), initial=0.0)) * UM_PER_MM
-    return 2 * (reach + WINDOW_AIRY_RADII * float(AIRY_RADIUS * c.wavelength_um / c.na)) / max(1, pixels)
+    return 2 * (reach + WINDOW_AIRY_RADII * AIRY_RADIUS * source.wavelength_um / na) / max(1, pixels)
 
 
 def method_of(name: str) -> Method:

@@ -13,11 +13,11 @@ from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import AUTO, REFERENCE, USUAL, PsfOptions, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
+from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.pencil import rays_through
 from p2sf.raytrace.vignetting import pupil_nodes
 
@@ -127,12 +127,12 @@ def render_integrated(
     derived = None if method == AUTO else method_of(method).of_reference
     if derived:  # fitted to what pixels see
         return derived(render_integrated(lens, source, REFERENCE, pixels, pixel_um, options, wanted))
-    c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+    own = cone(lens, source)
     psf = integrate(
         lambda count, pitch: render(lens, source, method, count, pitch, options),
         pixels,
-        pixel_um or whole_pixel_um(lens, source, pixels),
-        float(critical_pixel_um(c.wavelength_um, c.na)),
+        pixel_um or whole_pixel_um(lens, source, pixels, method),
+        float(critical_pixel_um(source.wavelength_um, max(own.na_x, own.na_y))),
         wanted,
     )
     return psf if psf.energy is not None else psf.with_fields(energy=light_of_rays(lens, source, psf, options.clip))

@@ -20,6 +20,7 @@ from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, suitable_pixel_um
 from p2sf.pupil.mask_nodes import throughput
+from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.pencil import Sources, pencil, rays_through
 from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import one_blas_thread
@@ -103,9 +104,9 @@ def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: in
     Raises GeometryError if the image of the source's own colour lies at infinity.
     """
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
-    check_focus(own)
+    check_focus(cone(lens, source).na)
     waves, _ = bands_through(lens, source, spectrum, TRIED)
-    if not np.isfinite(own.w40):
+    if lens.misaligned or not np.isfinite(own.w40):
         each = [whole_pixel_um(lens, replace(source, wavelength_um=float(wave)), pixels) for wave in waves]
         return float(np.max(each + 2 * np.abs(chief_places_um(lens, source, waves)).max(0) / pixels))
     c = coefficients(lens, source.depth_mm, source.field_slope, waves, stop)
@@ -144,9 +145,9 @@ def shares(lens: Lens, source: Source, made: list[Psf]) -> np.ndarray:
     known = [float(psf.energy) for psf in made if psf.energy is not None]
     if len(known) == len(made):
         return np.minimum(1.0, known)
-    na = coefficients(lens, source.depth_mm, source.field_slope, np.array([psf.wavelength_um for psf in made])).na
-    each, spreading = zip(made, np.broadcast_to(na, len(made)), strict=True), throughput(lens.mask).spreading
-    return np.array([estimated_share(psf, float(one), spreading) for psf, one in each])
+    each = [(psf, cone(lens, replace(source, wavelength_um=float(psf.wavelength_um))).na) for psf in made]
+    spreading = throughput(lens.mask).spreading
+    return np.array([estimated_share(psf, na, spreading) for psf, na in each])
 
 
 def estimated_share(psf: Psf, na: float, spreading: float = 1.0) -> float:

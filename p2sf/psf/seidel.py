@@ -7,7 +7,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import DTypeLike
 
-from p2sf.conventions import anywhere, centred_axis
+from p2sf.conventions import FloatOrArray, anywhere, centred_axis
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
@@ -226,7 +226,7 @@ def suitable_pixel_um(coefficients: Coefficients, pixels: int = 64) -> np.ndarra
 def check_image(coefficients: Coefficients) -> None:
     """Raise GeometryError if there is no image at a finite distance, or a coefficient is not a number."""
     c = coefficients
-    check_focus(c)
+    check_focus(c.reduced_slope)
     if anywhere(~np.isfinite(c.w40 + c.w31 + c.w22 + c.w20 + c.wd + c.reduced_slope)):
         names = ("w40", "w31", "w22", "w20", "wd", "reduced_slope")
         bad = next((name for name in names if not np.isfinite(getattr(c, name)).all()), Message("their sum"))
@@ -236,9 +236,9 @@ def check_image(coefficients: Coefficients) -> None:
         )
 
 
-def check_focus(coefficients: Coefficients) -> None:
-    """Raise GeometryError if there is no image at a finite distance."""
-    if anywhere(np.equal(coefficients.reduced_slope, 0)):
+def check_focus(na: FloatOrArray) -> None:
+    """Raise GeometryError for a numerical aperture of 0, without an image at a finite distance."""
+    if anywhere(np.equal(na, 0)):
         raise GeometryError(
             "the image of this object lies at infinity (NA 0), so the sensor contains no PSF; move the object or "
             "refocus"

@@ -9,20 +9,20 @@ a pupil behind the sensor, or behind a mirror, is no special case.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import inf
+from math import inf, isinf
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, with_sensor
-from p2sf.lens.source import Source, source_at
+from p2sf.lens.lens import Lens
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
+from p2sf.raytrace.field_geometry import closest, pupil_about
 from p2sf.raytrace.fit import fit_rays, level_rays, levels_for
 from p2sf.raytrace.pencil import Rays, pencil
 
 BESIDE = 0.02  # of the pupil's radius, of the rays whose focus is that of the chief ray
-NEIGHBOUR = 1e-3  # slope of neighbouring fields
-AT_INFINITY = 1e-9  # 1/mm: of a nearer exit pupil, 1e9 mm away, wavelets differ from plane waves by 1e-9 of a wave
 
 
 @dataclass(frozen=True)
@@ -94,16 +94,15 @@ def exit_sphere(lens: Lens, source: Source) -> ExitSphere | None:
         raise GeometryError("rays beside the chief ray do not reach the sensor; reduce the field")
     kx, ky, kz = (float(np.ravel(k)[0]) for k in (beside.chief_kx, beside.chief_ky, beside.chief_kz))
     if lens.sensor_surface.curvature:  # neighbouring fields have tangent planes of their own
-        sag = lens.sensor_surface.sag(*(beside.chief_um / UM_PER_MM))
-        flat = replace(lens, sensor_radius=inf, sensor_conic=0.0)
-        found = exit_sphere(with_sensor(flat, lens.sensor_mm + float(sag)), source)
+        sag = Placement(decentre_z=float(lens.sensor_surface.sag(*(beside.chief_um / UM_PER_MM))))
+        flat = replace(lens, sensor_radius=inf, sensor_conic=0.0, sensor_before=(*lens.sensor_before, sag))
+        found = exit_sphere(flat, source)
         return None if found is None else replace(found, chief=(kx, ky, kz))
-    chief, zero = np.array([kx, ky, kz]), np.zeros(4)
-    to_pupil, turn = _closest(*_neighbours(lens, source, beside.chief_um / UM_PER_MM), chief)
-    if not abs(turn) > AT_INFINITY * abs(to_pupil):
+    distance = pupil_about(lens, source).distance_mm
+    if isinf(distance):
         return None
-    behind, bend = _closest(np.stack([beside.dx, beside.dy, zero]), np.stack([beside.kx, beside.ky, beside.kz]), chief)
-    distance = to_pupil / turn
+    places, cosines = np.stack([beside.dx, beside.dy, np.zeros(4)]), np.stack([beside.kx, beside.ky, beside.kz])
+    behind, bend = closest(places, cosines, np.array([kx, ky, kz]))
     radius = distance * bend - behind
     waves_per_um = float(beside.index) / source.wavelength_um
     return ExitSphere(distance, bend / radius if radius else 0.0, (kx, ky, kz), waves_per_um)
@@ -115,25 +114,3 @@ def wider_by(lens: Lens, source: Source, sphere: ExitSphere) -> float:
     rays = pencil(lens, source, *level_rays(level)[:2])
     plane, own = (fit_rays(some, level, level.rays).blur_um2 for some in (rays, sphere.seen_from(rays)[0]))
     return own / plane
-
-
-def _neighbours(lens: Lens, source: Source, chief_mm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return where chief rays of neighbouring fields land beside the source's, mm, and their cosines, each (3, ray)."""
-    (slope_x, slope_y), places, cosines = source.slopes_xy, [], []
-    for x, y in ((NEIGHBOUR, 0.0), (-NEIGHBOUR, 0.0), (0.0, NEIGHBOUR), (0.0, -NEIGHBOUR)):
-        near = source_at(source.depth_mm, slope_x + x, slope_y + y, source.wavelength_um)
-        ray = pencil(lens, near, [0.0], [0.0]).turned(near.azimuth_deg - source.azimuth_deg)
-        places.append(np.append(ray.chief_um / UM_PER_MM - chief_mm, 0.0))
-        cosines.append([float(np.ravel(k)[0]) for k in (ray.chief_kx, ray.chief_ky, ray.chief_kz)])
-    return np.array(places).T, np.array(cosines).T
-
-
-def _closest(places: np.ndarray, cosines: np.ndarray, chief: np.ndarray) -> tuple[float, float]:
-    """Return Σp·q and Σq² of rays whose distance from the chief ray is p + q·z at z along it, so that z = −Σp·q/Σq².
-
-    ``places``: mm from the chief ray's point of the sensor, (3, ray).
-    """
-    along, axis = chief @ cosines, chief[:, None]
-    q = cosines / along - axis
-    p = places - (chief @ places) * cosines / along
-    return float((p * q).sum()), float((q * q).sum())

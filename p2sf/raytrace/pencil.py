@@ -17,6 +17,7 @@ from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.domain import ClearNodes
 from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
+from p2sf.raytrace.field_geometry import exit_pupil, tangent_axes
 from p2sf.raytrace.surface import Beam, Status, to_plane
 from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
 
@@ -30,6 +31,7 @@ __all__ = [
     "pencil",
     "pupil_rays",
     "rays_through",
+    "tangent_axes",
     "trace",
 ]
 
@@ -369,26 +371,6 @@ def to_tangent_plane(beam: Beam, lens: Lens, index: FloatOrArray) -> None:
     to_plane(beam, index)
 
 
-def tangent_axes(lens: Lens, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:
-    """Return the axes of the plane that touches the sensor at a point of its own, (3, 3, …), as columns.
-
-    They are the sensor's, turned by the angle between both normals about the line that is at right angles to these, so
-    that directions towards the axis remain so (Rodrigues 1840).
-    """
-    x, y = np.broadcast_arrays(np.asarray(x_mm, float), y_mm)
-    _, slope = lens.sensor_surface.sag_and_slope(x * x + y * y)
-    axial = 1 / np.sqrt(1 + 4 * slope * slope * (x * x + y * y))
-    across, up = -2 * slope * x * axial, -2 * slope * y * axial
-    share = 1 / (1 + axial)
-    return np.array(
-        [
-            [1 - across * across * share, -across * up * share, across],
-            [-across * up * share, 1 - up * up * share, up],
-            [-across, -up, axial],
-        ]
-    )
-
-
 def _but_last(values: FloatOrArray) -> FloatOrArray:
     return values[..., :-1] if isinstance(values, np.ndarray) else values
 
@@ -435,19 +417,33 @@ def opd_on_sphere(rays: Rays, radius: FloatOrArray) -> np.ndarray:
 
 
 def exit_radius(lens: Lens, source: Source | Sources, rays: Rays, stop: Stop | None = None) -> np.ndarray:
-    """Return the sphere's radius: from the paraxial exit-pupil plane to the sensor along the chief ray, mm."""
-    along: np.ndarray = rays.chief_kz
-    place: FloatOrArray = lens.sensor_mm
-    turn = np.array([0.0, 0.0, 1.0])  # the axis behind the last surface in those of the picture
-    if lens.steps[-1] is None:
-        turn = seen_from(lens, getattr(source, "azimuth_deg", 0.0)).motions[-1].rotation[2]
+    """Return the radius of the reference sphere: from the exit pupil's plane to the sensor along the chief ray, mm.
+
+    It has the sign of the way of light, and is infinite for a pupil at infinity. `field_geometry` says where the exit
+    pupil of a misaligned lens is.
+    """
+    chief = np.stack(np.broadcast_arrays(rays.chief_kx, rays.chief_ky, rays.chief_kz))
+    place = np.stack(np.broadcast_arrays(rays.chief_x, rays.chief_y, 0.0 * rays.chief_y))
     if lens.sensor_surface.curvature:
-        place = place + lens.sensor_surface.sag(rays.chief_x, rays.chief_y)
-        turn = np.einsum("j,ji...->i...", turn, tangent_axes(lens, rays.chief_x, rays.chief_y))
-    if lens.steps[-1] is None or lens.sensor_surface.curvature:
-        along = turn[0] * rays.chief_kx + turn[1] * rays.chief_ky + turn[2] * rays.chief_kz
-    radius: np.ndarray = (place - entrance(lens, source, stop).exit_plane) / along
-    return radius
+        place[2] = lens.sensor_surface.sag(place[0], place[1])
+        chief = np.einsum("ij...,j...->i...", tangent_axes(lens, place[0], place[1]), chief)
+    if not lens.misaligned:
+        radius: np.ndarray = (lens.sensor_mm + place[2] - entrance(lens, source, stop).exit_plane) / chief[2]
+        return radius
+    waves = np.broadcast_to(rays.wavelength_um, place.shape[1:])
+    found = np.empty(waves.shape)
+    for wave in np.unique(waves):
+        some = waves == wave
+        pupil = exit_pupil(lens, _near_axis(source, float(wave)))
+        found[some] = pupil.radius_mm(place[:, some], chief[:, some])
+    return found
+
+
+def _near_axis(source: Source | Sources, wavelength_um: float) -> Source:
+    """Return a source, or the one nearest to the axis of several, at a wavelength."""
+    slopes, depths = np.ravel(source.field_slope), np.ravel(source.depth_mm)
+    slope = float(slopes[np.argmin(np.abs(slopes))])
+    return Source(float(depths[0]), slope, wavelength_um, azimuth_deg=getattr(source, "azimuth_deg", 0.0))
 
 
 @lru_cache(maxsize=8)

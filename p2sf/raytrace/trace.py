@@ -101,7 +101,7 @@ def out_of_order(lens: Lens, z: np.ndarray) -> Message | None:
     if not len(z) or None in lens.steps:
         return None
     along = lens.directions[1 : len(z)]
-    behind = np.array([s.thickness * sign >= 0 for s, sign in zip(lens.surfaces, along, strict=False)], bool)
+    behind = np.array([gap * sign >= 0 for gap, sign in zip(lens.gaps, along, strict=False)], bool)
     forwards = np.diff(z, axis=0) * np.reshape(along, (-1, *[1] * (z.ndim - 1)))
     back = (forwards < 0).any(tuple(range(1, z.ndim))) & behind
     if not back.any():

@@ -30,7 +30,7 @@ def best_shift_um(state: State) -> float:
     check_focusable(state)
     setup = paraxial_setup(state)
     by_coefficients = everywhere_by_coefficients(state, setup)
-    na = float(setup.coefficients.na)
+    na = setup.cone.na
     if not na:
         raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")
     tried_um = TRIED_WAVES * 2 * float(setup.coefficients.image_index) * setup.source.wavelength_um / na**2

@@ -13,9 +13,9 @@ from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_f_number, with
 from p2sf.lens.positions import KEPT, Positions
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
-from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.positions import edit_columns, with_columns
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
+from p2sf.raytrace.focusing import sensor_in_focus
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, with_rings
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
@@ -111,7 +111,7 @@ def followed_sensor(before: Lens, after: Lens, depth_mm: float) -> float:
 
     Where either lens has no real image of this depth, the sensor stays where the edited lens has it.
     """
-    old, new = (float(image_distance(lens, depth_mm, lens.reference_wavelength_um)) for lens in (before, after))
+    old, new = (sensor_in_focus(lens, depth_mm) for lens in (before, after))
     place, along = before.sensor_mm + new - old, after.directions[-1]
     if not (isfinite(place) and along * new > 0 and along * place > 0) or isclose(place, after.sensor_mm, rel_tol=SAME):
         return after.sensor_mm

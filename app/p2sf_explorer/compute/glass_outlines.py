@@ -194,7 +194,7 @@ def widest_exit(lens: Lens) -> tuple[float, float]:
 
 def vertices(lens: Lens) -> list[float]:
     """Return z of every vertex in mm, the first at 0, then the sensor's."""
-    return [0.0, *np.cumsum([surface.thickness for surface in lens.surfaces]).tolist()]
+    return [*lens.vertices]
 
 
 def drawn_rims(lens: Lens) -> tuple[float, ...]:
@@ -219,7 +219,7 @@ def with_edges(lens: Lens, rims: list[float]) -> list[float]:
     elements = [at for at, n in enumerate(index) if abs(n) > GLASS_INDEX]
     kept = list(rims)
     for at in elements:
-        edge = sharp_edge(lens.surfaces[at], lens.surfaces[at + 1], max(kept[at : at + 2]))
+        edge = sharp_edge(lens.surfaces[at], lens.gaps[at], lens.surfaces[at + 1], max(kept[at : at + 2]))
         kept[at : at + 2] = (min(rim, edge) for rim in kept[at : at + 2])
     for at in (*elements, *elements[::-1]):
         for low, other in ((at, at + 1), (at + 1, at)):
@@ -228,15 +228,15 @@ def with_edges(lens: Lens, rims: list[float]) -> list[float]:
     return kept
 
 
-def sharp_edge(front: Surface, back: Surface, rim: float) -> float:
+def sharp_edge(front: Surface, gap: float, back: Surface, rim: float) -> float:
     """Return the height where an element of stated rims would have no thickness left; the rim if it has some there.
 
     A file may state rims that no glass could have: drawn to them, its surfaces would cross.
     """
     y = np.linspace(0.0, rim, 4 * PROFILE_POINTS)
     reach = [np.minimum(y, _inside_surface(surface, rim)) for surface in (front, back)]
-    along = -1 if front.thickness < 0 else 1  # on the way back from a mirror the back surface lies to the left
-    gone = np.flatnonzero(along * (front.thickness + sag(back, reach[1]) - sag(front, reach[0])) < 0)
+    along = -1 if gap < 0 else 1  # on the way back from a mirror the back surface lies to the left
+    gone = np.flatnonzero(along * (gap + sag(back, reach[1]) - sag(front, reach[0])) < 0)
     return float(y[gone[0]]) if gone.size else rim
 
 

@@ -95,7 +95,7 @@ def live(
         pupil=pupil,
         psf=psf,
         quality=quality,
-        airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.coefficients.na)),
+        airy_radius_um=float(airy_radius_um(setup.source.wavelength_um, setup.cone.na)),
         dominant=dominant(pupil, setup.coefficients),
         warnings=warnings(setup, pupil if picture.exact else None, drawing.rays, shows_density(picture, quality)),
         why=picture.why,

@@ -51,7 +51,7 @@ def path(
         if turned is None:
             return *places, False
         cz, cy = turned
-        vertex += surface.thickness
+        vertex += lens.gaps[number]
     met = meet(lens.sensor_surface, z - vertex, y, cz, cy)
     if met is None:
         return *places, False

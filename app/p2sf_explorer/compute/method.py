@@ -182,7 +182,7 @@ def render_state(
     coefficients make its picture. A sum too slow for a frame is taken from ``cache`` or left pending; without
     ``cache`` it is waited for. Raises GeometryError for an image at infinity.
     """
-    check_focus(setup.coefficients)
+    check_focus(setup.cone.na)
     if setup.altered:
         method = SEIDEL.name
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
@@ -347,8 +347,8 @@ def extent_of_six(setup: ParaxialSetup) -> Extent:
 def extent_of(setup: ParaxialSetup, rays: Rays) -> Extent:
     """Return how far light reaches by a pencil whose last rays are those at the rim; none if all are lost."""
     cycles = np.hypot(rays.fx, rays.fy)[-2 * EDGE :]
-    paraxial = float(setup.coefficients.na) / setup.source.wavelength_um
-    widest = float(np.nanmax(cycles)) if np.isfinite(cycles).any() else paraxial
+    near = setup.cone.na / setup.source.wavelength_um
+    widest = float(np.nanmax(cycles)) if np.isfinite(cycles).any() else near
     return Extent(landing_um(rays) + mask_slope(setup) / widest, AIRY_RADIUS / widest)
 
 

@@ -63,9 +63,9 @@ def _tails(state: State, psf: Psf | None, exact: Psf | None) -> float:
     """Return the error of a PSF's faint light, inf where it has none or its window is another."""
     if psf is None or exact is None:
         return inf
-    six = paraxial_setup(state).coefficients
+    na = paraxial_setup(state).cone.na
     try:
-        return tail_error(psf, exact, AIRY * float(six.wavelength_um) / float(six.na)).mean
+        return tail_error(psf, exact, AIRY * float(psf.wavelength_um) / na).mean
     except SamplingError:
         return inf
 

@@ -10,10 +10,10 @@ from p2sf.glass.media import Medium
 from p2sf.lens.lens import Lens, indices
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.lens_checks import AIR_LIKE
-from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.pupils import f_number, paraxial_rays
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
+from p2sf.raytrace.focusing import focused_vergence
 from p2sf_explorer.state.scales import nice
 
 VISIBLE_NM = (400.0, 700.0)
@@ -34,7 +34,7 @@ def closest_distance(lens: Lens) -> float:
     focal = abs(float(cardinal.effective_focal_length))
     focus = -float(cardinal.front_focal_distance)
     if not isfinite(focal):
-        return nice(2 * sum(surface.thickness for surface in lens.surfaces) + 10)
+        return nice(2 * lens.vertices[-1] + 10)
     closest = nice(max(focus + 0.2 * focal, 0.5 * focal), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8))
     focused = focused_distance(lens)
     if focused > 1.5 * closest:
@@ -96,7 +96,7 @@ def fastest_f_number(lens: Lens) -> float:
         rim = np.maximum(heights[k], heights[k + 1]) * opened
         with np.errstate(invalid="ignore"):
             behind, before = (surface.sag(0.0, rim) for surface in (back, front))
-        edge = (front.thickness + behind - before) * lens.directions[k + 1]
+        edge = (lens.gaps[k] + behind - before) * lens.directions[k + 1]
         kept &= ~(edge <= 0)  # beyond its own edge a surface has no sag, and `lens_checks` warns
     return usual / float(opened[np.logical_and.accumulate(kept)].max(initial=1.0))
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.camera import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field
 from p2sf.conventions import NM_PER_UM
-from p2sf.errors import P2SFError
+from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.positions import Axis, Kind
 from p2sf.lens.source import Source
@@ -21,6 +21,7 @@ from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, find_stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.methods import by_six
 from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.raytrace.field_geometry import Cone, cone
 from p2sf.tolerance.errors_of_build import MOVES, source_of_build
 from p2sf_explorer.compute.ranges import (
     closest_distance,
@@ -65,6 +66,14 @@ class ParaxialSetup:
     own: Coefficients
     object_y_mm: float | None
     focal_length_mm: float
+
+    @property
+    def cone(self) -> Cone:
+        """Return the cone of light about the chief ray; the paraxial one where no such ray reaches the sensor."""
+        try:
+            return cone(self.lens, self.source)
+        except GeometryError:
+            return Cone(*[float(self.own.na)] * 3)
 
     @property
     def altered(self) -> bool:

@@ -59,10 +59,10 @@ def light_of(live: Live) -> Psf:
 
     Where that takes more samples than the window would sum, it stays as it is.
     """
-    request, psf, c = live.request, live.psf, live.setup.coefficients
+    request, psf, own = live.request, live.psf, live.setup.cone
     if request is None or psf.method == "geometric" or psf.values.shape[0] != psf.values.shape[1]:
         return psf
-    finest = float(critical_pixel_um(c.wavelength_um, c.na))
+    finest = float(critical_pixel_um(psf.wavelength_um, max(own.na_x, own.na_y)))
     pixels = psf.values.shape[0]
     across = samples_across(pixels, psf.pixel_um, finest)
     if across == 1 or fine_side(pixels, across) > live.finest:

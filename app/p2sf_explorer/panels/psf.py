@@ -200,8 +200,7 @@ def badge_words(
 
 def vectors_count(live: Live) -> bool:
     """Return whether rays are so steep that scalar light is not enough."""
-    six = live.setup.coefficients
-    tangent = float(six.na) / abs(float(six.image_index))
+    tangent = live.setup.cone.na / abs(float(live.setup.coefficients.image_index))
     return bool(tangent / np.hypot(1, tangent) > VECTOR_NA)
 
 

@@ -68,7 +68,7 @@ def filling(lens: Lens) -> tuple[Element, ...]:
 
 def _between(lens: Lens, at: int, front: tuple[Surface, float], back: tuple[Surface, float], index: float) -> Element:
     """Return what lies behind surface ``at``, from 0: both of its sides with the rims they are drawn with."""
-    thickness = lens.surfaces[at].thickness
+    thickness = lens.gaps[at]
     made = element((front[0], 0.0, front[1]), (back[0], thickness, back[1]))
     behind = lens.frames[at + 1].then(along_z(-thickness))
     return Element(wedge(made, lens.frames[at], behind), index)

@@ -257,7 +257,7 @@ def shorten(sentences: Sequence[str]) -> tuple[str, ...]:
 def facts(live: Live, frame_ms: float | None) -> tuple[str, ...]:
     """Return the figures at the right: image height, aperture, then times."""
     c = live.setup.coefficients
-    parts = [tr("image height {h} mm", h=with_sign(float(c.image_height), 3)), f"NA {float(c.na):.4f}"]
+    parts = [tr("image height {h} mm", h=with_sign(float(c.image_height), 3)), f"NA {live.setup.cone.na:.4f}"]
     parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
     if frame_ms is not None:
         parts.append(tr("{ms} ms/frame", ms=f"{frame_ms:.1f}"))

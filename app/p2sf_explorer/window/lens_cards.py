@@ -50,7 +50,7 @@ def lens_tags(name: str) -> frozenset[str]:
     try:
         lens = load(name)
         focal = float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length)
-        track = sum(surface.thickness for surface in lens.surfaces)
+        track = lens.vertices[-1]
         mirrors = any(surface.reflects for surface in lens.surfaces)
         aspheres = sum(1 for surface in lens.surfaces if surface.radial_parts)
         found = {

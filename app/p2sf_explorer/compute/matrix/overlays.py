@@ -254,7 +254,7 @@ def lateral_colour(request: OverlayRequest) -> CurveOverlay:
         Line(name, chief_heights_um(setup, slopes, nm / NM_PER_UM) - here, number)
         for number, (name, nm) in enumerate(zip(wave_names(request), request.wavelengths, strict=True), 1)
     ]
-    radius = float(airy_radius_um(setup.source.wavelength_um, setup.own.na))
+    radius = float(airy_radius_um(setup.source.wavelength_um, setup.cone.na))
     for sign in (-1, 1):
         lines.append(Line(AIRY, np.full(slopes.shape, sign * radius), PLAIN, SAGITTAL))
     return CurveOverlay(

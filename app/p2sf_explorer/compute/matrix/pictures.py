@@ -342,13 +342,13 @@ def _density(task: Task, window: Window, quality: str) -> Psf:
 
 def _light(place: MatrixPoint, psf: Psf, settled: bool) -> MatrixTile:
     """Return a PSF as a picture of light per µm², with the radius of 80 %, and its Strehl ratio where that tells."""
-    c = place.setup.coefficients
+    na = place.setup.cone.na
     width = psf.values.shape[-1] * psf.pixel_um
-    airy = float(airy_radius_um(place.setup.source.wavelength_um, c.na))
+    airy = float(airy_radius_um(place.setup.source.wavelength_um, na))
     share = 1.0 if psf.energy is None else float(psf.energy)
     rings = light_rings(psf.values, psf.pixel_um)
     content = Light(psf.values * (share / psf.pixel_um**2), width, airy, rings.circle(airy))
-    sharpness = strehl_figure(psf, float(c.na))
+    sharpness = strehl_figure(psf, na)
     return MatrixTile(
         content,
         radius_figure(psf, None if settled else rings),
@@ -394,7 +394,7 @@ def _spot(place: MatrixPoint, quality: str) -> MatrixTile:
         found = rays
     else:
         found = _many_rays(setup.lens, setup.source, place.state.optics.clip, quality)
-    airy = float(airy_radius_um(setup.source.wavelength_um, setup.own.na))
+    airy = float(airy_radius_um(setup.source.wavelength_um, setup.cone.na))
     figure = Message("RMS {value} µm", value=Number(significant(float(found.rms_um), 3)))
     return MatrixTile(
         SpotTile(landing_points(found), airy),

@@ -161,8 +161,8 @@ def one_wave(live: Live) -> float:
 
 def shifts_around(live: Live, count: int) -> tuple[float, ...]:
     """Return sensor shifts on both sides of the present one, a depth of focus n′λ/NA² or a little more apart, µm."""
-    c = live.setup.own
-    depth = abs(float(c.image_index)) * live.setup.source.wavelength_um / float(c.na) ** 2 if float(c.na) else 100.0
+    index, na = float(live.setup.own.image_index), live.setup.cone.na
+    depth = abs(index) * live.setup.source.wavelength_um / na**2 if na else 100.0
     steps = nice(depth) * (np.arange(count) - (count - 1) / 2)
     return tuple(float(live.state.optics.sensor_shift_um + step) for step in steps)
 

@@ -31,6 +31,6 @@ def chromatic(live: Live) -> Chromatic:
     setup = live.setup
     nm = np.linspace(*wavelength_range(prescription(live.state)), WAVELENGTHS[live.quality])
     shift = 1e3 * colour_shift(setup.lens, setup.source.depth_mm, nm / NM_PER_UM, ZONES, setup.stop)
-    c = setup.own
-    half = abs(float(c.image_index)) * setup.source.wavelength_um / (2 * float(c.na) ** 2) if float(c.na) else np.inf
+    index, na = float(setup.own.image_index), setup.cone.na
+    half = abs(index) * setup.source.wavelength_um / (2 * na**2) if na else np.inf
     return Chromatic(nm, shift, half)

@@ -7,8 +7,8 @@ import numpy as np
 from p2sf.lens.positions import Kind
 from p2sf.messages import Message, Number
 from p2sf.paraxial.first_order import magnification
-from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.pupils import Stop, f_number
+from p2sf.raytrace.focusing import focused_vergence
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import MM_PER_UNIT, significant
@@ -38,8 +38,7 @@ EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the 
 def rows(live: Live) -> tuple[Row, ...]:
     """Return what a person asks first, the picture's own figures before the lens's: short screens cut the end."""
     s = live.setup
-    c, p = s.coefficients, s.pupils
-    na = float(c.na)
+    c, p, na = s.coefficients, s.pupils, s.cone.na
     return (
         (
             "Strehl ratio",
@@ -193,7 +192,7 @@ def lens_rows(live: Live) -> tuple[Row, ...]:
 def pupil_rows(live: Live) -> tuple[Row, ...]:
     """Return stop, pupils, apertures and the invariant."""
     s = live.setup
-    p, na = s.pupils, float(s.own.na)
+    p, na = s.pupils, s.cone.na
     number = float(f_number(s.lens, s.source.wavelength_um, s.stop))
     invariant = float(s.rays.invariant) * s.source.field_slope
     return (
@@ -254,4 +253,4 @@ def petzval_radius(setup: ParaxialSetup) -> float:
 
 def track(setup: ParaxialSetup) -> float:
     """Return first vertex to sensor, mm."""
-    return sum(surface.thickness for surface in setup.lens.surfaces)
+    return setup.lens.vertices[-1]

@@ -74,11 +74,13 @@ def strip(live: Live) -> Strip | Message:
 
 def shift_range(setup: ParaxialSetup) -> tuple[float, float, float]:
     """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
-    c = setup.coefficients
-    na, index = float(c.na), float(c.image_index)  # negative behind an odd number of mirrors
+    c, na = setup.coefficients, setup.cone.na
+    index = float(c.image_index)  # negative behind an odd number of mirrors
     unit = 1e3 * index * setup.source.wavelength_um / 1e3 / na**2  # n′λ/NA², the depth of focus, µm
-    sagittal, tangential = (1e3 * float(place) for place in seidel_foci(c))
-    balanced = (sagittal + tangential) / 2 - 2 * unit * float(c.w40)
+    six = not setup.lens.tilted
+    foci = seidel_foci(c) if six else real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
+    sagittal, tangential = (1e3 * float(place) for place in foci)
+    balanced = (sagittal + tangential) / 2 - (2 * unit * float(c.w40) if six else 0.0)
     low, high = (side(0.0, sagittal, tangential, balanced) for side in (min, max))
     air = AIR * abs(unit)
     step = nice((high - low + 2 * air) / 8)
@@ -107,7 +109,7 @@ def light(shift_um: float, request: Strip) -> np.ndarray:
         setup, units = paraxial_setup(state), psf.over_unaberrated
         if units is not None:
             return units
-        return over_unaberrated(psf, float(setup.coefficients.na), mask_seen(setup.lens, setup.source))
+        return over_unaberrated(psf, setup.cone.na, mask_seen(setup.lens, setup.source))
     except P2SFError:  # a sensor inside the lens, a lost chief ray: a gap in the strip
         return np.full((request.window[0],) * 2, np.nan)
 

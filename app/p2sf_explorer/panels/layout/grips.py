@@ -138,7 +138,7 @@ def drag(grip: Grip, start: State, z: float, y: float) -> State:
 def _sensor(grip: Grip, start: State, z: float, y: float) -> State:
     """Shift the sensor, which stays behind the last vertex."""
     lens = prescription(start)
-    last, along = sum(surface.thickness for surface in lens.surfaces[:-1]), lens.directions[-1]
+    last, along = lens.vertices[-2], lens.directions[-1]
     by = along * max(along * z, along * last + LEAST_MM) - grip.z
     return change(start, sensor_shift_um=start.optics.sensor_shift_um + UM_PER_MM * by)
 
