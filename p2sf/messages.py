@@ -17,6 +17,14 @@ def identity(text: str) -> str:
     return text
 
 
+CONTROLS = dict.fromkeys({*range(0x20), *range(0x7F, 0xA0)} - {*b"\t\n"}, "\ufffd")
+
+
+def printable(text: str) -> str:
+    """Return a text without control characters: those in a stranger's file would steer the terminal."""
+    return text.translate(CONTROLS)
+
+
 class ParameterName(str):
     """The Python name of a parameter, such as ``field_deg``; each program shows its own name for it."""
 
@@ -99,5 +107,5 @@ class _StyledFormatter(Formatter):
             return f"{', '.join(others)} {self.style.translate('or')} {last}"
         if isinstance(value, tuple | list):
             return ", ".join(self.format_field(item, format_spec) for item in value)
-        said = format(value, format_spec)
+        said = format(printable(value) if isinstance(value, str) else value, format_spec)
         return self.style.number(said) if isinstance(value, Number | Real) and not isinstance(value, bool) else said

@@ -7,7 +7,7 @@ from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
 from p2sf.errors import P2SFError
-from p2sf.messages import Style
+from p2sf.messages import Style, printable
 from p2sf.parameters import flag
 from p2sf.version import version_text
 
@@ -81,8 +81,6 @@ def _app() -> "App":
     """Return the tree of commands."""
     from cyclopts import App
 
-    from p2sf.cli.options import check_whole_numbers
-
     app = App(
         name="p2sf",
         help="From a lens prescription to its point spread functions, with their accuracy.",
@@ -90,7 +88,6 @@ def _app() -> "App":
         version_format="plaintext",
         result_action="return_value",
         suppress_keyboard_interrupt=False,
-        config=check_whole_numbers,
     )
     for name, (place, summary) in COMMANDS.items():
         app.command(f"p2sf.cli.{place}", name=name, help=summary)
@@ -114,7 +111,7 @@ def _usage(error: "CycloptsError") -> str:
 
 
 def _fail(sentence: str) -> int:
-    line = " ".join(sentence.split())
+    line = printable(" ".join(sentence.split()))
     print(f"p2sf: {line}{'' if line.endswith(('.', '?')) else '.'}", file=sys.stderr)
     return FAILED
 

@@ -9,7 +9,6 @@ from p2sf.cli.screen import text, warn
 from p2sf.lens.lens import Lens, message_if_misaligned
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
-from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.raytrace.aiming import pupil_rays
@@ -32,8 +31,7 @@ TOO_COARSE = Message(
 def caution(setup: Setup, seidel: bool) -> None:
     """Print warnings about a setup; call before the work, since one of them is how long that will take."""
     own = long_sum(setup) if seidel else crossed_surfaces(setup)
-    straight = set_straight(setup.lens) if seidel else None
-    for message in (setup.stop.warning, virtual_image(setup), own, straight, *lens_checks(setup.prescription)):
+    for message in (setup.stop.warning, virtual_image(setup), own, set_straight(setup.lens) if seidel else None):
         warn(message)
 
 

@@ -13,7 +13,7 @@ from p2sf.cli import STYLE
 from p2sf.files.writing import plain
 from p2sf.image.progress import seconds_left
 from p2sf.lens.source import Source
-from p2sf.messages import Message
+from p2sf.messages import Message, printable
 
 Row = tuple[object, ...]
 FILLED = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}  # by exact rays, `Lens.aim`
@@ -42,7 +42,7 @@ def print_table(title: str, columns: tuple[str, ...], rows: Sequence[Row]) -> No
     for row in rows:
         table.add_row(*map(text, row))
     with console.capture() as page:
-        console.print(title, style="bold", markup=False)
+        console.print(printable(title), style="bold", markup=False)
         console.print(table)
     sys.stdout.write(page.get())  # printed by the console itself, a closed pipe would exit with a code of rich's choice
 
@@ -53,7 +53,7 @@ def text(value: object) -> str:
         return "–"
     if isinstance(value, float):
         return ("−∞" if value < 0 else "∞") if isinf(value) else f"{value + 0.0:.6g}"
-    return value.text(STYLE) if isinstance(value, Message) else str(value)
+    return value.text(STYLE) if isinstance(value, Message) else printable(str(value))
 
 
 def warn(message: Message | None) -> None:

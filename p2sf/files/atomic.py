@@ -1,4 +1,4 @@
-"""Files written atomically, even if an error, a full disk or a kill interrupts the writing; reading archives."""
+"""Files written atomically, even if an error, a full disk or a kill interrupts the writing."""
 
 import os
 import secrets
@@ -10,8 +10,6 @@ from pathlib import Path
 from tokenize import TokenError
 from typing import BinaryIO
 from zipfile import BadZipFile
-
-import numpy as np
 
 # Errors for a damaged archive: numpy parses headers as Python, and zip and its compressors raise their own.
 DAMAGED = (
@@ -28,15 +26,6 @@ DAMAGED = (
     RuntimeError,
     MemoryError,
 )
-
-
-def read_arrays(file: str | os.PathLike | BinaryIO) -> dict[str, np.ndarray]:
-    """Return the arrays of an .npz file or stream; ValueError for a damaged or other file, OSError as `open`."""
-    try:
-        with np.load(file, allow_pickle=False) as archive:
-            return dict(archive)
-    except DAMAGED as error:
-        raise ValueError(f"no archive of arrays: {error}") from error
 
 
 def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) -> None:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.files.atomic import read_arrays, write_whole
+from p2sf.files.atomic import write_whole
+from p2sf.files.reading import read_arrays
 
 VARIABLE = "P2SF_CACHE"
 LARGEST = 64 * 2**20  # bytes of all files

@@ -4,18 +4,23 @@ import io
 import json
 import os
 import warnings
+from itertools import islice
+from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from p2sf.errors import ExportError
+from p2sf.files.reading import LONGEST_TEXT, check_unpacked, open_file, parse_json, size_of
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import facts, psf_from
 from p2sf.psf.result import Psf
 from p2sf.version import program_version
 
 META = "P2SFMETA"
+SIMPLE, END = b"SIMPLE", b"END     "  # begin and end the head of every FITS file
+MOST_UNITS = 64  # looked through for a picture
 
 
 def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
@@ -42,15 +47,34 @@ def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
 
 def read_psf_fits(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
     """Return the PSF of a FITS file that `write_psf_fits` wrote, exactly, and its meta. Raises ExportError."""
-    fits = _astropy()
     try:
-        with warnings.catch_warnings(action="ignore"), fits.open(path, memmap=False) as file:
-            values, meta = file[0].data, json.loads(file[0].header[META])
+        values, header = first_picture(path)
+        meta = parse_json(header[META])
         return psf_from(values.astype(float), meta["psf"]), meta
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ExportError(
             "{path} is not a PSF that this program wrote as FITS; save the snapshot again", path=str(path)
         ) from error
+
+
+def first_picture(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
+    """Return the samples and the header of a FITS file's first picture, rows up.
+
+    Raises ExportError without astropy; OSError, ValueError, KeyError and TypeError for what cannot be read.
+    """
+    fits = _astropy()
+    with warnings.catch_warnings(action="ignore"), open_file(path) as stream:
+        size = size_of(stream)
+        head = stream.read(LONGEST_TEXT)
+        if not head.startswith(SIMPLE) or END not in head:  # astropy would unpack it, or look for its end for ever
+            raise ValueError("no FITS file")
+        stream.seek(0)
+        with fits.open(stream, memmap=False) as file:
+            for unit in islice(file, MOST_UNITS):
+                if unit.is_image and len(unit.shape) >= 2:
+                    check_unpacked(prod(unit.shape) * abs(unit.header["BITPIX"]) // 8, size)
+                    return unit.data, unit.header
+    raise ValueError("no picture in it")
 
 
 def _astropy() -> Any:

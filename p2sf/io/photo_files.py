@@ -14,7 +14,7 @@ import numpy as np
 from p2sf.arguments import first_place
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED
-from p2sf.files.raster_size import OversizedError, check_samples, first_page
+from p2sf.files.reading import OversizedError, check_samples, check_unpacked, first_page, open_file, size_of
 from p2sf.files.writing import write_beside
 from p2sf.io.png16 import is_deep, read_deep, write_deep
 from p2sf.io.transfer import check_encoding, linear_from_srgb, srgb_from_linear
@@ -22,6 +22,7 @@ from p2sf.messages import Alternatives, Message
 
 EXR = ".exr"
 WRITABLE = (".png", ".tif", ".tiff", EXR)
+HEAD = 32  # bytes that tell the kinds apart
 EXR_MARK = b"v/1\x01"  # first of any OpenEXR file
 DEPTH_CHANNELS = "Y", "Z"  # of grey pictures and of depths, the names that renderers use
 HEIF = (".heic", ".heif")
@@ -172,7 +173,7 @@ def photo_shape(path: str | os.PathLike[str]) -> tuple[int, int]:
     if Path(path).suffix.lower() in HEIF:
         _let_pillow_open_heif(path)
     try:
-        with Image.open(path) as picture:
+        with open_file(path) as stream, Image.open(stream) as picture:
             turned = picture.getexif().get(ORIENTATION, 1) in SIDEWAYS and picture.format != "TIFF"
             columns, rows = picture.size[::-1] if turned else picture.size
             return rows, columns
@@ -217,23 +218,24 @@ def _orientation(path: str | os.PathLike[str]) -> int:
 def read_samples(path: Path) -> np.ndarray:
     """Return the samples of a picture file as they are stored, upright; RequestError where it cannot be read."""
     try:
-        data = path.read_bytes()
+        with open_file(path) as stream:
+            head, size = stream.read(HEAD), size_of(stream)
     except OSError as error:
         raise RequestError(
             "{path} cannot be read, {reason}; give the path of a PNG, TIFF, OpenEXR, JPEG or HEIF",
             path=str(path),
             reason=str(error.strerror),
         ) from error
-    if data[:4] in (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+"):
-        return _from_tiff(data, path)
-    if is_deep(data) and data[25]:  # Pillow reads grey ones, in a hundredth of the time
-        return read_deep(data, path)
-    if data[:4] == EXR_MARK:
-        return _from_exr(path, len(data))
-    if data[4:8] == b"ftyp":
+    if head[:4] in (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+"):
+        return _from_tiff(path)
+    if is_deep(head) and head[25]:  # Pillow reads grey ones, in a hundredth of the time
+        return read_deep(path)
+    if head[:4] == EXR_MARK:
+        return _from_exr(path, size)
+    if head[4:8] == b"ftyp":
         _let_pillow_open_heif(path)
-        return _by_pillow(data, path, ("HEIF",))
-    return _by_pillow(data, path, ("JPEG",) if data[:3] == b"\xff\xd8\xff" else ("PNG",))
+        return _by_pillow(path, size, ("HEIF",))
+    return _by_pillow(path, size, ("JPEG",) if head[:3] == b"\xff\xd8\xff" else ("PNG",))
 
 
 def pillow_heif(path: str | os.PathLike[str]) -> Any:
@@ -255,7 +257,8 @@ def heif_depth_image(path: str | os.PathLike[str]) -> tuple[np.ndarray, dict[str
     """
     library = pillow_heif(path)
     try:
-        images = library.open_heif(path).info.get("depth_images", [])
+        with open_file(path) as stream:
+            images = library.open_heif(stream).info.get("depth_images", [])
         return (np.asarray(images[0]), images[0].info.get("metadata", {})) if images else None
     except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
@@ -288,7 +291,8 @@ def _from_exr(path: Path, size: int) -> np.ndarray:
     try:
         with library.File(str(path), header_only=True) as head:
             first, last = (np.asarray(end, int) for end in head.header()["dataWindow"])
-        check_samples((*(last - first + 1)[::-1].tolist(), 1), size)
+            count = len(head.header()["channels"])
+        check_samples((*(last - first + 1)[::-1].tolist(), count), size)
         with library.File(str(path), separate_channels=True) as file:
             planes = {name: channel.pixels for name, channel in file.channels().items()}
     except (OSError, RuntimeError, ValueError, *DAMAGED) as error:
@@ -319,22 +323,23 @@ def _exr(stored: np.ndarray) -> bytes:
         return path.read_bytes()
 
 
-def _from_tiff(data: bytes, path: Path) -> np.ndarray:
+def _from_tiff(path: Path) -> np.ndarray:
     try:
-        return np.asarray(first_page(io.BytesIO(data))[0])
+        return np.asarray(first_page(path)[0])
     except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
             "{path} is a TIFF that cannot be read ({why}); save it again, uncompressed", path=str(path), why=str(error)
         ) from error
 
 
-def _by_pillow(data: bytes, path: Path, formats: tuple[str]) -> np.ndarray:
+def _by_pillow(path: Path, size: int, formats: tuple[str]) -> np.ndarray:
     """Return the 8-bit samples of a PNG, JPEG or HEIF, turned upright."""
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
-        with Image.open(io.BytesIO(data), formats=formats) as picture:
-            check_samples((picture.height, picture.width, len(picture.getbands())), len(data))
+        check_unpacked(size, 0)  # in a file without an end Pillow looks for one
+        with Image.open(path, formats=formats) as picture:
+            check_samples((picture.height, picture.width, len(picture.getbands())), size)
             if picture.mode.startswith("I;16"):
                 return np.asarray(picture)
             grey = picture.mode in ("1", "L", "LA")

@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 
 from p2sf.errors import RequestError
-from p2sf.files.raster_size import OversizedError, check_samples
+from p2sf.files.reading import OversizedError, check_samples, read_bytes
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}  # colour type: grey, RGB, grey with alpha, RGB with alpha
@@ -15,13 +15,19 @@ COLOUR_TYPE = {1: 0, 3: 2}
 BAND = 256  # rows
 
 
-def is_deep(data: bytes) -> bool:
-    """Return whether these are the bytes of a PNG with 16 bits a sample."""
-    return data[:8] == SIGNATURE and len(data) > 26 and data[24] == 16
+def is_deep(head: bytes) -> bool:
+    """Return whether these are the first bytes of a PNG with 16 bits a sample."""
+    return head[:8] == SIGNATURE and len(head) > 26 and head[24] == 16
 
 
-def read_deep(data: bytes, path: str | os.PathLike[str]) -> np.ndarray:
+def read_deep(path: str | os.PathLike[str]) -> np.ndarray:
     """Return the samples of a 16-bit PNG, (rows, columns, channels) uint16; RequestError for a damaged file."""
+    try:
+        data = read_bytes(path)
+    except OSError as error:
+        raise RequestError(
+            "{path} cannot be read, {reason}; save it smaller, or as a TIFF", path=str(path), reason=str(error.strerror)
+        ) from error
     if data[25] not in CHANNELS or any(data[28:29]):
         raise RequestError(
             "{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey", path=str(path)

@@ -8,14 +8,15 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from p2sf.errors import ExportError
-from p2sf.files.atomic import DAMAGED, read_arrays
-from p2sf.files.raster_size import first_page
+from p2sf.files.atomic import DAMAGED
+from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.record import CONVENTIONS, caption, facts, psf_from
 from p2sf.psf.result import Psf
 from p2sf.version import program_version
 
 UM_PER_CM = 1e4
+CSV_HEAD = 4  # lines before the numbers of a .csv
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
 
 
@@ -114,19 +115,21 @@ def _write_png(handle: BinaryIO, psf: Psf, meta: dict) -> None:
 
 def _read_npz(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     found = read_arrays(path)
-    return found["psf"], json.loads(str(found["meta"]))
+    return found["psf"], parse_json(str(found["meta"]))
 
 
 def _read_tiff(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     values, text = first_page(path)
-    return values, json.loads(text)
+    return values, parse_json(text)
 
 
 def _read_csv(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
-    lines = Path(path).read_text(encoding="utf-8").splitlines()
-    meta = next((x.removeprefix("# meta: ") for x in lines if x.startswith("# meta: ")), "")
-    cells = [line.split(",")[1:] for line in lines if not line.startswith("#")]
-    return np.array(cells[1:], dtype=float), json.loads(meta)
+    with open_file(path) as stream:
+        lines = [stream.readline(LONGEST_TEXT).decode() for _ in range(CSV_HEAD)]
+        meta = next((x.removeprefix("# meta: ") for x in lines if x.startswith("# meta: ")), "")
+        check_unpacked(size_of(stream), 0)
+        cells = np.loadtxt(stream, delimiter=",", comments=None, ndmin=2)
+    return cells[:, 1:], parse_json(meta)
 
 
 WRITERS = {".npz": _write_npz, ".tiff": _write_tiff, ".tif": _write_tiff, ".csv": _write_csv, ".png": _write_png}

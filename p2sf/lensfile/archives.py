@@ -14,6 +14,7 @@ from functools import partial
 from pathlib import PureWindowsPath
 
 from p2sf.errors import LensFileError
+from p2sf.files.reading import zip_archive
 
 # A prescription of a thousand surfaces is 300 kB, the largest glass catalogue 1.2 MB.
 LARGEST_BYTES = 4_000_000
@@ -78,7 +79,7 @@ def check_size(count: int, path: str) -> None:
 
 
 def _zip_members(data: bytes) -> Iterator[Member]:
-    archive = zipfile.ZipFile(io.BytesIO(data))
+    archive = zip_archive(io.BytesIO(data))
     for name in archive.namelist():
         yield name, partial(_from_zip, archive, name)
 

@@ -59,8 +59,9 @@ def _json(keys: str) -> re.Pattern[str]:
     return re.compile(rf'\A\s*\{{(?s:.*?)"(?:{keys})"\s*:')
 
 
+GAP = r"[^\S\n]*+"  # blanks of one line: with \s, blank lines would cost the square of their number
 # The head of crayg's sections, or a row of an iris.
-FX = r"^\s*\[(elements|surfaces)\]|^\s*[-+.\deE]+[ \t]+[-+.\deE/ \t]+[ \t]iris\b"
+FX = rf"^{GAP}\[(elements|surfaces)\]|^{GAP}[-+.\deE]++[ \t](?>[-+.\deE/ \t]{{2,}})(?<=[ \t])iris\b"
 JSON_ENDINGS = (".json", ".roa")
 FORMATS = (
     Format("ray-optics model", re.compile(r'\A\s*\{\s*"optical_model"\s*:'), ".roa", read_ray_optics),
@@ -70,13 +71,13 @@ FORMATS = (
     Format("patent prescription (JSON)", _json("radius_mm"), ".json", read_patent),
     Format("ISET lens (JSON)", _json("surfaces|surfaceArray"), ".json", read_iset_json),
     Format("renderer's lens (.fx)", _pattern(FX), ".fx", read_fx),
-    Format("Optical Bench text", _pattern(r"^\s*\[lens data\]"), ".txt", read_optical_bench),
-    Format("P2SF lens (TOML)", _pattern(r"^\s*\[\[\s*surface\s*\]\]"), ".toml", _read_toml),
-    Format("Zemax", _pattern(r"^\s*SURF\s+\d+\s*$"), ".zmx", read_zemax),
-    Format("OSLO", _pattern(r"\A\s*//\s*OSLO\b|^\s*LEN\s+NEW\b"), ".len", read_oslo),
-    Format("CODE V", _pattern(r"^\s*(SO|RDM|LEN|TIT(LE)?)\b[^=,]*$"), ".seq", read_codev),
-    Format("table with named columns", _pattern(r"^[^#\n]*\bradius\b[^\n]*[,;\t]"), ".csv", read_table),
-    Format("ISET lens (.dat)", _pattern(r"^\s*([-+.\deE]+[ \t,]+){3}[-+.\deE]+\s*$"), ".dat", read_iset_dat),
+    Format("Optical Bench text", _pattern(rf"^{GAP}\[lens data\]"), ".txt", read_optical_bench),
+    Format("P2SF lens (TOML)", _pattern(rf"^{GAP}\[\[{GAP}surface{GAP}\]\]"), ".toml", _read_toml),
+    Format("Zemax", _pattern(rf"^{GAP}SURF\s{GAP}\d++{GAP}$"), ".zmx", read_zemax),
+    Format("OSLO", _pattern(rf"\A\s*+//\s*+OSLO\b|^{GAP}LEN\s{GAP}NEW\b"), ".len", read_oslo),
+    Format("CODE V", _pattern(rf"^{GAP}(SO|RDM|LEN|TIT(LE)?)\b[^=,\n]*+$"), ".seq", read_codev),
+    Format("table with named columns", _pattern(r"^(?>[^#\n]*?\bradius\b)[^\n]*[,;\t]"), ".csv", read_table),
+    Format("ISET lens (.dat)", _pattern(rf"^{GAP}([-+.\deE]++[ \t,]++){{3}}[-+.\deE]++{GAP}$"), ".dat", read_iset_dat),
 )
 
 

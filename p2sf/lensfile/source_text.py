@@ -10,6 +10,7 @@ from pathlib import Path
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import LensFileError
 from p2sf.files.atomic import write_whole
+from p2sf.files.reading import open_file
 from p2sf.lensfile.archives import LARGEST_BYTES, check_size, is_archive, unpack
 from p2sf.messages import Message
 
@@ -94,7 +95,7 @@ def _check_lines(source: LensText) -> None:
 def read_bytes(path: str | os.PathLike) -> bytes:
     """Return the bytes of a file; LensFileError when it is missing, a folder, or over 4 MB."""
     try:
-        with Path(path).open("rb") as stream:
+        with open_file(path) as stream:
             data = stream.read(LARGEST_BYTES + 1)
     except FileNotFoundError:
         raise LensFileError("there is no such file; check the path", path) from None
@@ -173,7 +174,7 @@ def read_text(path: str | os.PathLike) -> str:
 
 
 def _bytes(path: Path) -> bytes:
-    with open(path, "rb") as file:
+    with open_file(path) as file:
         return file.read(LARGEST_FILE + 1)
 
 

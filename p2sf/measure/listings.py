@@ -3,14 +3,13 @@
 import os
 import re
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from p2sf.errors import RequestError
+from p2sf.files.reading import read_bytes
 
-LARGEST_BYTES = 200_000_000
-NUMBER = r"[-+]?\d+(?:\.\d*)?(?:[Ee][-+]?\d+)?"
+NUMBER = r"[-+]?\d++(?:\.\d*+)?(?:[Ee][-+]?\d++)?"  # which gives back no digit, so that a long one costs no time
 UNITS_UM = {"µm": 1.0, "um": 1.0, "microns": 1.0, "μm": 1.0, "mm": 1000.0, "nm": 1e-3}
 
 
@@ -51,8 +50,7 @@ class Listing:
 def read_listing(path: str | os.PathLike[str]) -> Listing:
     """Return the listing in a text file. Raises RequestError, with the file's name, for anything else."""
     try:
-        size = Path(path).stat().st_size
-        data = Path(path).read_bytes() if size <= LARGEST_BYTES else b""
+        data = read_bytes(path)
     except OSError as error:
         raise RequestError(
             "{path} cannot be read, {reason}; check the name", path=str(path), reason=str(error.strerror).lower()
@@ -66,7 +64,7 @@ def listing_of(text: str, path: str) -> Listing:
     kind = "wavefront" if "Wavefront" in head else "psf" if "PSF" in head else ""
     if not kind or table.size == 0:
         raise _damage_error(path)
-    place = re.search(rf"({NUMBER})\s*(\S*m\w*)\s+at\s+({NUMBER})\s*,\s*({NUMBER})", head)
+    place = re.search(rf"(?<!\d)({NUMBER})\s*+([^\W\d]\w*+)\s++at\s++({NUMBER})\s*+,\s*+({NUMBER})", head)
     if place is None or place[2] not in UNITS_UM:
         raise _damage_error(path)
     wavelength = float(place[1]) * UNITS_UM[place[2]]

@@ -15,7 +15,8 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import Cancelled, P2SFError, RequestError
-from p2sf.files.atomic import DAMAGED, read_arrays
+from p2sf.files.atomic import DAMAGED
+from p2sf.files.reading import parse_json, read_arrays
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.measure.fitting.frame_fit import FrameFit, Tell, fit_frame, share_of
@@ -415,7 +416,7 @@ def read_measurement(path: str | os.PathLike[str]) -> tuple[dict[str, np.ndarray
     """Return the arrays and the meta of a file of `write_measurement`. Raises RequestError."""
     try:
         arrays = read_arrays(path)
-        meta = json.loads(str(arrays.pop("meta")))
+        meta = parse_json(str(arrays.pop("meta")))
         if "places_mm" not in arrays or not isinstance(meta, dict):
             raise ValueError("no measurement")
     except (OSError, ValueError, *DAMAGED) as error:

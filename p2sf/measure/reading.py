@@ -1,7 +1,6 @@
 """Frames of counts from files: PNG, TIFF, JPEG, FITS, npy, npz, and OpticStudio's listings of PSFs."""
 
 import os
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,9 +8,9 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import ExportError, RequestError
-from p2sf.files.atomic import DAMAGED, read_arrays
-from p2sf.files.raster_size import OversizedError, check_samples
-from p2sf.io.fits_psf import read_psf_fits
+from p2sf.files.atomic import DAMAGED
+from p2sf.files.reading import OversizedError, check_samples, read_array, read_arrays
+from p2sf.io.fits_psf import first_picture, read_psf_fits
 from p2sf.io.photo_files import READABLE, read_photo
 from p2sf.io.psf_files import read_psf
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
@@ -148,8 +147,7 @@ def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, floa
     """Return the picture in an array file, and its pixel in µm where it says it."""
     try:
         if ending == ".npy":
-            with warnings.catch_warnings(action="ignore"):
-                return np.load(path, allow_pickle=False), None
+            return read_array(path), None
         found = read_arrays(path)
     except (OSError, ValueError, *DAMAGED) as error:
         raise _unreadable(path) from error
@@ -163,14 +161,10 @@ def _arrays(path: str | os.PathLike[str], ending: str) -> tuple[np.ndarray, floa
 def _from_fits(path: str | os.PathLike[str]) -> np.ndarray:
     """Return the first picture of a FITS file, whose rows go up."""
     try:
-        from astropy.io import fits
-    except ImportError as error:
-        raise RequestError("FITS files need astropy, which is not installed; pip install 'p2sf[fits]'") from error
-    try:
-        with warnings.catch_warnings(action="ignore"), fits.open(path, memmap=False) as file:
-            planes = [unit.data for unit in file if getattr(unit, "data", None) is not None and unit.data.ndim >= 2]
-        return np.asarray(planes[0])[..., ::-1, :]
-    except (OSError, ValueError, KeyError, *DAMAGED) as error:
+        return first_picture(path)[0][..., ::-1, :]
+    except ExportError as error:  # astropy is not installed
+        raise RequestError(error.message) from error
+    except (OSError, ValueError, *DAMAGED) as error:
         raise _unreadable(path) from error
 
 

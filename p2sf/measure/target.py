@@ -11,12 +11,12 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, degrees
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from p2sf.errors import RequestError
+from p2sf.files.reading import read_text
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_object_height
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from scipy.spatial import KDTree
 
 COLUMNS: dict[tuple[str, ...], str] = {("number", "x_mm", "y_mm"): "mm", ("number", "x_deg", "y_deg"): "deg"}
-LARGEST_BYTES = 5_000_000
 FEWEST = 3  # points of a target
 SHARE = 0.6  # of the points found that must lie on the target
 CERTAIN = 5  # points that chance hardly puts on it
@@ -123,8 +122,7 @@ def read_target(path: str | os.PathLike[str]) -> Target:
     columns, ``number x_mm y_mm`` or ``number x_deg y_deg``. Lines that begin with # are left out. Raises RequestError.
     """
     try:
-        size = Path(path).stat().st_size
-        text = Path(path).read_text("utf-8-sig") if size <= LARGEST_BYTES else ""
+        text = read_text(path)
     except (OSError, UnicodeDecodeError) as error:
         raise RequestError("{path} cannot be read as text; check the name", path=str(path)) from error
     unit, rows = "", dict[int, tuple[float, float]]()

@@ -1,12 +1,12 @@
 """Scenes in TOML files."""
 
 import os
-import tomllib
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from p2sf.errors import RequestError
+from p2sf.files.reading import read_text, toml_table
 from p2sf.lens.positions import PARAMETER
 from p2sf.messages import Message
 from p2sf.scene.filters import filter_channels
@@ -39,12 +39,12 @@ COUNTING = "full_well", "read_noise", "fill_factor"
 def read_scene(path: str | os.PathLike[str]) -> Scene:
     """Return the scene of a TOML file; RequestError states the file and the correction."""
     try:
-        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        table = toml_table(read_text(path))
     except OSError as error:
         raise RequestError(
             "{path} cannot be read, {reason}; give the path of a scene file", path=str(path), reason=str(error.strerror)
         ) from error
-    except (ValueError, RecursionError) as error:
+    except ValueError as error:
         raise RequestError(
             "{path} is not valid TOML: {reason}; correct it", path=str(path), reason=str(error)
         ) from error

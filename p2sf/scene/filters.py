@@ -10,6 +10,7 @@ import numpy as np
 from p2sf.colour.spectrum import NM, relative_power, spectrum_of
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
+from p2sf.files.reading import read_text
 from p2sf.scene.scene import Channel
 from p2sf.scene.spectrum import reduce_spectrum
 
@@ -47,7 +48,7 @@ def _channel(name: str, nm: np.ndarray, response: np.ndarray, path: str | os.Pat
 def _table(path: Path) -> tuple[list[str], np.ndarray]:
     """Return the names of the channels, and rows of wavelength and responses; RequestError."""
     try:
-        head, *body = [row for row in csv.reader(path.read_text(encoding="utf-8-sig").splitlines()) if row]
+        head, *body = [row for row in csv.reader(read_text(path).splitlines()) if row]
         rows = np.array([[float(cell) for cell in row] for row in body])
     except OSError as error:
         raise RequestError(

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from p2sf.errors import RequestError
+from p2sf.files.reading import parse_json, read_text
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, compare_representations
@@ -104,7 +105,7 @@ def text_of(trades: Iterable[LensTrade]) -> str:
 def load_trades(path: str | PathLike[str]) -> list[LensTrade]:
     """Return the trades of a file that `save_trades` wrote; RequestError for any other."""
     try:
-        return trades_of(json.loads(Path(path).read_text(encoding="utf-8")))
+        return trades_of(parse_json(read_text(path)))
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise RequestError(
             "{path} holds no complete trade ({reason}); write one with p2sf tradeoff --complete -o",

@@ -19,12 +19,12 @@ first = 12
 """
 
 import os
-import tomllib
 from collections.abc import Sequence
 from math import isfinite
 from typing import Any, cast
 
 from p2sf.errors import GeometryError, LensFileError
+from p2sf.files.reading import toml_table
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.source_text import read_text
 from p2sf.lensfile.toml.table import Constraint, Table
@@ -55,8 +55,8 @@ def read_tolerances(
     """Return the tolerances and the compensators of a file; LensFileError states line, value and remedy."""
     text = read_text(path)
     try:
-        top = Table(str(path), text, tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
+        top = Table(str(path), text, toml_table(text))
+    except ValueError as error:
         raise LensFileError("this is not TOML ({reason}); correct the line", path, reason=str(error)) from None
     top.check_keys(("grade", "tolerance", "compensator"))
     named = top.string("grade", grade)

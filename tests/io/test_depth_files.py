@@ -126,11 +126,13 @@ def heif_of(images):
     return lambda path: SimpleNamespace(open_heif=lambda path: SimpleNamespace(info={"depth_images": images}))
 
 
-def test_a_photos_own_depths_are_those_of_its_first_depth_image(monkeypatch):
+def test_a_photos_own_depths_are_those_of_its_first_depth_image(monkeypatch, tmp_path):
+    photo = tmp_path / "photo.heic"
+    photo.touch()
     monkeypatch.setattr(photo_files, "pillow_heif", heif_of([DepthImage()]))
-    assert own_depths("photo.heic").tolist() == [[pytest.approx(4000), pytest.approx(500)]]
+    assert own_depths(photo).tolist() == [[pytest.approx(4000), pytest.approx(500)]]
     monkeypatch.setattr(photo_files, "pillow_heif", heif_of([]))
-    assert own_depths("photo.heic") is None and own_depths("photo.jpg") is None
+    assert own_depths(photo) is None and own_depths("photo.jpg") is None
 
 
 def test_a_damaged_heif_is_one_sentence(monkeypatch, tmp_path):
@@ -139,8 +141,10 @@ def test_a_damaged_heif_is_one_sentence(monkeypatch, tmp_path):
             raise SyntaxError("no colours")  # as pillow-heif says of what it cannot convert
 
     monkeypatch.setattr(photo_files, "pillow_heif", heif_of([Damaged()]))
+    photo = tmp_path / "photo.heic"
+    photo.touch()
     with pytest.raises(RequestError) as raised:
-        own_depths(tmp_path / "photo.heic")
+        own_depths(photo)
     assert raised.value.message.values["why"] == "no colours"
 
 

@@ -8,7 +8,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.lens.lens import with_aim
 from p2sf.studies import validate
-from p2sf.studies.listings import hubble
+from p2sf.studies.listings import hubble, singlet
 from p2sf.studies.validate import (
     AGREES,
     DIFFERS,
@@ -80,6 +80,7 @@ def test_the_command_fails_where_a_figure_differs(capsys, monkeypatch):
 @pytest.mark.slow
 def test_every_number_of_the_listings_agrees_or_is_explained():
     rows = listed_figures()
+    assert all(row.published.tolerance > 0 for row in rows)
     assert len(rows) > 700 and {row.verdict for row in rows} == {AGREES, EXPLAINED}
     # Of the terms, maps, rays and pictures that a listing can state exactly, none needs an explanation.
     exact = "axis", "skew", "rays", "Huygens PSFs", "wavefront maps", "Fringe terms", "ray fans", "cardinal points"
@@ -93,6 +94,15 @@ def test_rays_on_a_curved_image_agree_to_the_last_digit():
     verdicts = {f"{row.published.group}, {row.published.quantity}": row.verdict for row in rows}
     assert DIFFERS not in verdicts.values() and list(verdicts.values()).count(EXPLAINED) == 4
     assert all(row.published.explained for row in rows if row.verdict == EXPLAINED)
+
+
+def test_a_number_listed_as_almost_nothing_can_be_written(capsys, monkeypatch):
+    """A figure's digits follow from its tolerance, which is half a unit of the last one printed: of 1e-10, 5e-11."""
+    row = validate.comparison_of(next(row for row in singlet.rows() if row.quantity == "object space NA"))
+    monkeypatch.setattr(validate, "validation", lambda: (row,))
+    assert main(["validate", "--all"]) == 0
+    written = capsys.readouterr().out
+    assert "0.00000000010" in written and "5e-11" in written
 
 
 def test_an_explanation_covers_no_more_than_it_says():

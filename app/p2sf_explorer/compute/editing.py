@@ -23,7 +23,7 @@ from p2sf_explorer.state.state import State, change
 
 STEEPEST = 0.9  # of a hemisphere's sag
 SAME = 1e-12  # of the sensor's distance: less is rounding
-MODEL = re.compile(r"nd\s*=?\s*([\d.]+)[,\s]+vd\s*=?\s*([\d.]+)", re.IGNORECASE)
+MODEL = re.compile(r"nd\s*+=?\s*+([\d.]+)[,\s]++vd\s*+=?\s*+([\d.]+)", re.IGNORECASE)
 
 
 def edited_state(state: State, lens: Lens) -> State:

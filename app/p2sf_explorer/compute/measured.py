@@ -67,15 +67,27 @@ def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
     return (PupilPart(pupil_of_rays(request.lens, request.source, request.clip)),)
 
 
-def mtf_is_live(request: MeasureRequest) -> bool:
+def mtf_is_live(live: Live, request: MeasureRequest) -> bool:
     """Return whether the transfer function is computed within a frame; behind a mask it takes some 40 ms."""
-    return request.lens.mask.clear and otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
+    if too_steep(live) or not request.lens.mask.clear:
+        return False
+    return otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
 
 
-def energy_is_live(request: MeasureRequest) -> bool:
+def energy_is_live(live: Live, request: MeasureRequest) -> bool:
     """Return whether the encircled energy is computed within a frame."""
+    if too_steep(live):
+        return False
     pupil = measured_parts(request)[0].pupil
     return pupil.plain and blur_waves(pupil, pupil.centroid_um) <= LIVE_WAVES
+
+
+def too_steep(live: Live) -> bool:
+    """Return whether the picture is the density of rays because a sum of its many waves takes too long for a frame.
+
+    To find the pupil that a measure needs takes longer still: seconds, of a fast lens at full field.
+    """
+    return live.psf.method == "geometric"
 
 
 def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:

@@ -16,9 +16,9 @@ from p2sf_explorer.lessons.changes import Changes, apply_changes
 from p2sf_explorer.state.state import State
 
 NUMBER = r"[-−+]?(?:\d[\d.]*(?:e[-+]?\d+)?|inf)"
-LEFT = r"(?P<measure>\w+)(?:\s*\[(?P<first>[^]]*)\])?(?:\s*(?P<how>[/−-])\s*\[(?P<second>[^]]*)\])?"
+LEFT = r"(?P<measure>\w+)(?:\s*+\[(?P<first>[^]]*)\])?(?:\s*+(?P<how>[/−-])\s*+\[(?P<second>[^]]*)\])?"
 FORM = re.compile(
-    rf"{LEFT}\s+(?:(?P<relation>is|above|below)\s+(?P<number>{NUMBER})|within)(?:\s*±\s*(?P<tolerance>{NUMBER}))?"
+    rf"{LEFT}\s++(?:(?P<relation>is|above|below)\s++(?P<number>{NUMBER})|within)(?:\s*+±\s*+(?P<tolerance>{NUMBER}))?"
 )
 EXAMPLE = "airy_radius_um [f_number 6] / [f_number 3] is 2 ± 0.001"
 SLIDER_SHARE = 0.01  # of a slider's value, or of one unit: as near as a hand sets it

@@ -11,6 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from p2sf.errors import P2SFError
+from p2sf.files.reading import read_text
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.lessons.changes import Changes, LessonError, apply_changes, beside, fault, read_changes
@@ -30,6 +31,7 @@ PERSONAL = (
     "colours",
     "scale_percent",
 )  # a lesson changes the optics and leaves these to whoever sits there
+MOST_BYTES, LONGEST_LINE = 1_000_000, 2000  # letters; what patterns cost grows with the square of a line
 HEADER = ("title", "about", "lens", "state", "language", "lesson")
 WORDS = ("try", "ask", "tell", "note")
 STEP = ("set", "move", *WORDS, "claim", *TASK)
@@ -147,11 +149,14 @@ def read_lesson(path: str | os.PathLike[str]) -> Lesson:
 
 def _text(path: str | os.PathLike[str]) -> str:
     try:
-        return Path(path).read_text(encoding="utf-8")
+        text = read_text(path, MOST_BYTES)
     except (OSError, UnicodeDecodeError) as error:
-        raise P2SFError(
-            "{path} cannot be read ({why}); give a lesson as UTF-8 text", path=str(path), why=type(error).__name__
-        ) from None
+        why = getattr(error, "strerror", None) or type(error).__name__
+        raise P2SFError("{path} cannot be read ({why}); give a lesson as UTF-8 text", path=str(path), why=why) from None
+    long = next((n for n, line in enumerate(text.split("\n"), 1) if len(line) > LONGEST_LINE), 0)
+    if long:
+        raise fault(str(path), long, "the line has over {count} letters; break it", count=LONGEST_LINE)
+    return text
 
 
 def with_words(lesson: Lesson, path: str | os.PathLike[str], language: str) -> Lesson:

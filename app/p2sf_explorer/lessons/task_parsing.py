@@ -25,8 +25,8 @@ BELONGS = {"wrong": ("answer", "order", "goal"), "solve": ("goal",)}  # and to n
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]*")
 AMOUNT = r"[-−+]?\d+(?:[.,]\d+)?(?:e[-+]?\d+)?"
 NUMERIC = re.compile(
-    rf"(?P<f>f/)?(?:(?P<number>{AMOUNT})|measure\s+(?P<measure>[^±]+?))"
-    rf"\s*±\s*(?P<tolerance>{AMOUNT})\s*(?P<percent>%(?=\s*\S)|%$)?\s*(?P<unit>\S*)"
+    rf"(?P<f>f/)?(?:(?P<number>{AMOUNT})|measure\s++(?P<measure>[^±]+)(?<!\s))"
+    rf"\s*+±\s*+(?P<tolerance>{AMOUNT})\s*+(?P<percent>%(?=\s*\S)|%$)?\s*+(?P<unit>\S*)"
 )
 NUMERIC_EXAMPLE = "answer: 6.7 ± 0.2 µm"
 HINT, BETWEEN, PICKED = "::", "|", "*"

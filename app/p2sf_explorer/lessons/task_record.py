@@ -4,7 +4,6 @@ The same file keeps progress between starts and goes to the lecturer; nothing in
 the person types.
 """
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from p2sf.errors import ExportError
+from p2sf.files.reading import parse_json, read_text
 from p2sf.files.writing import write_json
 from p2sf.messages import Message
 from p2sf.version import program_version
@@ -71,12 +71,10 @@ def write_result(path: Path, result: CourseResult) -> None:
 def read_result(path: Path) -> CourseResult:
     """Return the results in a file; ExportError names the file and says what is wrong with it."""
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise _unreadable(path, Message("it has more than {count} bytes", count=MOST_BYTES))
-        content = json.loads(path.read_text(encoding="utf-8-sig"))
+        content = parse_json(read_text(path, MOST_BYTES))
     except OSError as error:
         raise _unreadable(path, Message(error.strerror or type(error).__name__)) from None
-    except (ValueError, RecursionError):
+    except ValueError:
         raise _unreadable(path, Message("it is damaged")) from None
     if not isinstance(content, dict) or MARK not in content:
         raise _unreadable(path, Message("it holds no results of the course"))

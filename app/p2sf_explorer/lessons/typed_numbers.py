@@ -26,7 +26,7 @@ KINDS: tuple[dict[str, float], ...] = (
 )
 """Units by kind, in small letters, with what each is in a common unit of its kind."""
 SHOWN = {"/mm": "1/mm", "db": "dB", F_NUMBER: ""}  # a unit as it is written, where that differs
-OVER_MM = re.compile(r"\s+1/(?=m)")  # 50 1/mm is 50 /mm
+OVER_MM = re.compile(r"(?<!\s)\s++1/(?=m)")  # 50 1/mm is 50 /mm
 FRACTION = re.compile(r"([-+−]?\d+)\s*/\s*(\d+)(?!\S*\d)\s*(.*)")
 WAVE_OVER = re.compile(r"(?:λ|lambda)\s*/\s*([\d.,]+)")
 SUFFIXES = {"_um": "µm", "_mm": "mm", "_nm": "nm", "_deg": "°", "_waves": "λ", "_percent": "%", "_db": "db"}

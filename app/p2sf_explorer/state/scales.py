@@ -12,12 +12,12 @@ from p2sf.messages import Message
 INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
 NO_UNIT = {"": 1.0}
-NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
-POWER = re.compile(r"\s*[×x*·]\s*10\^?([-+]?\d+|[⁻⁺]?[⁰¹²³⁴-⁹]+)")  # 6.7×10^-3, 6.7·10⁻³
+NUMBER = re.compile(r"([-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
+POWER = re.compile(r"(?<!\s)\s*+[×x*·]\s*10\^?([-+]?\d+|[⁻⁺]?[⁰¹²³⁴-⁹]+)")  # 6.7×10^-3, 6.7·10⁻³
 RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
 SHORTEST_TRAVEL = 1e-300  # to the end: the division overflows nowhere
 FAR_MM = 1e10  # as far as from pole to equator: more digits than anybody reads
-APERTURE = re.compile(r"^\s*([fF]\s*/?|1\s*:)\s*(?=[\d.,])")  # f/5.6, F5.6, f 5.6, 1:5.6
+APERTURE = re.compile(r"^\s*+([fF]\s*+/?|1\s*+:)\s*+(?=[\d.,])")  # f/5.6, F5.6, f 5.6, 1:5.6
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,10 @@ import json
 import os
 from dataclasses import fields, is_dataclass, replace
 from math import inf
-from pathlib import Path
 from typing import Any
 
 from p2sf.errors import P2SFError
+from p2sf.files.reading import read_text
 from p2sf.messages import Message
 from p2sf_explorer.state.state import ENTRIES, FIRST, State
 
@@ -162,11 +162,11 @@ def check_version(found: object, where: str | Message) -> None:
 def read_state(path: str | os.PathLike[str]) -> State:
     """Return the state saved at ``path``; P2SFError if it cannot be read."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = read_text(path)
     except (OSError, UnicodeDecodeError) as error:
         raise P2SFError(
             "{path} cannot be read ({why}); give a state file that exists",
             path=str(path),
-            why=type(error).__name__,
+            why=getattr(error, "strerror", None) or type(error).__name__,
         ) from None
     return state_from_json(text, str(path))

@@ -218,7 +218,7 @@ class MicronEdit(QWidget):
         self.show_value(entry(self._store.state, self._key))
 
 
-BETWEEN = re.compile(r"\s*;\s*|,\s+")  # a comma without a space is a decimal comma
+BETWEEN = re.compile(r"(?<!\s)\s*+;\s*|,\s+")  # a comma without a space is a decimal comma
 SPACE_PX = 4  # pixels between the parts of a list
 COUNT_TIP = "How many, evenly spread; this replaces typed values"
 LIST_TIP = "Values separated by semicolons; empty: evenly spread automatically"

@@ -16,6 +16,7 @@ from p2sf.database.fitted import FittedDatabase, fields_of
 from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
 from p2sf.database.render import Database
 from p2sf.errors import DatabaseError, RequestError
+from p2sf.files.reading import parse_json
 from p2sf.lens.lens import AIMS, Lens
 from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.basis import PupilBasis
@@ -74,7 +75,7 @@ def _content(raw: bytes) -> tuple[Arrays, Meta]:
 
 def _meta(mark: np.ndarray) -> Meta:
     """Return what a file says about its database; one from before `Lens.aim` filled the paraxial entrance pupil."""
-    stated: Meta = json.loads(str(mark))
+    stated: Meta = parse_json(str(mark))
     stated.setdefault("aim", "paraxial")
     return stated
 
@@ -112,7 +113,7 @@ def _read_stored(arrays: Arrays, name: str | PathLike[str]) -> Stored:
         _, unpack = _KINDS[meta["kind"]]
         mask = _mask(arrays, meta) if "mask" in meta else CLEAR
         return Stored(unpack(space, arrays, meta, mask), meta)
-    except (KeyError, TypeError, IndexError, json.JSONDecodeError, RequestError) as error:
+    except (KeyError, TypeError, IndexError, ValueError, RequestError) as error:
         raise DatabaseError(
             "{name} lacks what a P2SF database holds, {reason}; build it again", name=str(name), reason=repr(error)
         ) from error

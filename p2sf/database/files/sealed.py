@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.errors import DatabaseError
-from p2sf.files.atomic import read_arrays
+from p2sf.files.reading import read_arrays, read_bytes
 from p2sf.files.writing import write_beside
 
 SEAL = b"p2sf sha256 "
@@ -63,7 +63,7 @@ def unseal(raw: bytes, mark: str, name: str | PathLike[str]) -> dict[str, np.nda
 
 def _bytes(path: str | PathLike[str]) -> bytes:
     try:
-        return Path(path).read_bytes()
+        return read_bytes(path)
     except OSError as error:
         raise DatabaseError(
             "{path} cannot be read, {reason}; check the name",

@@ -223,7 +223,7 @@ def read_glass(reading: CodeVReading, command: CodeVCommand, surface: RawSurface
     if word.upper() == "REFL":
         surface.glass = RawGlass(medium=MIRROR, line=command.line)
         return
-    pair = re.fullmatch(r"(\d\.\d+):(\d+\.?\d*)", word)
+    pair = re.fullmatch(r"(\d\.\d+):(\d+(?:\.\d*)?)", word)
     code = re.fullmatch(r"(\d{3,9})\.(\d{3,9})|(\d{3})(\d{3})", word)
     if pair:
         surface.glass = RawGlass(model=(float(pair[1]), float(pair[2])), line=command.line)
@@ -688,7 +688,7 @@ def _refuse_unless_zero(
     reading: CodeVReading, command: CodeVCommand, surface: RawSurface | None, reason: Message
 ) -> None:
     """Raise LensFileError for a tilt of an unread kind or a grating; one whose numbers are all zero does nothing."""
-    if command.words and all(re.fullmatch(r"[+-]?0*\.?0*([eE][+-]?\d+)?", word) and word for word in command.words):
+    if command.words and all(re.fullmatch(r"[+-]?0*(?:\.0*)?([eE][+-]?\d+)?", word) and word for word in command.words):
         return
     where = surface.name if surface and surface.number else Message("the lens")
     if reading.image is surface and surface is not None:

@@ -190,7 +190,7 @@ def _decimal(cell: str, key: str, separator: str) -> str:
 
 def _header(cells: list[str], line: int, reading: TableReading) -> list[str]:
     """Return the column names; LensFileError for an unknown name or a missing radius or thickness."""
-    plain = [re.sub(r"\s*[\[(].*", "", cell).strip().lower().replace(" ", "_").replace("-", "_") for cell in cells]
+    plain = [re.split(r"[\[(]", cell)[0].strip().lower().replace(" ", "_").replace("-", "_") for cell in cells]
     names = [re.sub(r"^a_?0?(\d)", r"a\1", NAMES.get(name, name)) for name in plain]
     known = (*COLUMNS, *HARMLESS, *(NORMALISED if reading.section in ASPHERES else ()), "")
     unknown = [name for name in names if name not in known and not re.fullmatch(r"a([1-9]|[1-3]\d)", name)]

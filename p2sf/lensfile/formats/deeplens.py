@@ -107,7 +107,7 @@ def _glass(part: JsonPart) -> RawGlass | None:
     name = part.text("mat2")
     if name.lower() in AIR:
         return None
-    pair = re.fullmatch(r"(\d+\.?\d*)\s*/\s*(\d+\.?\d*)", name)
+    pair = re.fullmatch(r"(\d+(?:\.\d*)?)\s*/\s*(\d+(?:\.\d*)?)", name)
     model = (float(pair[1]), float(pair[2])) if pair else PLASTICS.get(name.lower())
     if model:
         return RawGlass(model=model, line=part.line)

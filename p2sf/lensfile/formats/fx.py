@@ -43,7 +43,7 @@ class FxReading:
 
 def read_fx(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a renderer's .fx file, with its zooms; LensFileError with its line."""
-    if re.search(r"^\s*\[(elements|surfaces)\]", source.text, re.IGNORECASE | re.MULTILINE):
+    if re.search(r"^[^\S\n]*\[(elements|surfaces)\]", source.text, re.IGNORECASE | re.MULTILINE):
         return _sections(source, sources, notes)
     zooms = [_rows(source, sources, notes if zoom == 0 else Notebook(), zoom) for zoom in range(ZOOMS)]
     varied = any(zooms[0].surfaces != zoom.surfaces for zoom in zooms[1:])
@@ -138,7 +138,7 @@ def _asphere(reading: FxReading, code: str, line: int) -> None:
             'aspherical data of "{name}", which is not a row of the lens data', line, name=place[:20]
         )
     surface = reading.raw.surfaces[int(row)]
-    for name, value in re.findall(r"(\w+)\s*=\s*(\S+)", rest):
+    for name, value in re.findall(r"\b(\w+)\s*=\s*(\S+)", rest):
         term = number(value, name, reading.source, line)
         if name.lower() == "k":
             surface.conic = term
@@ -165,7 +165,7 @@ def _rows(source: LensText, sources: GlassSources, notes: Notebook, zoom: int) -
 
 def _row(text: str, line: int, count: int, zoom: int, reading: FxReading) -> RawSurface:
     code, _, asphere = text.partition("#")
-    words = re.sub(r"\s*/\s*", "/", code).split()
+    words = "/".join(part.strip() for part in code.split("/")).split()
     if len(words) < 4:
         raise reading.source.error("a row needs radius, thickness, material and housing radius; complete it", line)
 

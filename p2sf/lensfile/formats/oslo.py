@@ -184,7 +184,7 @@ def _system(reading: OsloReading, name: str, words: list[str]) -> None:
 
 def _state_focal_length(reading: OsloReading, words: list[str]) -> None:
     """Take the focal length of LEN NEW "title" focal-length surfaces, which OSLO writes before it reads the unit."""
-    numbers = [float(word) for word in words if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", word)]
+    numbers = [float(word) for word in words if re.fullmatch(r"[-+]?(\d+(?:\.\d*)?|\.\d+)([eE][-+]?\d+)?", word)]
     if len(numbers) > 1 and 0 < abs(numbers[0]) < FAR:
         reading.focal_length = numbers[0], reading.line
 

@@ -60,6 +60,7 @@ from typing import Any, cast
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
+from p2sf.files.reading import toml_table
 from p2sf.lens.lens import (
     D_NM,
     USUAL_AIM,
@@ -212,7 +213,7 @@ def _plain(top: Table) -> Lens:
 
 def _values(text: str, path: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
+        return toml_table(text)
     except tomllib.TOMLDecodeError as error:
         found = re.search(r" \(at line (\d+), column \d+\)", str(error))
         line = int(found[1]) if found else len(text.rstrip().splitlines()) or 1  # it ends too early
@@ -220,10 +221,8 @@ def _values(text: str, path: str) -> dict[str, Any]:
         raise LensFileError(
             "this is not TOML ({reason}); {remedy}", path, line, reason=problem, remedy=_remedy(text, line)
         ) from None
-    except (ValueError, RecursionError):
-        raise LensFileError(
-            "a number is too long or lists are nested too deep; this is not a lens file", path
-        ) from None
+    except ValueError as error:
+        raise LensFileError("{reason}; this is not a lens file", path, reason=str(error)) from None
 
 
 def _remedy(text: str, line: int) -> Message:

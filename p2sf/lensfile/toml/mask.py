@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.files.reading import check_samples, open_file, read_array, size_of
 from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.toml.table import Constraint, Table, shorten
 from p2sf.messages import Message
@@ -67,10 +68,11 @@ def _map_of_file(table: Table, key: str, scale: float) -> PupilMap:
 
 def _array_of(path: Path) -> np.ndarray:
     if path.suffix.lower() == ".npy":
-        return np.asarray(np.load(path, allow_pickle=False), dtype=float)
+        return np.asarray(read_array(path), dtype=float)
     from PIL import Image
 
-    with Image.open(path) as picture:
+    with open_file(path) as stream, Image.open(stream) as picture:
+        check_samples(picture.size, size_of(stream))
         grey = np.asarray(picture.convert("F") if picture.mode != "I;16" else picture, dtype=float)
         full = 65535.0 if picture.mode.startswith("I") else 255.0
     return grey[::-1] / full  # the picture's top row is +η

@@ -34,7 +34,7 @@ class Contrast:
 def contrast(live: Live) -> Contrast | MeasureRequest:
     """Return the MTF up to the cut-off, or the request for it where it is too slow for a frame."""
     request = measure_request(live)
-    return contrast_of(request) if mtf_is_live(request) else request
+    return contrast_of(request) if mtf_is_live(live, request) else request
 
 
 def contrast_of(request: MeasureRequest, stopped: Callable[[], bool] = never) -> Contrast:

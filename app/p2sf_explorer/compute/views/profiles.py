@@ -68,7 +68,7 @@ def profiles(live: Live) -> ProfileCurves:
         return replace(curves, method=LATER)
     request = measure_request(live)
     try:
-        return with_energy(curves, request) if energy_is_live(request) else replace(curves, pending=request)
+        return with_energy(curves, request) if energy_is_live(live, request) else replace(curves, pending=request)
     except P2SFError as error:  # the sections are there all the same
         return replace(curves, method=error.message)
 

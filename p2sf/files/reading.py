@@ -1,0 +1,170 @@
+"""Files of strangers: what one may cost is checked by its kind, its size and what it declares, before it is paid.
+
+Every reader opens its files here. What is refused is an OSError with its reason in words, as for a missing file, or a
+ValueError where the content is wrong.
+"""
+
+import errno
+import json
+import os
+import re
+import stat
+import tomllib
+import zipfile
+from logging import NullHandler
+from math import prod
+from os import PathLike
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from p2sf.files.atomic import DAMAGED
+
+LARGEST = 200_000_000  # bytes read or unpacked at once: any machine has room for them, and reads them in a second
+PER_BYTE = 20  # bytes or samples that one byte of a large file may unpack to: photos have 2, charts 10
+EVER = 10  # times as much is unpacked from no file, however large it is
+LONGEST_TEXT = 8_000_000  # letters of JSON; as Python's own objects they take up to thirty times the room
+MOST_MEMBERS = 2_000  # of an archive; a set of PSFs has a few arrays
+SAMPLES = LARGEST // 4  # in any picture, whose light is held in four bytes
+LONGEST_SIDE = 65_535  # pixels, as in JPEG
+NPY = b"\x93NUMPY\x01\x00"  # first of an array of numbers: the head of other versions may have any length
+MOST_DOTS = 500  # in a line, between parts of a key: a hundred times more than any file needs
+DOT = re.compile(r"(?<!\d)\.|\.(?!\d)|\.\d+\.")  # but not that of a number
+SILENT = NullHandler()  # tifffile logs every defect of a file; here it is one exception
+
+PathName = str | PathLike[str]
+
+
+class OversizedError(ValueError):
+    """A file that declares more than can be unpacked; it may be valid."""
+
+
+def open_file(path: PathName) -> BinaryIO:
+    """Open a file to be read; OSError as `open`, and for what has no end: a pipe, a device."""
+    mode = os.stat(path).st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):  # of a folder `open` says so itself
+        raise OSError(errno.EINVAL, "it is a pipe or a device and not a file", str(path))
+    return open(path, "rb")
+
+
+def read_bytes(path: PathName, most: int = LARGEST) -> bytes:
+    """Return all bytes of a file; OSError as `open_file`, and for more than ``most``."""
+    with open_file(path) as stream:
+        if size_of(stream) <= most:
+            return stream.read()
+    raise OSError(errno.EFBIG, f"it has more than {most / 1e6:g} million bytes", str(path))
+
+
+def read_text(path: PathName, most: int = LONGEST_TEXT) -> str:
+    """Return a file's text in UTF-8, with line feeds only; OSError as `read_bytes`, UnicodeDecodeError."""
+    return read_bytes(path, most).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def parse_json(text: str) -> Any:
+    """Return what a JSON text holds; ValueError where it is another text, too long, or nested too deep."""
+    if len(text) > LONGEST_TEXT:
+        raise OversizedError(f"{len(text):,} letters of JSON, at most {LONGEST_TEXT:,}")
+    try:
+        return json.loads(text)
+    except RecursionError as error:
+        raise ValueError("nested too deep") from error
+
+
+def toml_table(text: str) -> dict[str, Any]:
+    """Return the values of a TOML text; TOMLDecodeError, and ValueError for what no person writes.
+
+    The time that a key takes is quadratic in its parts, which dots separate.
+    """
+    line = next((n for n, row in enumerate(text.split("\n"), 1) if sum(1 for _ in DOT.finditer(row)) > MOST_DOTS), 0)
+    if line:
+        raise ValueError(f"line {line} has a key of more than {MOST_DOTS} parts")
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        raise
+    except RecursionError as error:
+        raise ValueError("lists or tables are nested too deep") from error
+    except ValueError as error:
+        raise ValueError("a number is too long") from error
+
+
+def size_of(stream: BinaryIO) -> int:
+    """Return the bytes of an open file or stream, whose place stays."""
+    place = stream.tell()
+    size = stream.seek(0, os.SEEK_END)
+    stream.seek(place)
+    return size
+
+
+def check_unpacked(declared: int, size: int) -> None:
+    """Raise OversizedError for more bytes to unpack than a file of ``size`` bytes can plausibly hold."""
+    most = _most(LARGEST, size)
+    if declared > most:
+        raise OversizedError(f"{declared / 1e6:.0f} MB in {size} bytes, at most {most / 1e6:.0f} MB")
+
+
+def check_samples(shape: tuple[int, ...], size: int) -> None:
+    """Raise OversizedError for more samples than ``size`` bytes can plausibly hold, ValueError for none."""
+    claim = " × ".join(map(str, shape))
+    most = _most(SAMPLES, size)
+    reason = f"{claim} samples in {size} bytes, at most {LONGEST_SIDE} on a side and {most:,} in all"
+    if not prod(shape):
+        raise ValueError(reason)
+    if max(shape) > LONGEST_SIDE or prod(shape) > most:
+        raise OversizedError(reason)
+
+
+def _most(usual: int, size: int) -> int:
+    return min(max(usual, PER_BYTE * size), EVER * usual)
+
+
+def zip_archive(stream: BinaryIO) -> zipfile.ZipFile:
+    """Return the zip archive in a stream; OversizedError for one with too many members, or too large in all."""
+    archive = zipfile.ZipFile(stream)
+    members = archive.infolist()
+    if len(members) > MOST_MEMBERS:
+        raise OversizedError(f"{len(members)} members, at most {MOST_MEMBERS}")
+    check_unpacked(sum(member.file_size for member in members), size_of(stream))
+    return archive
+
+
+def read_arrays(file: PathName | BinaryIO) -> dict[str, np.ndarray]:
+    """Return the arrays of an .npz file or stream; ValueError for a damaged or other file, OSError as `open_file`."""
+    try:
+        with open_file(file) if isinstance(file, str | PathLike) else file as stream:
+            zip_archive(stream)
+            stream.seek(0)
+            with np.load(stream, allow_pickle=False) as archive:
+                return dict(archive)
+    except DAMAGED as error:
+        raise ValueError(f"no archive of arrays: {error}") from error
+
+
+def read_array(path: PathName) -> np.ndarray:
+    """Return the array of an .npy file, which stays in it; ValueError for another file, OSError as `open_file`."""
+    with open_file(path) as stream:
+        if stream.read(len(NPY)) != NPY:
+            raise ValueError("no array of numbers")
+    found: np.ndarray = np.load(path, mmap_mode="r", allow_pickle=False)
+    check_unpacked(found.nbytes, found.nbytes)
+    return found
+
+
+def first_page(path: PathName) -> tuple[np.ndarray, str]:
+    """Return the samples of the first page of a TIFF and its description.
+
+    Raises ValueError for a file that is not a TIFF and for a page with more strips and tiles than the file has bytes;
+    OSError as `open_file`, and tifffile's own errors for a damaged file.
+    """
+    import tifffile
+
+    tifffile.logger().addHandler(SILENT)
+    try:
+        with open_file(path) as stream, tifffile.TiffFile(stream) as file:
+            page, size = file.pages.first, file.filehandle.size
+            check_samples(page.shape, size)
+            if prod(page.chunked) > size:
+                raise ValueError(f"{prod(page.chunked)} parts in {size} bytes")
+            return page.asarray(), page.description
+    except tifffile.TiffFileError as error:
+        raise ValueError(str(error)) from error
