@@ -7,6 +7,7 @@ quantity is converted to the unit that the name of its parameter ends in.
 """
 
 import os
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
@@ -133,6 +134,7 @@ def render(
     >>> p2sf.render(lens, p2sf.Source(field_deg=10), camera=p2sf.Camera(focus_mm=3000, f_number=5.6)).method
     'spherical'
     """
+    from p2sf.io.record import describe
     from p2sf.psf.methods import PsfOptions
     from p2sf.psf.pixel_integrals import render_integrated
     from p2sf.psf.result import warn_of_window
@@ -141,7 +143,8 @@ def render(
     with using_threads(threads):
         options = PsfOptions(quality, min_r2, clip)
         psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
-    return warn_of_window(psf.with_fields(azimuth_deg=source.azimuth_deg) if source.azimuth_deg else psf, 6)
+    made = {"azimuth_deg": source.azimuth_deg, "provenance": partial(describe, setup)}
+    return warn_of_window(psf.with_fields(**made), 6)
 
 
 @check_arguments

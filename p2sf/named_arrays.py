@@ -1,8 +1,9 @@
 """Arrays with names on their axes: what sweeps and databases answer, for numpy, pandas and xarray alike."""
 
+import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from math import prod
+from dataclasses import dataclass, field
+from math import inf, prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,8 +14,8 @@ from p2sf.errors import ExportError
 from p2sf.html import html_table
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
+    from pandas import DataFrame
 
 Dims = tuple[str, ...]
 NamedAxes = dict[str, tuple[Dims, np.ndarray]]
@@ -35,10 +36,13 @@ class NamedArrays(Mapping[str, np.ndarray]):
         By name the names of the axes and the array, ``(dims, values)``.
     coords : dict
         The same for what lies along the axes, and for what is one number for all of them.
+    provenance : dict
+        What they are of, as JSON has it: the lens with a hash, and of the setting what no axis changes.
     """
 
     arrays: NamedAxes
     coords: NamedAxes
+    provenance: Mapping[str, Any] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> np.ndarray:
         found = self.arrays.get(name) or self.coords.get(name)
@@ -64,28 +68,30 @@ class NamedArrays(Mapping[str, np.ndarray]):
         return {name: size for both in pairs for name, size in both}
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Return a dataset of xarray, with coordinates and units. Raises ExportError without xarray."""
+        """Return a dataset of xarray, with coordinates, units and `provenance`. Raises ExportError without xarray."""
         xarray_module = _import_module("xarray")
         coords, arrays = (
             {name: (dims, values, unit_of(name)) for name, (dims, values) in part.items()}
             for part in (self.coords, self.arrays)
         )
-        dataset: xarray.Dataset = xarray_module.Dataset(arrays, coords)
+        dataset: xarray.Dataset = xarray_module.Dataset(arrays, coords, attributes(self.provenance))
         return dataset
 
-    def to_dataframe(self) -> "pandas.DataFrame":
+    def to_dataframe(self) -> "DataFrame":
         """Return a table of pandas: one row for each place on all axes, an array a column. ExportError without pandas.
 
-        What has fewer axes stands in every row; a place without a coordinate is its number.
+        What has fewer axes stands in every row; a place without a coordinate is its number. ``attrs`` of the table are
+        those of `to_xarray`.
         """
         pandas = _import_module("pandas")
         sizes = {name: self.sizes[name] for dims, _ in self.arrays.values() for name in dims}
         places = [self.coords[name][1] if name in self.coords else np.arange(size) for name, size in sizes.items()]
         beside = {name: part for name, part in self.coords.items() if name not in sizes}
         columns = {name: _spread(dims, values, sizes) for name, (dims, values) in (beside | self.arrays).items()}
-        if not sizes:
-            return pandas.DataFrame(columns)
-        return pandas.DataFrame(columns, pandas.MultiIndex.from_product(places, names=list(sizes)))
+        index = pandas.MultiIndex.from_product(places, names=list(sizes)) if sizes else None
+        table: DataFrame = pandas.DataFrame(columns, index)
+        table.attrs |= attributes(self.provenance)
+        return table
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{name}: {size}" for name, size in self.sizes.items()) or "one point"
@@ -113,6 +119,24 @@ def _spread(dims: Dims, values: np.ndarray, sizes: Mapping[str, int]) -> np.ndar
     order = [dims.index(name) for name in sizes if name in dims]
     found: np.ndarray = np.broadcast_to(values.transpose(order).reshape(shape), tuple(sizes.values()))
     return found.reshape(prod(sizes.values()))
+
+
+def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a record as one level of texts and numbers, which any format of xarray can store.
+
+    A name within a part stands behind that of the part, as ``versions_p2sf``, but for those of ``setup`` and ``psf``;
+    ``lens`` is the name of the lens. A length that is null is inf, anything else that is null is left out.
+    """
+    found: dict[str, Any] = {}
+    for name, value in record.items():
+        if isinstance(value, Mapping):
+            before = "" if name in ("setup", "psf") else f"{name}_"
+            found |= {before + key if key != "name" else name: each for key, each in attributes(value).items()}
+        elif isinstance(value, list):
+            found[name] = json.dumps(value, ensure_ascii=False)
+        elif value is not None or name.endswith("_mm"):
+            found[name] = inf if value is None else int(value) if isinstance(value, bool) else value
+    return {name.replace(" ", "_"): value for name, value in found.items()}
 
 
 def unit_of(name: str) -> dict[str, str]:

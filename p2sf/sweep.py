@@ -129,6 +129,13 @@ class Sweep:
             found.append(_point(self.camera, fixed | moving))
         return tuple(found)
 
+    @cached_property
+    def provenance(self) -> dict[str, Any]:
+        """Return what all points are of, as `Psf.provenance` has it; what differs lies along the axes."""
+        from p2sf.io.record import common, describe
+
+        return common([describe(one.setup) for one in self.points])
+
     def psfs(
         self,
         method: "Method" = "auto",
@@ -138,7 +145,9 @@ class Sweep:
         integrated: bool | None = None,
         **how: Any,
     ) -> NamedArrays:
-        """Return the PSFs, ``psf`` (…, y_um, x_um), each of unit sum, and ``energy``, the share of all light in each.
+        """Return the PSFs, ``psf`` (…, y_um, x_um), each of unit sum, and what each says about itself.
+
+        That is ``energy``, the share of all light in it, and its ``method`` with the ``predicted_error``, 1 − R².
 
         Parameters are those of `p2sf.render`, ``how`` being ``quality``, ``min_r2`` and ``clip``, whose errors it
         raises. All have the pixels of the camera; without, those with which the widest of them is shown whole. A
@@ -149,8 +158,9 @@ class Sweep:
         found = self._over(partial(_psf_of, **asked))
         _warn(found)
         axis = centred_axis(pixels, pitch)
-        made = self._name_axes(found, {"psf": along("y_um", axis) | along("x_um", axis), "energy": NOTHING})
-        return NamedArrays(made.arrays, made.coords | along("pixel_um", np.array(pitch)))
+        behind = {"psf": along("y_um", axis) | along("x_um", axis)}
+        made = self._name_axes(found, behind | dict.fromkeys(("energy", "method", "predicted_error"), NOTHING))
+        return replace(made, coords=made.coords | along("pixel_um", np.array(pitch)))
 
     def to_xarray(self, method: "Method" = "auto", **how: Any) -> "xarray.Dataset":
         """Return the PSFs of `psfs`, whose parameters these are, as a dataset of xarray; ExportError without it."""
@@ -227,7 +237,7 @@ class Sweep:
         own = dict.fromkeys(("waves", "rms_waves", "share"), behind)
         made = self._name_axes(found, own | dict.fromkeys(("rms", "marechal", "residual"), NOTHING))
         names = {"name": (("term",), np.array([term.name for term in known]))}
-        return NamedArrays(made.arrays, made.coords | names)
+        return replace(made, coords=made.coords | names)
 
     def choose_method(self, min_r2: float = 0.99, *, clip: bool = False) -> NamedArrays:
         """Return what `p2sf.choose_method` does: ``method``, its ``predicted_error`` (1 − R²) and its ``numbers``."""
@@ -276,7 +286,7 @@ class Sweep:
             dims = (*self.sizes, *(own_name for own_dims, _ in behind.values() for own_name in own_dims))
             shape = self.shape + tuple(n for _, values in behind.values() for n in values.shape)
             arrays[name] = dims, np.array([one[name] for one in found]).reshape(shape)
-        return NamedArrays(arrays, coords)
+        return NamedArrays(arrays, coords, self.provenance)
 
 
 @dataclass(frozen=True, eq=False)
@@ -356,7 +366,8 @@ def _psf_of(point: SweepPoint, **how: Any) -> Figures:
 
     with peaks_on_demand():
         psf = _psf(point, **how)
-    return {"psf": psf.values, "energy": _or_nan(psf.energy), "caution": psf.caution}
+    about = {"method": psf.method, "predicted_error": _or_nan(psf.predicted_error)}
+    return {"psf": psf.values, "energy": _or_nan(psf.energy), **about, "caution": psf.caution}
 
 
 def _strehl_of(point: SweepPoint, **how: Any) -> Figures:

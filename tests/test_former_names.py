@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import p2sf
-from p2sf.io.record import facts, psf_from
+from p2sf.io.record import psf_from
+from p2sf.psf.result import facts
 
 
 @pytest.mark.parametrize(

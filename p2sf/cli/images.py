@@ -1,6 +1,7 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -17,14 +18,14 @@ from p2sf.database.accuracy import DatabaseAccuracy
 from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
-from p2sf.io.record import describe, facts
+from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.methods import AUTO, PsfOptions, by_six
 from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS
-from p2sf.psf.result import IN_WINDOW, Psf
+from p2sf.psf.result import IN_WINDOW, Psf, facts
 from p2sf.threads import using_threads
 
 
@@ -188,18 +189,17 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
                 path=lens,
             )
         found = looked_up(lens, request, picture.side, picture.pixel_um)
-        result, about, title, accuracy = found.psf, found.about, found.title, found.accuracy
+        result, aim, title, accuracy = found.psf, found.aim, found.title, found.accuracy
         energy = None
-        aim = about["setup"]["aim"]
     else:
         setup = set_up(find_lens(lens), request)
         if not as_json:
             caution(setup, picture.seidel and picture.sampling != "fft")
-        result, about, title = render(setup, picture), describe(setup) if output else {}, heading(setup)
+        result, title = render(setup, picture).with_fields(provenance=partial(describe, setup)), heading(setup)
         accuracy = None
         aim, energy = setup.lens.aim, energy_of(setup, result.method, picture.clip)
     if output:
-        write_psf(result, output, about)
+        write_psf(result, output)
     if as_json:
         file = None if output is None else str(output)
         whole = {"database_predicted_error": plain(accuracy.record)} if accuracy else {}

@@ -3,17 +3,16 @@
 from dataclasses import dataclass
 from math import isinf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from p2sf.camera import Request, explicit_values
 from p2sf.cli.screen import Row, field_text
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
+from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.database import ExactDatabase
 from p2sf.database.accuracy import DatabaseAccuracy
 from p2sf.database.files import Stored
 from p2sf.database.render import pixels_psf
 from p2sf.errors import RequestError
-from p2sf.files.writing import plain
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.prediction import TOO_FAR, USELESS
@@ -36,10 +35,10 @@ def is_database(name: str) -> bool:
 
 @dataclass(frozen=True)
 class LookedUp:
-    """A PSF from a database, what a file says about it, a heading, and what is predicted of the whole database."""
+    """A PSF from a database, a heading, what rays fill, and what is predicted of the whole database."""
 
     psf: Psf
-    about: dict[str, Any]
+    aim: str
     title: str
     accuracy: DatabaseAccuracy
 
@@ -59,10 +58,10 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
                 parameter=parameter,
                 path=name,
             )
-    database = with_sensor_shift(stored.database, request.sensor_shift_um)
-    source = source_of(database, request)
-    psf = pixels_psf(database, source, pixels, pixel_um)
-    return LookedUp(psf, description(stored, source), _heading(stored, source), stored.accuracy)
+    moved = with_sensor_shift(stored, request.sensor_shift_um)
+    source = source_of(moved.database, request)
+    psf = pixels_psf(moved.database, source, pixels, pixel_um).with_fields(provenance=moved.describe(source))
+    return LookedUp(psf, stored.meta["aim"], _heading(stored, source), stored.accuracy)
 
 
 def accuracy_rows(known: DatabaseAccuracy, of: str = "") -> list[Row]:
@@ -79,17 +78,20 @@ def accuracy_rows(known: DatabaseAccuracy, of: str = "") -> list[Row]:
     return [(f"predicted 1 − R²{of}, median", *median), (f"predicted 1 − R²{of}, worst", *worst)]
 
 
-def with_sensor_shift(database: "Database", shift_um: float) -> "Database":
+def with_sensor_shift(stored: Stored, shift_um: float) -> Stored:
     """Return the database with its sensor moved; RequestError where the interpolant fixes the sensor."""
+    database = stored.database
     if not shift_um:
-        return database
+        return stored
     if not isinstance(database, ExactDatabase):
         raise RequestError(
             "{parameter} needs a seidel database of the exact interpolant, and this one is {kind}; leave it out",
             parameter="sensor_shift_um",
             kind="fitted" if database.interpolant == "exact" else database.interpolant,
         )
-    return database.with_sensor(database.sensor_mm + shift_um / UM_PER_MM)
+    moved = database.with_sensor(database.sensor_mm + shift_um / UM_PER_MM)
+    meta = {name: value for name, value in stored.meta.items() if name != "focus_mm"}  # which moves with the sensor
+    return Stored(moved, meta | {"sensor_mm": moved.sensor_mm})
 
 
 def source_of(database: "Database", request: Request) -> Source:
@@ -116,25 +118,6 @@ def _slope_of_height(database: "Database", depth_mm: float, height_mm: float, co
             value=height_mm,
         )
     return height_mm / height * widest
-
-
-def description(stored: Stored, source: Source) -> dict[str, Any]:
-    """Return what a PSF file says about where its numbers come from, as `io.record.describe` does for a lens."""
-    meta = stored.meta
-    setup = {
-        "depth_mm": source.depth_mm,
-        "field_deg": float(degrees_from_slope(source.field_slope)),
-        **({"azimuth_deg": source.azimuth_deg} if source.azimuth_deg else {}),
-        "wavelength_nm": source.wavelength_um * NM_PER_UM,
-        "sensor_mm": meta["sensor_mm"],
-        "aim": meta["aim"],
-        **({"position": meta["position"]} if meta.get("position") else {}),
-    }
-    lens = {key: value for key, value in meta["lens"].items() if key != "toml"}
-    kept = {key: meta[key] for key in ("method", "interpolant", "errors_waves")}
-    versions = {k: meta[k] for k in ("units", "conventions", "versions")}
-    found: dict[str, Any] = plain({"lens": lens, "setup": setup, "database": kept, **versions})
-    return found
 
 
 def _heading(stored: Stored, source: Source) -> str:

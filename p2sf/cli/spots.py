@@ -1,5 +1,6 @@
 """`p2sf spot`: where exact rays meet the sensor."""
 
+import json
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,7 +12,7 @@ from p2sf.camera import Setup, set_up
 from p2sf.cli.cautions import crossed_surfaces
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
-from p2sf.files.writing import write_beside, write_json
+from p2sf.files.writing import plain, write_beside, write_json
 from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.perfect import airy_radius_um
@@ -95,7 +96,8 @@ def _write_png(points: np.ndarray, record: dict[str, Any], output: Path) -> None
 
     figures, setup = record["spot"], record["setup"]
     title = f"{record['lens']['title']}\nfield {setup['field_deg']:g}°, RMS radius {figures['rms_um']:.3g} µm"
-    write_beside(output, lambda handle: draw_spot(handle, points, figures["airy_radius_um"], title))
+    about = {"Description": json.dumps(plain(record))}
+    write_beside(output, lambda handle: draw_spot(handle, points, figures["airy_radius_um"], title, about))
 
 
 WRITERS = {".csv": _write_csv, ".json": _write_json, ".png": _write_png}

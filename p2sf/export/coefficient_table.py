@@ -32,9 +32,7 @@ COLUMNS = (
 def write_csv(stored: Stored, path: str | os.PathLike[str]) -> Path:
     """Write the coefficients at every node, one row each, in waves where a column names no unit; ExportError."""
     check_line(stored)
-    known = {key: value for key, value in stored.meta.items() if key not in ("lens", "numbers")}
-    known["predicted_error"] = plain(stored.accuracy.record)
-    known["lens"] = {key: value for key, value in stored.meta["lens"].items() if key != "toml"}
+    known = stored.record | {"predicted_error": plain(stored.accuracy.record)}
     text = io.StringIO()
     text.write("# six coefficients in waves; an infinite depth or image distance is inf\n")
     text.write(f"# meta: {json.dumps(known, ensure_ascii=False)}\n")

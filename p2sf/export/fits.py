@@ -1,6 +1,7 @@
 """PSFs as FITS, with the keywords of poppy (its documentation, "FITS Header Keywords Definitions")."""
 
 import io
+import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from math import isfinite
@@ -13,6 +14,7 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.errors import ExportError
 from p2sf.export.psf_cube import Cube, PsfArray
 from p2sf.files.writing import write_beside
+from p2sf.io.fits_psf import META
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.version import program_version
@@ -77,6 +79,7 @@ def keywords(cube: Cube) -> list[tuple[str, object, str]]:
         ("METHOD", cube.stored.database.method, "method of computing the PSF"),
         *((name, value, f"predicted 1 - R2, {text}") for name, value, text in _accuracy(cube) if isfinite(value)),
         ("LENSHASH", cube.stored.meta["lens"]["sha256_of_toml"], ""),  # SHA-256 fills the card
+        (META, json.dumps(cube.record), "facts as JSON"),
         ("CREATOR", f"p2sf {program_version()}", "software"),
     ]
 

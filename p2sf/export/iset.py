@@ -6,6 +6,7 @@ an even N; ``geometry.function`` real and ``fieldHeight`` ideal image heights; `
 half the diagonal field. W11 is not in the PSF: the geometry carries the distortion.
 """
 
+import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,6 +83,7 @@ def ray_trace(stored: Stored, options: IsetOptions = DEFAULT) -> dict:
         "name": lens.title or lens.name,
         "program": f"p2sf {program_version()}",
         "lensFile": lens.name,
+        "provenance": json.dumps(stored.record),
         "aim": lens.aim,
         "objectDistance": depth,
         "maxfov": float(degrees_from_slope(slopes[-1])),

@@ -2,7 +2,7 @@
 
 import os
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from p2sf.database.files.place import is_stack
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
 from p2sf.errors import DatabaseError
+from p2sf.files.writing import plain
+from p2sf.psf.record import CONVENTIONS, UNITS
 
 MOST_BYTES = 1 << 31
 DEFAULT = Sampling()
@@ -67,6 +69,12 @@ class Cube:
     def wavelengths_nm(self) -> np.ndarray:
         """Return the wavelength along the third axis, nm."""
         return self.stored.wavelengths_nm
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """Return what files of other programs state beside the PSFs, as JSON has it."""
+        own = {"predicted_error": plain(self.stored.accuracy.record), "integrated": self.integrated}
+        return self.stored.record | own | {"units": UNITS, "conventions": CONVENTIONS}
 
 
 @check_arguments

@@ -16,7 +16,7 @@ from p2sf.export.fits import METRES_PER_UM, axis_keywords, write_image
 from p2sf.export.psf_set import PsfSet
 from p2sf.export.tiff import write_pages
 from p2sf.files.writing import plain, write_beside
-from p2sf.io.record import CONVENTIONS
+from p2sf.psf.record import CONVENTIONS
 from p2sf.version import program_version
 
 PathLike = str | os.PathLike[str]

@@ -6,8 +6,8 @@ from itertools import product
 from pathlib import Path
 
 from p2sf.export.psf_cube import Cube, PsfArray
-from p2sf.files.writing import plain, write_beside
-from p2sf.io.record import CONVENTIONS
+from p2sf.files.writing import write_beside
+from p2sf.psf.record import CONVENTIONS
 from p2sf.version import program_version
 
 # Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.
@@ -16,9 +16,7 @@ ORIENTATION = (274, "H", 1, 4, True)
 
 def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
-    about = {"method": cube.stored.meta["method"], "aim": cube.stored.meta["aim"], "integrated": cube.integrated}
-    about["predicted_error"] = plain(cube.stored.accuracy.record)
-    return write_pages(cube, path, {**about, "lens": cube.stored.meta["lens"]["name"]})
+    return write_pages(cube, path, cube.record)
 
 
 def write_pages(cube: PsfArray, path: str | os.PathLike[str], about: dict[str, object]) -> Path:

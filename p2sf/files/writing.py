@@ -3,7 +3,7 @@
 import errno
 import json
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from math import isfinite
 from os import PathLike
 from pathlib import Path
@@ -89,7 +89,7 @@ def _unwritable(path: str | PathLike, error: OSError) -> ExportError:
 
 def plain(value: object) -> Any:
     """Return a value as JSON types: numbers, strings, lists and dicts; a float that is not finite becomes None."""
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):
         return plain(value.tolist())

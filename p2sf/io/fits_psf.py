@@ -13,8 +13,8 @@ import numpy as np
 
 from p2sf.errors import ExportError
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, open_file, parse_json, size_of
-from p2sf.files.writing import plain, write_beside
-from p2sf.io.record import facts, psf_from
+from p2sf.files.writing import write_beside
+from p2sf.io.record import psf_of_file, with_facts
 from p2sf.psf.result import Psf
 from p2sf.version import program_version
 
@@ -26,7 +26,7 @@ MOST_UNITS = 64  # looked through for a picture
 def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
     """Write one PSF, shape (y, x), as a FITS image of doubles; return the path. Raises ExportError.
 
-    ``meta`` (see `p2sf.io.record.describe`) goes into the header as JSON, over CONTINUE cards (FITS 4.0, 4.2.1.2).
+    `Psf.record` and ``meta`` go into the header as JSON, over CONTINUE cards (FITS 4.0, 4.2.1.2).
     """
     fits = _astropy()
     image = fits.PrimaryHDU(np.asarray(psf.values, dtype=float))
@@ -39,7 +39,7 @@ def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
     image.header["BUNIT"] = ("fraction", "of the light in the window, per pixel")
     image.header["METHOD"] = (psf.method, "method of computing the PSF")
     image.header["CREATOR"] = f"p2sf {program_version()}"
-    image.header[META] = json.dumps({**plain(meta), "psf": facts(psf)})
+    image.header[META] = json.dumps(with_facts(psf, meta))
     content = io.BytesIO()  # astropy refuses a handle that was opened to create a file
     fits.HDUList([image]).writeto(content)
     return write_beside(path, lambda handle: handle.write(content.getbuffer()))
@@ -50,7 +50,7 @@ def read_psf_fits(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
     try:
         values, header = first_picture(path)
         meta = parse_json(header[META])
-        return psf_from(values.astype(float), meta["psf"]), meta
+        return psf_of_file(values.astype(float), meta), meta
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ExportError(
             "{path} is not a PSF that this program wrote as FITS; save the snapshot again", path=str(path)

@@ -10,8 +10,9 @@ import numpy as np
 from p2sf.errors import ExportError
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
-from p2sf.files.writing import plain, write_beside
-from p2sf.io.record import CONVENTIONS, caption, facts, psf_from
+from p2sf.files.writing import write_beside
+from p2sf.io.record import caption, psf_of_file, with_facts
+from p2sf.psf.record import CONVENTIONS
 from p2sf.psf.result import Psf
 from p2sf.version import program_version
 
@@ -23,8 +24,8 @@ ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the pictu
 def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict | None = None) -> Path:
     """Write one PSF, shape (y, x), as .npz, .tiff, .csv or .png by the ending of ``path``; return the path.
 
-    ``meta``, any facts as JSON has them, is stored with it, the PSF's own facts under "psf". Raises ExportError
-    for an unknown ending, a stack of PSFs, or a file that cannot be written; an old file then stays untouched.
+    `Psf.record` is stored with it, and ``meta``, any facts as JSON has them. Raises ExportError for an unknown ending,
+    a stack of PSFs, or a file that cannot be written; an old file then stays untouched.
     """
     write = WRITERS.get(Path(path).suffix.lower())
     if write is None:
@@ -40,7 +41,7 @@ def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict | None = None) 
             path=str(path),
             shape=psf.values.shape,
         )
-    record = {**plain(meta or {}), "psf": facts(psf)}
+    record = with_facts(psf, meta or {})
     return write_beside(path, lambda handle: write(handle, psf, record))
 
 
@@ -59,7 +60,7 @@ def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
         )
     try:
         values, meta = read(path)
-        return psf_from(values, meta["psf"]), meta
+        return psf_of_file(values, meta), meta
     except OSError as error:
         raise ExportError(
             "{path} cannot be read, {reason}; check the name",

@@ -105,8 +105,13 @@ def _draw_scale_bar(axes: "Axes", psf: Psf | ColourPsf) -> None:
     axes.text(x + length / 2, y + 0.025 * height, f"{length:g} µm", color="white", ha="center", va="bottom", **edge)
 
 
-def draw_spot(handle: BinaryIO, points_um: np.ndarray, airy_radius_um: float, title: str = "") -> None:
-    """Write a spot diagram as a PNG: rays (rays, 2) in µm from the chief ray, and the Airy circle around it."""
+def draw_spot(
+    handle: BinaryIO, points_um: np.ndarray, airy_radius_um: float, title: str = "", metadata: dict | None = None
+) -> None:
+    """Write a spot diagram as a PNG: rays (rays, 2) in µm from the chief ray, and the Airy circle around it.
+
+    ``metadata`` becomes the PNG's text entries.
+    """
     from matplotlib.figure import Figure
     from matplotlib.patches import Circle
 
@@ -118,4 +123,4 @@ def draw_spot(handle: BinaryIO, points_um: np.ndarray, airy_radius_um: float, ti
     axes.set_title(title, fontsize=9, loc="left")
     axes.legend(fontsize=8, loc="upper right")
     axes.grid(alpha=0.3)
-    _write_png(figure, handle)
+    _write_png(figure, handle, metadata)

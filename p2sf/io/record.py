@@ -1,27 +1,30 @@
 """The facts that a file carries beside its numbers: lens, setup, units, versions, and those of a PSF."""
 
 import hashlib
-import platform
+from collections.abc import Mapping
 from dataclasses import fields
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from p2sf.camera import Setup
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import NM_PER_UM, depth_of
 from p2sf.files.writing import plain
-from p2sf.glass.pages import data_version
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
+from p2sf.paraxial.positions import focused_vergence
+from p2sf.paraxial.pupils import Stop, f_number
+from p2sf.psf.record import true_of_all
 from p2sf.psf.result import Psf
-from p2sf.version import program_version
+from p2sf.pupil.mask import CLEAR, PupilMask
 
-CONVENTIONS = (
-    "unit sum in the window; rows +y up the sensor, row 0 the lowest y, columns +x; a positive field's chief ray "
-    "lands at +y; sample N//2 (from 0) is the chief ray; infinite values are null"
-)
 FORMER = {"tolerance": "error"}
 """Fields of files before 0.3 by their names today."""
-UNITS = {"x_um": "µm", "y_um": "µm", "psf": "fraction of the window's light per sample"}
+FIELDS = frozenset(each.name for each in fields(Psf))
+MAPS = ("phase_map", "amplitude_map")
+OF_THE_FILE = ("psf", "state")
+"""What a file of a PSF states besides its provenance: what the PSF says about itself, and the window's state."""
 
 
 def describe(setup: Setup) -> dict:
@@ -40,21 +43,40 @@ def describe(setup: Setup) -> dict:
                 "field_deg": setup.field_deg,
                 **({"azimuth_deg": source.azimuth_deg} if source.azimuth_deg else {}),
                 "wavelength_nm": source.wavelength_um * NM_PER_UM,
-                "sensor_mm": setup.lens.sensor_mm,
+                **setting(setup.lens, setup.stop),
                 "stop_surface": setup.stop.surface,
                 "stop_semi_diameter_mm": setup.stop.semi_diameter,
                 "stop_chosen_by": setup.stop.chosen_by,
-                "aim": setup.lens.aim,
-                **position_of(setup.lens),
             },
-            "units": UNITS,
-            "conventions": CONVENTIONS,
-            "versions": versions(),
+            **true_of_all(),
         }
     )
     return known
 
 
+def setting(lens: Lens, stop: Stop) -> dict:
+    """Return how a lens is set: sensor, object distance in focus (negative beyond infinity), f-number, rings, mask."""
+    return {
+        "sensor_mm": lens.sensor_mm,
+        "focus_mm": depth_of(focused_vergence(lens)),
+        "f_number": f_number(lens, lens.reference_wavelength_um, stop),
+        "aim": lens.aim,
+        **({"absorption": True} if lens.absorption else {}),
+        **({"position": str(lens.positions.words)} if lens.positions else {}),
+        **mask_numbers(lens.mask),
+    }
+
+
+def mask_numbers(mask: PupilMask) -> dict:
+    """Return what a mask is other than a clear stop, a map by its size; nothing of one that is clear."""
+    if mask.clear:
+        return {}
+    stated = {each.name: getattr(mask, each.name) for each in fields(mask)}
+    other = {name: value for name, value in stated.items() if value != getattr(CLEAR, name)}
+    return {"mask": {name: repr(value) if name in MAPS else value for name, value in other.items()}}
+
+
+@lru_cache(maxsize=64)
 def lens_hash(lens: Lens) -> str:
     """Return the SHA-256 of the lens written as TOML: two equal prescriptions have one hash."""
     from p2sf.lensfile.toml.lens import lens_to_toml
@@ -62,26 +84,29 @@ def lens_hash(lens: Lens) -> str:
     return hashlib.sha256(lens_to_toml(lens).encode()).hexdigest()
 
 
-def position_of(lens: Lens) -> dict[str, str]:
-    """Return where the rings of a lens stand that zooms or focuses inside; nothing for another."""
-    return {"position": str(lens.positions.words)} if lens.positions else {}
+def common(records: list[dict]) -> dict:
+    """Return what all records state alike."""
+    first, *others = records
+    found = {}
+    for name, value in first.items():
+        same = [other.get(name) for other in others]
+        if isinstance(value, dict):
+            found[name] = common([value, *(each or {} for each in same)])
+        elif all(each == value for each in same):
+            found[name] = value
+    return found
 
 
-def versions() -> dict[str, str]:
-    """Return the versions that a result depends on."""
-    return {
-        "p2sf": program_version(),
-        "python": platform.python_version(),
-        "numpy": np.__version__,
-        "glass data": data_version(),
-    }
+def with_facts(psf: Psf, meta: Mapping[str, Any]) -> dict:
+    """Return what the file of a PSF states: `Psf.record`, and ``meta`` beside it or in its place."""
+    record = psf.record
+    return {**record, **plain(meta), "psf": record["psf"]}
 
 
-def facts(psf: Psf) -> dict:
-    """Return what a PSF says about itself but its samples, as JSON can carry it; its azimuth where it has one."""
-    left_out = {"values"} if psf.azimuth_deg else {"values", "azimuth_deg"}
-    known = {f.name: getattr(psf, f.name) for f in fields(psf) if f.name not in left_out}
-    return {name: plain(value) for name, value in (known | {"sampling": str(psf.sampling)}).items()}
+def psf_of_file(values: np.ndarray, meta: dict) -> Psf:
+    """Return the PSF of a file's samples and record; KeyError or TypeError where that is not of a PSF."""
+    provenance = {name: value for name, value in meta.items() if name not in OF_THE_FILE}
+    return psf_from(values, meta["psf"]).with_fields(provenance=provenance)
 
 
 def psf_from(values: np.ndarray, known: dict) -> Psf:
@@ -89,7 +114,7 @@ def psf_from(values: np.ndarray, known: dict) -> Psf:
     peak = known.get("peak_um")
     read = {"sampling": Message(str(known.get("sampling", ""))), "peak_um": peak and tuple(peak)}
     known = {FORMER.get(name, name): value for name, value in known.items()}
-    return Psf(values, **{**known, **read})
+    return Psf(values, **{name: value for name, value in (known | read).items() if name in FIELDS})
 
 
 def caption(meta: dict) -> str:

@@ -40,6 +40,7 @@ from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, windo
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 from p2sf.parameters import check_finite
+from p2sf.psf.record import versions
 from p2sf.threads import for_each
 
 FEWEST = 5  # points of a frame whose field is fitted too
@@ -408,7 +409,7 @@ def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
         meta["unknowns"] = {name: model.unit(name) for name in model.unknowns}
         meta["height_mm"] = model.height_mm
         meta["lens"] = model.lens.name if model.lens is not None else None
-    arrays["meta"] = np.array(json.dumps(meta))
+    arrays["meta"] = np.array(json.dumps(meta | {"versions": versions()}))
     return write_beside(path, lambda handle: np.savez_compressed(handle, **arrays))  # type: ignore[arg-type]  # allow_pickle is none of them
 
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_arguments, real_array
 from p2sf.conventions import NM_PER_UM, centred_axis
 from p2sf.errors import SamplingError
+from p2sf.files.writing import plain
 from p2sf.messages import Message
 from p2sf.parameters import check_positive
 from p2sf.psf import pixel_integrals
@@ -91,7 +92,9 @@ def psf_of_opd(
     # By Parseval, in units of the unaberrated peak; a cell cut by the rim transmits its share inside.
     power = clear.sum() if amplitude is None else (clear**2).sum()
     pupil = _Pupil(opd, clear, power / clear.sum() ** 2, na, wavelength_nm / NM_PER_UM)
-    return warn_of_window(pixel_integrals.integrate(pupil.psf, pixels, pitch, critical_um, integrated), 5)
+    psf = pixel_integrals.integrate(pupil.psf, pixels, pitch, critical_um, integrated)
+    given = {"cells": len(opd), "na": na, "wavelength_nm": wavelength_nm}
+    return warn_of_window(psf.with_fields(provenance={"wavefront": plain(given)}), 5)
 
 
 @dataclass(frozen=True)

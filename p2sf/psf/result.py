@@ -1,7 +1,7 @@
 """The point spread function as a result: samples, scale, and how they were computed."""
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from os import PathLike
 from pathlib import Path
@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.conventions import NM_PER_UM, centred_axis
 from p2sf.errors import P2SFWarning
+from p2sf.files.writing import plain
 from p2sf.messages import Message, ParameterName
+from p2sf.psf.record import true_of_all
 
 if TYPE_CHECKING:
     import xarray
@@ -60,8 +62,8 @@ class OnDemand(Generic[Value]):
 class Psf:
     """A point spread function, or a stack of them, and how it was computed.
 
-    A notebook shows it as a picture. ``strehl``, ``energy``, ``peak_um``, ``fresnel_number`` and ``plane_wave_error``
-    may be given as functions without arguments, which are called when the values are first read.
+    A notebook shows it as a picture. ``strehl``, ``energy``, ``peak_um``, ``fresnel_number``, ``plane_wave_error`` and
+    ``provenance`` may be given as functions without arguments, which are called when the values are first read.
 
     Attributes
     ----------
@@ -106,6 +108,8 @@ class Psf:
     plane_wave_error : float or None
         Predicted 1 − R² of plane waves, which every method but `spherical` sums, against spherical ones; None if not
         known. It is not part of ``predicted_error``.
+    provenance : dict or None
+        What it is of, as JSON has it: the lens with a hash, depth, field, wavelength, sensor, focus, f-number and mask.
     """
 
     values: np.ndarray
@@ -126,6 +130,7 @@ class Psf:
     sum_over_peak: float | np.ndarray | None = None
     fresnel_number: OnDemand[Figure] = OnDemand()
     plane_wave_error: OnDemand[Figure] = OnDemand()
+    provenance: OnDemand[Mapping[str, Any] | None] = OnDemand()
 
     def with_fields(self, **values: Any) -> "Psf":
         """Return the same PSF with these fields replaced; unlike `replace` it does not evaluate deferred figures."""
@@ -153,6 +158,13 @@ class Psf:
             return None
         samples: np.ndarray = self.values * scale
         return samples
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """Return what a file states beside the samples: `provenance`, how they were computed, units and versions."""
+        known = plain(self.provenance or {})
+        beside = {name: value for name, value in true_of_all().items() if name not in known}
+        return {**known, **beside, "psf": facts(self)}
 
     @property
     def caution(self) -> Message | None:
@@ -230,18 +242,21 @@ class Psf:
         return axes
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Return ``psf`` over ``y_um`` and ``x_um``, with wavelength and pixel, as a dataset of xarray.
+        """Return ``psf`` over ``y_um`` and ``x_um``, and ``energy``, with wavelength and pixel, as a dataset of xarray.
 
-        The axes of a stack before these are ``axis_0``, ``axis_1`` and so on. ExportError without xarray.
+        Its attributes are those of `record`. The axes of a stack before these two are ``axis_0``, ``axis_1`` and so on.
+        ExportError without xarray.
         """
         from p2sf.named_arrays import NamedArrays, along
 
         before = tuple(f"axis_{k}" for k in range(self.values.ndim - 2))
         wavelength = np.asarray(self.wavelength_um, dtype=float) * NM_PER_UM
         own = {"wavelength_nm": (before[len(before) - wavelength.ndim :], wavelength)}
+        energy = np.asarray(np.nan if self.energy is None else self.energy, dtype=float)
         places = along("y_um", self.y_um) | along("x_um", self.x_um) | along("pixel_um", np.asarray(self.pixel_um))
-        arrays = {"psf": ((*before, "y_um", "x_um"), self.values)}
-        return NamedArrays(arrays, places | own).to_xarray().assign_attrs(method=self.method)
+        light = {"energy": (before[len(before) - energy.ndim :], energy)}
+        arrays = {"psf": ((*before, "y_um", "x_um"), self.values)} | light
+        return NamedArrays(arrays, places | own, self.record).to_xarray()
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the PSF to a file, .npz, .tiff, .csv or .png by its ending; see `p2sf.write_psf`."""
@@ -259,6 +274,15 @@ class Psf:
         picture = BytesIO()
         draw_psf(picture, self)
         return picture.getvalue()
+
+
+def facts(psf: Psf) -> dict[str, Any]:
+    """Return what a PSF says about itself but its samples, as JSON can carry it; its azimuth where it has one."""
+    left_out = {"values", "provenance", *(() if psf.azimuth_deg else ("azimuth_deg",))}
+    known = {f.name: getattr(psf, f.name) for f in fields(psf) if f.name not in left_out}
+    window = [psf.pixel_um * count for count in psf.values.shape[:-3:-1]]
+    known |= {"sampling": str(psf.sampling), "window_um": window}
+    return {name: plain(value) for name, value in known.items()}
 
 
 def warn_of_window(psf: Psf, stacklevel: int = 3) -> Psf:

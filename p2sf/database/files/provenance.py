@@ -1,8 +1,8 @@
 """Provenance stored with a database: lens, glasses, method, units, conventions, versions."""
 
 import hashlib
-from dataclasses import dataclass, fields
-from functools import cached_property, reduce
+from dataclasses import dataclass
+from functools import cached_property, partial, reduce
 from math import inf
 from os import PathLike
 from pathlib import Path
@@ -21,7 +21,7 @@ from p2sf.files.writing import check_ending, plain
 from p2sf.glass.media import Medium
 from p2sf.glass.pages import data_version
 from p2sf.html import html_table
-from p2sf.io.record import position_of, versions
+from p2sf.io.record import MAPS, mask_numbers, setting
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.positions import without_positions
 from p2sf.lens.source import Source, check_one
@@ -29,9 +29,10 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.psf.record import versions
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
-from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.pupil.mask import PupilMask
 
 if TYPE_CHECKING:
     import xarray
@@ -52,11 +53,12 @@ AZIMUTH = (
     "the mask stands as a field lands at +y sees it; a field at another azimuth sees it turned the other way, and its "
     "PSF is rendered so, not turned as a picture"
 )
+SETTING = "sensor_mm", "focus_mm", "f_number", "stop", "aim", "absorption", "position", "mask"
+OF_LOOKED_UP = "method", "interpolant", "errors_waves", "predicted_error"
 RECTANGLE = (
     "field x and field y are the chief ray's slopes along x and y at the entrance pupil; numbers of fits stand in the "
     "axes of the sensor, and the PSF of a source is turned so that its field points to +y"
 )
-MAPS = ("phase_map", "amplitude_map")
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,9 +208,8 @@ class Stored:
         found = self.coefficients(**every)
         names = "w40", "w31", "w22", "w20", "w11", "wd", "na"
         coords = {key: part for name, values in nodes.items() for key, part in along(name, values).items()}
-        made = NamedArrays({name: (tuple(nodes), getattr(found, name)) for name in names}, coords).to_xarray()
-        about = {"lens": self.meta["lens"]["name"], "method": self.meta["method"], "aim": self.meta["aim"]}
-        return made.assign_attrs(about, conventions=CONVENTIONS)
+        arrays = {name: (tuple(nodes), getattr(found, name)) for name in names}
+        return NamedArrays(arrays, coords, self.record).to_xarray()
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the database as a .npz file, which `p2sf.open_database` opens; ExportError where that is impossible."""
@@ -228,7 +229,30 @@ class Stored:
         DatabaseError outside what is covered, GeometryError and SamplingError where there is no PSF to sample.
         """
         check_one(source)
-        return warn_of_window(pixels_psf(self.database, source, pixels, pixel_um, integrated), 4)
+        psf = pixels_psf(self.database, source, pixels, pixel_um, integrated)
+        return warn_of_window(psf.with_fields(provenance=partial(self.describe, source)), 4)
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """Return ``meta`` without the text of the lens and what only a database needs, for files of other programs."""
+        lens = {key: value for key, value in self.meta["lens"].items() if key != "toml"}
+        return {key: value for key, value in self.meta.items() if key != "numbers"} | {"lens": lens}
+
+    def describe(self, source: Source) -> dict[str, Any]:
+        """Return what the PSF of a source is of, as `p2sf.io.record.describe` does for a lens."""
+        record = self.record
+        place = {
+            "depth_mm": source.depth_mm,
+            "field_deg": source.field_deg,
+            **({"azimuth_deg": source.azimuth_deg} if source.azimuth_deg else {}),
+            "wavelength_nm": source.wavelength_um * NM_PER_UM,
+        }
+        return {
+            "lens": record["lens"],
+            "setup": plain(place) | {name: record[name] for name in SETTING if name in record},
+            "database": {name: record[name] for name in OF_LOOKED_UP if name in record},
+            "versions": record["versions"],
+        }
 
     def __repr__(self) -> str:
         nodes = " × ".join(map(str, self.meta["nodes"]))
@@ -268,9 +292,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             },
             "glasses": [{"glass": label, "data": source} for label, source in _glasses(lens)],
             "stop": {"surface": int(stop.surface), "semi_diameter_mm": float(stop.semi_diameter)},
-            "sensor_mm": lens.sensor_mm,
-            **position_of(lens),
-            "aim": lens.aim,
+            **setting(lens, stop),
             **_mask_record(database.mask),
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],
@@ -295,11 +317,8 @@ def _mask_record(mask: PupilMask) -> dict[str, Any]:
     """Return what a file says about the mask that its PSFs are rendered through, but for its maps: nothing if clear."""
     if mask.clear:
         return {}
-    stated = {f.name: getattr(mask, f.name) for f in fields(mask) if f.name not in MAPS}
-    return {
-        "mask": {name: value for name, value in stated.items() if value != getattr(CLEAR, name)},
-        **({} if mask.round else {"azimuth": AZIMUTH}),
-    }
+    stated = {name: value for name, value in mask_numbers(mask)["mask"].items() if name not in MAPS}
+    return {"mask": stated, **({} if mask.round else {"azimuth": AZIMUTH})}
 
 
 def _glasses(lens: Lens) -> dict[tuple[str, str], None]:
